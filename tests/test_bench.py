@@ -9,11 +9,7 @@ from balcli.bench import find_exactly, list_cases
 LAM = 0.28  # of the cylinder and the V8
 ROUNDING = 1e-13  # of the first order: errors below it are rounding, and differ from machine to machine
 SECOND, EIGHTH = "one cylinder, order 2", "one cylinder, order 8"
-ORDERS = {
-    SECOND: 2,
-    EIGHTH: 8,
-    "one V8, force and moment": 8,
-}  # the smallest of each task
+ORDERS = {SECOND: 2, EIGHTH: 8, "one V8, force and moment": 8}  # the smallest of each task
 
 
 def coefficient(order: int, lam: float) -> mpmath.mpf:
@@ -49,15 +45,14 @@ def test_closed_form_is_exact_where_sampling_is_not() -> None:
     first order, not of their own.
     """
     found = errors()
-    for task in (SECOND, EIGHTH, "one V8, force and moment"):
+    for task in ORDERS:
         assert found[task, "closed form"] < 1e-14
     folded = (coefficient(14, LAM) + coefficient(18, LAM)) / coefficient(2, LAM)
     assert found[SECOND, "FFT, 16 points"] == pytest.approx(float(folded), rel=0.01)
     assert found[EIGHTH, "FFT, 64 points"] < rounding(EIGHTH)
     assert found[SECOND, "two-term formula"] == pytest.approx(LAM**2 / 4, rel=0.05)  # the next term of the series
-    assert found[SECOND, "time stepping, 360 steps"] / found[SECOND, "time stepping, 720 steps"] == pytest.approx(
-        4, rel=0.01
-    )
+    coarse, fine = (found[SECOND, f"time stepping, {count} steps"] for count in (360, 720))
+    assert coarse / fine == pytest.approx(4, rel=0.01)
 
 
 # ------------------------------------------------------------------ docs/accuracy.md
@@ -79,9 +74,5 @@ def shown() -> dict[tuple[str, str], str]:
 @pytest.mark.stress
 def test_the_page_shows_every_row_and_its_true_error() -> None:
     page, found = shown(), errors()
-    assert page.keys() == found.keys()
-    for key, error in found.items():
-        if error < rounding(key[0]):
-            assert page[key] == "rounding", key
-        else:
-            assert page[key] == f"{error:.1e}", key
+    told = {key: "rounding" if error < rounding(key[0]) else f"{error:.1e}" for key, error in found.items()}
+    assert page == told

@@ -14,6 +14,7 @@ from balcli.cli import COMMANDS
 
 README = guide.ROOT / "README.md"
 TOUR = guide.ROOT / "docs" / "tour.md"
+PAGES = [guide.ROOT / f"{name}.md" for name in ("CONTRIBUTING", "SECURITY", "CODE_OF_CONDUCT", "CHANGELOG")]
 RECIPES = sorted((guide.ROOT / "docs" / "recipes").glob("*.md"))
 
 
@@ -21,13 +22,10 @@ def name_document(path: Path) -> str:
     return path.relative_to(guide.ROOT).as_posix()
 
 
-@pytest.mark.parametrize(
-    "document",
-    [
-        pytest.param(path, marks=[] if path == README else pytest.mark.stress, id=name_document(path))
-        for path in guide.DOCUMENTS
-    ],
-)
+STRESSED = [pytest.param(path, marks=[pytest.mark.stress] * (path != README)) for path in guide.DOCUMENTS]
+
+
+@pytest.mark.parametrize("document", STRESSED, ids=name_document)
 def test_everything_shown_is_what_is_printed(document: Path, tmp_path: Path) -> None:
     text, folder = document.read_text(encoding="utf-8"), guide.project(tmp_path)
     for name, content in guide.files(text).items():
@@ -53,15 +51,13 @@ def test_every_python_example_of_the_tour_shows_what_it_prints() -> None:
 
 def test_comparison_sees_a_changed_figure_and_passes_over_what_is_left_out() -> None:
     found = ["force", "1  2.5", "2  0.5", "", "end"]
-    assert guide.agrees(found, found)
-    assert guide.agrees(["force", "…", "2  0.5", "…"], found)
-    assert not guide.agrees(["force", "…", "2  0.6", "…"], found)
-    assert not guide.agrees(["force", "1  2.5"], found)
-    assert not guide.agrees(["1  2.5", "…"], found)
+    same, other = ["force", "…", "2  0.5", "…"], ["force", "…", "2  0.6", "…"]
+    assert all(guide.agrees(shown, found) for shown in (found, same))
+    assert not any(guide.agrees(shown, found) for shown in (other, ["force", "1  2.5"], ["1  2.5", "…"]))
     assert guide.agrees(["0.12345678901,0.0"], ["0.12345678902,-1.23456789012e-16"])
-    assert not guide.agrees(["0.12345678901"], ["0.12345679901"])
     assert guide.agrees(["bound  0"], ["bound  4.5424e-16"])
-    assert not guide.agrees(["bound  0"], ["bound  4.5424e-12"])
+    for shown, printed in (("0.12345678901", "0.12345679901"), ("bound  0", "bound  4.5424e-12")):
+        assert not guide.agrees([shown], [printed])
 
 
 @pytest.mark.parametrize("document", guide.DOCUMENTS, ids=name_document)
@@ -137,10 +133,10 @@ def test_picture_of_the_readme_is_what_its_command_draws(tmp_path: Path) -> None
     assert picture.stat().st_size < 60_000
 
 
-@pytest.mark.parametrize("document", guide.DOCUMENTS, ids=name_document)
+@pytest.mark.parametrize("document", [*guide.DOCUMENTS, *PAGES], ids=name_document)
 def test_links_lead_to_files_and_headings_that_exist(document: Path) -> None:
     for target in re.findall(r"\]\(([^)\s]+)\)", document.read_text(encoding="utf-8")):
-        if target.startswith("http") or target == "play.html":  # which the site makes
+        if target.startswith(("http", "mailto:")) or target == "play.html":  # which the site makes
             continue
         file, _, heading = target.partition("#")
         there = document.parent / file if file else document

@@ -4,12 +4,12 @@ import json
 import re
 import sys
 from collections.abc import Callable
-from html.parser import HTMLParser
 from pathlib import Path
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
-from support.commands import run_here
+from support.commands import ask
 from support.paths import ENGINES, write
 from support.rotors import three_runs
 
@@ -30,54 +30,50 @@ def load(name: str) -> balcli.Engine:
     return balcli.load(FILES[name])
 
 
-# How each answer is had, and the command that writes the same as JSON.
-ANSWERS: dict[str, tuple[Callable[[], Result], tuple[str, ...]]] = {
-    "Analysis": (lambda: balcli.analyze(load("i3"), only=QUANTITIES), ("analyze", FILES["i3"])),
-    "Balance": (
-        lambda: balcli.balance(load("i3"), "counterweights"),
-        ("balance", FILES["i3"], "--scheme", "counterweights"),
-    ),
+# How each answer is had, and the command that writes the same as JSON; an example stands for its file.
+ANSWERS: dict[str, tuple[Callable[[], Result], str]] = {
+    "Analysis": (lambda: balcli.analyze(load("i3"), only=QUANTITIES), "analyze i3"),
+    "Balance": (lambda: balcli.balance(load("i3"), "counterweights"), "balance i3 --scheme counterweights"),
     "Combined": (
         lambda: balcli.combine(load("i3"), load("i4"), phase_deg=90, at_m=(0.3, 0, 0)),
-        ("sum", FILES["i3"], FILES["i4"], "--phase", "90", "--at", "300,0,0"),
+        "sum i3 i4 --phase 90 --at 300,0,0",
     ),
-    "Comparison": (lambda: balcli.compare(load("i3"), load("i4")), ("compare", FILES["i3"], FILES["i4"])),
-    "Curves": (lambda: balcli.curves(load("i3"), 30), ("curves", FILES["i3"], "--step", "30")),
-    "FieldBalance": (lambda: balcli.balance_rotor(three_runs()), ("field", "-")),
+    "Comparison": (lambda: balcli.compare(load("i3"), load("i4")), "compare i3 i4"),
+    "Curves": (lambda: balcli.curves(load("i3"), 30), "curves i3 --step 30"),
+    "FieldBalance": (lambda: balcli.balance_rotor(three_runs()), "field -"),
     "LocomotiveBalance": (
         lambda: balcli.analyze_locomotive(load("historic/locomotive4"), "1/2", speed="60 mph"),
-        ("locomotive", FILES["historic/locomotive4"], "--factor", "1/2", "--speed", "60 mph"),
+        "locomotive historic/locomotive4 --factor 1/2 --speed 60mph",
     ),
     "MountReport": (
         lambda: balcli.analyze_mounts(load("i4_mounts"), SPEEDS, orders=[2]),
-        ("mounts", FILES["i4_mounts"], "--speeds", "1500,2000", "--orders", "2"),
+        "mounts i4_mounts --speeds 1500,2000 --orders 2",
     ),
     "Scatter": (
         lambda: balcli.scatter(load("i4"), SPREAD, mass=0.01, samples=100, seed=1),
-        (*("scatter", FILES["i4"], "-q", SPREAD, "--mass-scatter", "1%"), *("--samples", "100", "--seed", "1")),
+        f"scatter i4 -q {SPREAD} --mass-scatter 1% --samples 100 --seed 1",
     ),
-    "Search": (
-        lambda: balcli.search(load("i4"), "throws", SPREAD),
-        ("search", FILES["i4"], "--over", "throws", "--minimise", SPREAD),
-    ),
-    "Pistons": (lambda: balcli.analyze_pistons(load("i4")), ("piston", FILES["i4"])),
+    "Search": (lambda: balcli.search(load("i4"), "throws", SPREAD), f"search i4 --over throws --minimise {SPREAD}"),
+    "Pistons": (lambda: balcli.analyze_pistons(load("i4")), "piston i4"),
     "Swept": (
         lambda: balcli.sweep(load("i4"), {"rod.ratio": [0.25, 0.3], "piston.mass": "0.4:0.5:0.05"}, ROUND),
-        (
-            *("sweep", FILES["i4"], "--vary", "rod.ratio=0.25,0.3"),
-            *("--vary", "piston.mass=0.4:0.5:0.05", "-q", ",".join(ROUND)),
-        ),
+        f"sweep i4 --vary rod.ratio=0.25,0.3 --vary piston.mass=0.4:0.5:0.05 -q {','.join(ROUND)}",
     ),
-    "Table": (lambda: balcli.tables("liu-3"), ("tables", "liu-3")),
+    "Table": (lambda: balcli.tables("liu-3"), "tables liu-3"),
     "TorqueAnalysis": (
         lambda: balcli.analyze_torque(load("i4_wiebe"), [2, 4], fluctuation=1 / 200),
-        ("torque", FILES["i4_wiebe"], "--orders", "2,4", "--fluctuation", "1/200"),
+        "torque i4_wiebe --orders 2,4 --fluctuation 1/200",
     ),
     "TorsionAnalysis": (
         lambda: balcli.analyze_torsion(load("i6_diesel"), SPEEDS),
-        ("torsion", FILES["i6_diesel"], "--speeds", "1500,2000"),
+        "torsion i6_diesel --speeds 1500,2000",
     ),
 }
+
+
+def print_answer(name: str, form: str) -> str:
+    words = [FILES.get(word, word) for word in ANSWERS[name][1].split()]
+    return ask(*words, "--format", form, stdin=three_runs())
 
 
 def test_all_answers_are_tried():
@@ -86,11 +82,8 @@ def test_all_answers_are_tried():
 
 @pytest.mark.parametrize("name", ANSWERS)
 def test_a_dict_is_the_document_that_the_command_writes(name):
-    make, command = ANSWERS[name]
-    stdin = three_runs() if "-" in command else ""
-    written = run_here(*command, "--format", "json", stdin=stdin)
-    assert written.status == 0
-    assert json.loads(json.dumps(make().to_dict(), allow_nan=False)) == json.loads(written.out)
+    found = ANSWERS[name][0]().to_dict()
+    assert json.loads(json.dumps(found, allow_nan=False)) == json.loads(print_answer(name, "json"))
 
 
 @pytest.mark.parametrize("name", ANSWERS)
@@ -114,48 +107,25 @@ def test_rows_are_the_same_everywhere(name, tmp_path):
     assert "array" not in repr(answer)
 
 
-class Tags(HTMLParser):
-    """Tags that are open, and text."""
-
-    def __init__(self) -> None:
-        super().__init__()
-        self.open: list[str] = []
-        self.text = ""
-
-    def handle_starttag(self, tag, attrs):
-        self.open.append(tag)
-
-    def handle_endtag(self, tag):
-        assert self.open.pop() == tag
-
-    def handle_data(self, data):
-        self.text += data
-
-
-def read_page(shown: Result) -> Tags:
-    page = Tags()
-    page.feed(shown._repr_html_())
-    assert page.open == []
-    return page
+def read_page(shown: Result) -> str:
+    """The text of its page, all of whose tags are closed."""
+    return "".join(ElementTree.fromstring(f"<div>{shown._repr_html_()}</div>").itertext())
 
 
 @pytest.mark.parametrize("name", [name for name in ANSWERS if name not in ("Curves", "Swept")])
 def test_a_notebook_shows_what_the_command_prints(name):
     """Every word, in tables whose tags are closed."""
-    make, command = ANSWERS[name]
-    page = read_page(make())
-    plain = run_here(*command, "--format", "markdown", stdin=three_runs()).out
+    page, plain = read_page(ANSWERS[name][0]()), print_answer(name, "markdown")
     words = re.sub(r"[\\|*#]|^- |--+:?", " ", plain, flags=re.MULTILINE).split()
-    assert [word for word in words if word.rstrip(":") not in page.text] == []
+    assert [word for word in words if word.rstrip(":") not in page] == []
 
 
 def test_a_notebook_shows_the_ends_of_what_is_long():
     found = balcli.curves(load("i3"))
     shown = re.findall(r"<tr><td>([\d.]+)</td>", found._repr_html_())
     assert shown == ["0", "1", "2", "3", "4", "...", "355", "356", "357", "358", "359"]
-    assert "360 rows" in read_page(found).text
-    few = balcli.curves(load("i3"), 36)
-    assert "..." not in read_page(few).text
+    assert "360 rows" in read_page(found)
+    assert "..." not in read_page(balcli.curves(load("i3"), 36))
 
 
 def test_names_of_others_are_no_html():
@@ -196,8 +166,7 @@ def test_a_library_that_is_missing_is_named(library, method, install, monkeypatc
         monkeypatch.delitem(sys.modules, name)
     monkeypatch.setitem(sys.modules, library, None)
     arguments = (tmp_path / "a.parquet",) if method == "to_parquet" else ()
-    message = rf"^{method}\(\) needs {library}: pip install {install}$"
-    with pytest.raises(balcli.BalcliError, match=message):
+    with pytest.raises(balcli.BalcliError, match=rf"^{method}\(\) needs {library}: pip install {install}$"):
         getattr(found, method)(*arguments)
 
 

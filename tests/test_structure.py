@@ -1,6 +1,7 @@
-"""Who imports whom, and how large the parts are."""
+"""Who imports whom, also by name, and how large the parts are."""
 
 import ast
+import re
 import subprocess
 import sys
 import tokenize
@@ -11,15 +12,14 @@ from pathlib import Path
 import pytest
 from support.paths import PACKAGE, ROOT
 
+import balcli
+from balcli import names
+
 FILES = sorted(file for file in PACKAGE.rglob("*.py") if file.name != "__init__.py")
 MOST_MODULES, MOST_LINES = 200, 630  # of the package; of a module, docstrings and all
 MOST_OF_A_ROOM = {"studies": 24, "core": 24, "analysis": 20, "file": 20}  # modules; of any other room 16
 MOST_CODE_LINES = 27_100  # without docstrings, comments, blank lines and imports
 MOST_LAZY_IMPORTS = 40  # of own modules inside functions
-
-
-def parse(file: Path) -> ast.Module:
-    return ast.parse(file.read_text(encoding="utf-8"))
 
 
 def test_the_import_contract_is_kept() -> None:
@@ -44,7 +44,7 @@ def list_code_lines(file: Path) -> Iterator[int]:
     """Numbers of the lines with a name, an operator or a number, imports left out."""
     imports = {
         number
-        for node in ast.walk(parse(file))
+        for node in ast.walk(ast.parse(file.read_text(encoding="utf-8")))
         if isinstance(node, ast.Import | ast.ImportFrom)
         for number in range(node.lineno, node.end_lineno + 1)
     }
@@ -55,11 +55,27 @@ def list_code_lines(file: Path) -> Iterator[int]:
 
 
 def count_lazy_imports(file: Path) -> int:
-    functions = [node for node in ast.walk(parse(file)) if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef)]
-    found = {
-        node.lineno
-        for function in functions
-        for node in ast.walk(function)
-        if isinstance(node, ast.ImportFrom) and node.level
-    }
-    return len(found)
+    """Imports that are indented, but for those of types alone."""
+    text = re.sub(r"(?m)^if TYPE_CHECKING:\n(    .*\n|\n)+", "", file.read_text(encoding="utf-8"))
+    return len(re.findall(r"(?m)^ +from \.", text))
+
+
+def test_public_names_are_there() -> None:
+    """The library's door: what it promises can be had, and is offered for completion."""
+    assert dir(balcli) == sorted(balcli.__all__)
+    assert [name for name in balcli.__all__ if getattr(balcli, name) is None] == []
+    with pytest.raises(AttributeError, match="module 'balcli' has no attribute 'frobnicate'"):
+        _ = balcli.frobnicate
+
+
+def test_every_name_leads_to_what_it_says() -> None:
+    """Public names, renderers, documents, tables and quantities of chapters."""
+    places = [
+        *(f"{module}:{name}" for name, module in names.PUBLIC.items()),
+        *(f"{module}:RENDERER" for module in names.RENDERERS.values()),
+        *(f"{module}:{key.capitalize()}" for key, module in (names.CHAPTERS | names.CHAPTER_LISTS).items()),
+        *names.DOCUMENTS.values(),
+        *names.QUANTITIES.values(),
+        names.NOTEBOOK,
+    ]
+    assert [place for place in places if names.import_name(place) is None] == []

@@ -40,8 +40,7 @@ def tables() -> str:
     ]
     named = {f"[{name}]": table for name, table in import_tables().items()}
     named["[cylinder.N]"] = Override
-    named |= {f"[[{name}]]": table for name, table in DEVICES.items()}
-    named |= {f"[[{key}]]": import_table(key) for key in CHAPTER_LISTS}
+    named |= {f"[[{key}]]": import_table(key) for key in (*DEVICES, *CHAPTER_LISTS)}
     for heading, table in named.items():
         parts.append(_part(f"`{heading}`", str(table.__doc__), table, definitions[table.__name__]))
         if table is not Override:

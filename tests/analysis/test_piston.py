@@ -1,11 +1,10 @@
 """Motion of pistons against the formula differentiated by Fourier; printed values of a textbook."""
 
-import json
 import math
 
 import numpy as np
 import pytest
-from support.commands import ask, ask_csv, refusal
+from support.commands import ask, ask_csv, ask_json, refusal
 from support.engines import GOOD, RADIAL, build_text, changed
 from support.paths import ENGINES
 
@@ -98,13 +97,10 @@ def test_the_command_in_all_formats(tmp_path):
     assert "mean speed, m/s" in table
     assert "two-term" in table
     assert "mean speed, ft/s" in ask("piston", tmp_path / "four.toml", "--units", "imperial")
-    one = json.loads(ask("piston", tmp_path / "four.toml", "--cylinder", "3", "-f", "json"))
-    assert one["format"] == "balcli.piston/1"
+    one = ask_json("piston", tmp_path / "four.toml", "--cylinder", "3")
     assert [each["cylinders"] for each in one["mechanisms"]] == [[3]]
-    rows = ask_csv("piston", tmp_path / "four.toml")
-    stroke = next(row for row in rows if row["figure"] == "stroke_m")
-    assert (stroke["cylinders"], stroke["unit"]) == ("1 2 3 4", "m")
-    assert next(row for row in rows if row["figure"] == "mean_speed_m_per_s")["unit"] == "m/s"
+    units = {(row["cylinders"], row["figure"]): row["unit"] for row in ask_csv("piston", tmp_path / "four.toml")}
+    assert (units["1 2 3 4", "stroke_m"], units["1 2 3 4", "mean_speed_m_per_s"]) == ("m", "m/s")
     assert refusal("piston", tmp_path / "four.toml", "--cylinder", "7").endswith("has cylinders 1 to 4")
     several = refusal("piston", tmp_path / "four.toml", "--speed", "1000,2000")
     assert several == '--speed "1000,2000": give one speed here, such as --speed 3000'

@@ -2,11 +2,7 @@
 articulated cylinders.
 """
 
-import csv
-import json
 import re
-from io import StringIO
-from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -17,72 +13,30 @@ from support.paths import ENGINES
 
 from balcli.analysis import show as analysis
 from balcli.analysis.answer import EXTRAS, QUANTITIES, UNASKED, analyze
-from balcli.core.records import to_document
 from balcli.shell.options import parse_parts
-from balcli.show.formats import Format, render
 from balcli.show.sheet import IN_BRIEF, Facts, Grid, View
 from balcli.show.units import SYSTEMS
 
-RENDERER = SimpleNamespace(sheet=analysis.sheet, document=to_document, rows=analysis.rows)
 
-
-def rendered(form, subject, system="si", **options):
-    return render([analyze(subject, **options)], RENDERER, form, SYSTEMS[system])
-
-
-def document(subject, **options):
-    return json.loads(rendered(Format.JSON, subject, **options))
-
-
-def shown(subject, **options):
-    return rendered(Format.MARKDOWN, subject, **options)
-
-
-def test_inner_as_json():
-    found = document(inline_engine([0, 180, 180, 0]), only=["inner"], orders=[1, 2])["inner"]
-    assert [section["position_mm"] for section in found["sections"]] == pytest.approx([-150, -50, 50, 150])
-    assert found["sections"][1]["shear_N"]["orders"][0]["balanced"]
-    assert found["largest_bending_Nm"] == max(section["bending_Nm"]["peak"] for section in found["sections"])
-    assert [bearing["position_mm"] for bearing in found["bearings"]] == pytest.approx([-200, -100, 0, 100, 200])
-
-
-def test_without_bearings_bending_ends_with_the_free_moment_about_the_last_place():
-    """An engine of two throws in phase has a free force, and so another moment about its middle."""
-    about_middle = inline_engine([0, 0])
-    about_last = inline_engine([0, 0], more="[frame]\nreference = [0, 0, 50]\n")
-    told = shown(about_middle, only=["inner"])
-    assert "at the last position is the free moment of all these loads about this position" in told
-    last = document(about_middle, only=["inner"])["inner"]["sections"][-1]
-    assert last["position_mm"] == pytest.approx(50)
-    assert last["bending_Nm"]["peak"] == pytest.approx(analyze(about_last).peak.moment.value)
-    assert analyze(about_middle).peak.moment.value == pytest.approx(0, abs=1e-6)
-
-
-def rows(subject, system="si", **options):
-    text = rendered(Format.CSV, subject, system, **options)
-    return {
-        (r["cylinder"], r["quantity"], r["order"], r["figure"]): (r["value"], r["unit"])
-        for r in csv.DictReader(StringIO(text))
-    }
+def rows(found, system="si"):
+    """The rows of CSV: value and unit by cylinder, quantity, order and figure."""
+    return {row[:4]: row[4:] for row in analysis.rows(found, SYSTEMS[system]).lines}
 
 
 def test_inner_and_guide_as_rows():
     """Every figure of the JSON, places numbered, with their positions."""
-    subject = inline_engine([0, 180, 180, 0])
-    found, wanted = (
-        rows(subject, only=["inner", "guide"], orders=[1, 2]),
-        document(subject, only=["inner", "guide"], orders=[1, 2]),
-    )
+    result = analyze(inline_engine([0, 180, 180, 0]), only=["inner", "guide"], orders=[1, 2])
+    found, wanted = rows(result), result.to_dict()
     section, bearing = wanted["inner"]["sections"][1], wanted["inner"]["bearings"][4]
-    assert found["0", "shear 2", "", "position"] == (str(section["position_mm"]), "mm")
-    assert found["0", "shear 2", "", "peak"] == (str(section["shear_N"]["peak"]), "N")
-    assert found["0", "bending 2", "1", "major"] == (str(section["bending_Nm"]["orders"][0]["major"]), "N·m")
-    assert found["0", "bearing 5", "2", "x_amplitude"] == (str(bearing["load_N"]["orders"][1]["x"]["amplitude"]), "N")
-    assert ("0", "shear 5", "", "peak") not in found
-    h = wanted["guide"]["orders"][1]["h_Nm"]
-    assert found["0", "guide_h", "2", "sin"] == (str(h["sin"]), "N·m")
-    assert found["0", "guide_x", "1", "balanced"] == ("true", "")
-    assert not [key for key in rows(inline_engine([0]), only=["guide"], orders=[1]) if key[1] == "guide_x"]
+    assert found[0, "shear 2", None, "position"] == (section["position_mm"], "mm")
+    assert found[0, "shear 2", None, "peak"] == (section["shear_N"]["peak"], "N")
+    assert found[0, "bending 2", 1, "major"] == (section["bending_Nm"]["orders"][0]["major"], "N·m")
+    assert found[0, "bearing 5", 2, "x_amplitude"] == (bearing["load_N"]["orders"][1]["x"]["amplitude"], "N")
+    assert (0, "shear 5", None, "peak") not in found
+    assert found[0, "guide_h", 2, "sin"] == (wanted["guide"]["orders"][1]["h_Nm"]["sin"], "N·m")
+    assert found[0, "guide_x", 1, "balanced"] == (True, "")
+    single = rows(analyze(inline_engine([0]), only=["guide"], orders=[1]))
+    assert not [key for key in single if key[1] == "guide_x"]
 
 
 def test_couples_of_single_cylinders():
@@ -98,16 +52,13 @@ def test_couples_of_single_cylinders():
 
 
 def test_strokes_and_reasons_as_rows():
-    subject = build_text(RADIAL)
-    found = rows(subject, "imperial", only=["force"], orders=[1], reasons=True)
-    value, unit = found["1", "travel", "", "stroke"]
-    assert (float(value), unit) == (pytest.approx(0.12 / 0.0254), "in")
-    assert float(found["3", "travel", "", "top_deg"][0]) == pytest.approx(
-        -float(found["6", "travel", "", "top_deg"][0])
-    )
-    (reason,) = document(subject, only=["force"], orders=[1], reasons=True)["why"]["reasons"]
-    assert found["0", "force", "1", "why"] == (reason["verdict"], "")
-    assert found["0", "force", "1", "why_size"] == (str(reason["size"]), "of one cylinder")
+    result = analyze(build_text(RADIAL), only=["force"], orders=[1], reasons=True)
+    found = rows(result, "imperial")
+    assert found[1, "travel", None, "stroke"] == (pytest.approx(0.12 / 0.0254), "in")
+    assert found[3, "travel", None, "top_deg"][0] == pytest.approx(-found[6, "travel", None, "top_deg"][0])
+    (reason,) = result.to_dict()["why"]["reasons"]
+    assert found[0, "force", 1, "why"] == (reason["verdict"], "")
+    assert found[0, "force", 1, "why_size"] == (reason["size"], "of one cylinder")
 
 
 WIDE = [0, 72, 144, 216, 288]
@@ -116,10 +67,8 @@ WIDE = [0, 72, 144, 216, 288]
 def parts(subject, view=IN_BRIEF, **options):
     """Titles of a sheet's parts, and the first cells of its first table."""
     found = analysis.sheet(analyze(subject, only=[*UNASKED, "ladder"], **options), SYSTEMS["si"], view).parts
-    first = next((part for part in found if isinstance(part, Grid)), None)
-    return [part.title.split(":")[0].split(" (")[0] for part in found], [
-        row[0] for row in (() if first is None else first.rows)
-    ]
+    first = next(part for part in found if isinstance(part, Grid))
+    return [part.title.split(":")[0].split(" (")[0] for part in found], [row[0] for row in first.rows]
 
 
 BRIEF = [
@@ -143,7 +92,6 @@ def test_a_mean_turns_neither_way():
     ripple = "speed_ripple = [{ order = 1, amplitude = 0.1 }]\n"
     text = GOOD.replace("throws = [0, 180, 180, 0]", "throws = [0]").replace("[1, 3, 4, 2]", "[1]")
     found = analyze(build_text(text + ripple))
-    assert found.spectra.force.forward[0] != 0
     brief = next(p for p in analysis.sheet(found, SYSTEMS["si"]).parts if isinstance(p, Grid))
     assert brief.rows[0][0] == "0"
     assert brief.rows[0][2:4] == ("–", "–")
@@ -157,9 +105,6 @@ def test_only_picks_parts(words, titles):
     chosen, named = parse_parts(words)
     found = analysis.sheet(analyze(inline_engine([0, 180]), only=chosen), SYSTEMS["si"], View(parts=named))
     assert [p.title for p in found.parts if p.title or isinstance(p, Facts)] == titles
-
-
-# ------------------------------------------------------------------ one throw, pins split, rods apart
 
 
 def test_orders_without_a_part_of_roll_do_not_make_it_balanced(balcli):

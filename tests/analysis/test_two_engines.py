@@ -5,13 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from oracle import momentum
-from support.cases import cases
-from support.commands import refusal
 from support.engines import build_text
-from support.paths import write
 
 from balcli.analysis.two_engines import Arrangement, combine_engines
 from balcli.forces import spectrum
+from balcli.forces.kinds import EVERY_KIND
 
 ORDERS = np.arange(1.0, 9.0)
 RELATIVE = 1e-12
@@ -54,22 +52,6 @@ def test_two_singles_behind_one_another_are_a_twin(operation):
     )
 
 
-def test_two_singles_on_one_pin_are_a_vee():
-    """Turned on by 70 degrees the second cylinder is reached by the pin 70 degrees later."""
-    single = build_text("[crank]\nstroke = 90\nthrow_mass = 0.4\n" + PARTS.format(operation=""))
-    found = combine_engines(single, single, Arrangement(-70, turn_deg=70), ORDERS).spectra
-    agree(found, spectrum.compute_spectra(built(more="[layout]\nbanks = [0, 70]\n"), ORDERS))
-
-
-def test_counter_rotating_cranks_side_by_side():
-    """Two equal singles with counterweights: nothing is left across their axes, and the forces along them add up."""
-    one = built(more="[[counterweight]]\nunbalance = 70000\nangle = 180\n")
-    both = combine_engines(one, one, Arrangement(at_m=(0, 0.2, 0), reverse=True), ORDERS)
-    assert np.allclose(both.spectra.force.y, 0, atol=1e-9)
-    alone = spectrum.compute_spectra(one, ORDERS).force
-    assert np.allclose(both.spectra.force.x, 2 * alone.x, rtol=1e-12)
-
-
 def test_mirrored_turned_and_placed_against_curves():
     """The second engine's curves, mirrored in y, turned by 35 degrees and moved, taken at its own crank angle."""
     first, second = (built(), built("throws = [0, 90]\nspacing = 110", "[layout]\nbank_angle = 50\nstagger = 20\n"))
@@ -84,12 +66,8 @@ def test_mirrored_turned_and_placed_against_curves():
     z = 0.4 - first.reference_m[2]
     moment = -np.conj(origin.moment.values(ahead)) * turn + 1j * z * force
     couple = -origin.couple.values(ahead) + (np.conj(0.2 - 0.3j) * force).imag
-    for name, curve in (
-        ("force", force),
-        ("moment", moment),
-        ("couple", couple),
-        ("torque", origin.torque.values(ahead)),
-    ):
+    curves = {"force": force, "moment": moment, "couple": couple, "torque": origin.torque.values(ahead)}
+    for name, curve in curves.items():
         wanted = curve + getattr(own, name).values(theta)
         assert np.abs(getattr(both, name).values(theta) - wanted).max() < 1e-11 * np.abs(wanted).max(), name
     assert np.allclose(both.roll.forward, both.couple.forward - both.torque.forward)
@@ -172,23 +150,13 @@ def test_two_singles_with_gas_are_a_twin():
     twin = with_gas("throws = [0, 110]\npositions = [0, 130]", "firing_order = [1, 2]\n")
     single = with_gas()
     moved = replace(single, reference_m=twin.reference_m)
-    kinds = ["force", "moment", "couple", "torque", "roll", "gas", "torque_total", "roll_total"]
-    wanted = spectrum.compute_spectra(twin, HALVES, kinds)
+    wanted = spectrum.compute_spectra(twin, HALVES, EVERY_KIND)
     assert twin.fires_deg[2] == pytest.approx(250)
     for phase, same in ((-250, True), (110, False)):
         found = combine_engines(moved, single, Arrangement(phase, (0, 0, 0.13)), HALVES).spectra
         size = np.abs(wanted.gas.forward).max()
-        agrees = [np.allclose(found[k].forward, wanted[k].forward, atol=1e-11 * size) for k in kinds]
+        agrees = [np.allclose(found[k].forward, wanted[k].forward, atol=1e-11 * size) for k in EVERY_KIND]
         assert all(agrees) == same
-
-
-def test_two_fours_that_fire_between_each_other_leave_what_an_even_eight_leaves():
-    order = "firing_order = [1, 3, 4, 2]\n"
-    four = with_gas("throws = [0, 180, 180, 0]\nspacing = 90", order)
-    gas = combine_engines(four, four, Arrangement(90), HALVES).spectra.gas
-    assert [n for n, even in zip(HALVES, gas.balanced, strict=True) if not even] == [0, 4, 8]
-    alone = spectrum.compute_spectra(four, HALVES, ["gas"]).gas
-    assert gas.forward[8] == pytest.approx(2 * alone.forward[8], rel=1e-12)
 
 
 @pytest.mark.parametrize("load", ["first", "second", "both"])
@@ -211,18 +179,3 @@ def test_gas_of_different_cycles_against_curves(load):
     assert found.torque_total.values(theta).real == pytest.approx(
         one + other + found.torque.values(theta).real, abs=1e-10 * size
     )
-
-
-# ------------------------------------------------------------------ the command
-@pytest.fixture
-def file(tmp_path):
-    path = write(
-        tmp_path / "single.toml",
-        'name = "single"\n[crank]\nstroke = 90\nthrow_mass = 0.8\n' + PARTS.format(operation=""),
-    )
-    return str(path)
-
-
-@cases("analysis/two_engines", "arrangements_that_cannot_be_are_refused")
-def test_arrangements_that_cannot_be_are_refused(file, options, message):
-    assert refusal("sum", file, file, *options) == message

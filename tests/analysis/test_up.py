@@ -2,7 +2,8 @@
 
 import numpy as np
 import pytest
-from support.commands import ask, ask_csv, ask_json, run_here
+from support.cases import cases
+from support.commands import ask, ask_json, run_here
 from support.engines import build_text
 from support.paths import write
 
@@ -20,26 +21,12 @@ from balcli.show.units import SI
 WORDS = ("vertical", "horizontal", "pitching", "yawing")
 # The bank of a slanted twin, and a bank beside it: force and moment of every order in both senses.
 LEANING = """\
-[crank]
-stroke = 80
-throws = [0, 100]
-spacing = 100
-throw_mass = 0.4
-[rod]
-length = 140
-mass = 0.5
-cg = 40
-[piston]
-mass = 0.4
-[layout]
-banks = [{first}, {second}]
-[[shaft]]
-ratio = -1
-unbalance = 900
-angle = {angle}
-position = 40
-[operation]
-speed = 3000
+crank = {{ stroke = 80, throws = [0, 100], spacing = 100, throw_mass = 0.4 }}
+rod = {{ length = 140, mass = 0.5, cg = 40 }}
+piston.mass = 0.4
+layout.banks = [{first}, {second}]
+operation.speed = 3000
+shaft = [{{ ratio = -1, unbalance = 900, angle = {angle}, position = 40 }}]
 """
 UP = "[frame]\nup = {up}\n"
 
@@ -92,7 +79,7 @@ def test_curves_by_up_are_those_along_x_of_the_engine_turned_back():
 
 
 def test_unknown_moments_have_no_curves_by_up():
-    twin = build_text(leaning(0, 0).replace("spacing = 100\n", ""))
+    twin = build_text(leaning(0, 0).replace("spacing = 100, ", ""))
     assert not [name for name in columns(curves(twin, 90)).values if "moment" in name]
 
 
@@ -129,37 +116,12 @@ def test_two_engines_are_named_by_the_up_of_the_first(tmp_path):
     assert "vertical" not in ask("sum", second, first, "--format", "json")
 
 
-def test_csv_names_components_like_json(tmp_path):
-    rows = ask_csv("analyze", write(tmp_path / "e.toml", leaning(0, 0)), "--only", "force,moment", "--orders", "1")
-    found = {(row["quantity"], row["figure"]): row["value"] for row in rows}
-    assert found["force", "vertical_amplitude"] == found["force", "x_amplitude"]
-    assert found["moment", "pitching_phase_deg"] == found["moment", "y_phase_deg"]
-
-
-@pytest.mark.parametrize(
-    ("kind", "axis_deg", "up", "words"),
-    [
-        ("force", 0, 0, "4 N vertical (along x);"),
-        ("force", 0, -90, "4 N horizontal (along x);"),
-        ("force", 30, 210, "4 N vertical (along an axis at 30.0 deg);"),
-        ("moment", 0, 0, "4 N·m yawing (about x);"),
-        ("moment", 90, 0, "4 N·m pitching (about y);"),
-        ("moment", 90, 89.96, "4 N·m yawing (about y);"),
-        ("force", 30, 0, "4 N along an axis at 30.0 deg;"),
-        ("moment", 90, None, "4 N·m about y;"),
-    ],
-)
+@cases("analysis/verdict", "the_verdict_names_the_direction")
 def test_the_verdict_names_the_direction(kind, axis_deg, up, words):
     side = 2 * np.exp(1j * np.radians([float(axis_deg)]))
     phasors = Phasors.of(np.array([2.0]), side, side, np.zeros(1))
     (told,) = verdict(Spectra(np.array([2.0]), up, **{kind: phasors}), SI)
     assert words in told
-
-
-def test_a_text_is_no_direction(tmp_path):
-    done = run_here("analyze", write(tmp_path / "e.toml", leaning(0, 0).replace("up = 0", 'up = "up"')))
-    assert done.status == 2
-    assert "frame.up" in done.err
 
 
 def test_the_page_of_a_report_stands_upright():

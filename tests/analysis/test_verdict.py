@@ -3,21 +3,28 @@
 import numpy as np
 import pytest
 from support.cases import cases
+from support.engines import GOOD, build_text
 
-from balcli import analyze, curves, load
+from balcli import analyze, curves
 from balcli.analysis.overview import tell_couple, verdict
-from balcli.core.cylinders import Device, DeviceKind
 from balcli.core.phasors import Phasors
 from balcli.forces.spectrum import Spectra
 from balcli.show.units import SI
 from balcli.sizing.residual import Scales
 
+SCALES = Scales(1000.0, 2000.0, 100.0)
+
+
+def spectra(order: float, forward: complex, backward: complex, kind: str = "force") -> Spectra:
+    """One order of a force or moment."""
+    orders = np.array([float(order)])
+    phasors = Phasors.of(orders, np.array([forward], complex), np.array([backward], complex), np.zeros(1))
+    return Spectra(orders, **{kind: phasors})
+
 
 @cases("analysis/verdict", "each_order_in_words")
 def test_each_order_in_words(order: int, what: str, vectors: list[list[float]], text: str) -> None:
-    orders = np.array([float(order)])
-    phasors = Phasors.of(orders, *(np.array(vectors) @ [[1], [1j]]), np.zeros(1))
-    assert verdict(Spectra(orders, **{what: phasors}), SI) == (text,)
+    assert verdict(spectra(order, *(complex(*vector) for vector in vectors), what), SI) == (text,)
 
 
 @cases("analysis/verdict", "what_is_small_beside_one_cylinder")
@@ -30,22 +37,13 @@ def test_what_is_small_beside_one_cylinder(force: dict, moment: dict, told: list
         return Phasors.of(orders, v, v, np.zeros(5))
 
     found = Spectra(orders, force=phasors(force), moment=phasors(moment))
-    assert verdict(found, SI, Scales(1000.0, 2000.0, 100.0)) == tuple(told)
-
-
-@pytest.mark.parametrize(("order", "name"), [(11, "11th"), (21, "21st"), (22, "22nd"), (13, "13th")])
-def test_ordinals(order: int, name: str) -> None:
-    one = np.array([5 + 0j])
-    force = Phasors.of(np.array([float(order)]), one, one, np.zeros(1))
-    (told,) = verdict(Spectra(np.array([float(order)]), force=force), SI)
-    assert told.startswith(f"{name} order: force of 10 N along x; usually left: ")
+    assert verdict(found, SI, SCALES) == tuple(told)
 
 
 DEVICES = [
-    Device(1, 1 + 0j, 0j, 0j, 0.0, DeviceKind.COUNTERWEIGHT),
-    Device(1, 0j, 1 + 0j, 0j, 0.0, DeviceKind.SHAFT),
-    Device(2, 1 + 0j, 0j, 0j, 0.0, DeviceKind.SHAFT),
+    f"{table}\nunbalance = 9\n" for table in ("[[counterweight]]", "[[shaft]]\nratio = -1", "[[shaft]]\nratio = 2")
 ]
+ENGINES = [build_text(GOOD + "".join(DEVICES[:k])) for k in range(4)]
 
 
 @pytest.mark.parametrize(
@@ -56,9 +54,7 @@ DEVICES = [
     ],
 )
 def test_a_device_like_one_of_the_file_is_a_further_one(order: int, text: str) -> None:
-    half = np.array([50 + 0j])
-    force = Phasors.of(np.array([float(order)]), half, half, np.zeros(1))
-    (told,) = verdict(Spectra(np.array([float(order)]), force=force), SI, devices=DEVICES)
+    (told,) = verdict(spectra(order, 50, 50), SI, engine=ENGINES[3])
     assert told.endswith(text)
 
 
@@ -74,28 +70,26 @@ def test_a_sentence_has_at_most_25_words(seed):
 
     up = None if seed % 2 else float(random.integers(-180, 180))
     found = Spectra(orders, up, force=phasors(), moment=phasors())
-    told = verdict(found, SI, Scales(1000.0, 2000.0, 100.0), devices=DEVICES[: seed % 4])
+    told = verdict(found, SI, SCALES, engine=ENGINES[seed % 4])
     assert max(len(sentence.split()) for sentence in told) <= 25
 
 
 def test_small_is_what_is_asked_for():
-    half = np.array([10 + 0j])
-    found = Spectra(np.array([2.0]), force=Phasors.of(np.array([2.0]), half, half, np.zeros(1)))
-    scales = Scales(1000.0, 2000.0, 100.0)
-    assert verdict(found, SI, scales) == ("Small: force of 20 N (order 2).",)
-    assert verdict(found, SI, scales, small=0.01) == (
-        "Second order: force of 20 N along x; shafts at +2 and -2 cancel it.",
-    )
+    found = spectra(2, 10, 10)
+    assert verdict(found, SI, SCALES) == ("Small: force of 20 N (order 2).",)
+    told = "Second order: force of 20 N along x; shafts at +2 and -2 cancel it."
+    assert verdict(found, SI, SCALES, small=0.01) == (told,)
 
 
 @pytest.mark.parametrize(("couple", "told"), [(0, "force, moment and couple"), (1, "force and moment")])
 def test_the_couple_is_judged_with_force_and_moment(couple: float, told: str) -> None:
-    orders = np.array([1.0])
-    none, some = (Phasors.of(orders, *np.full((2, 1), each, complex), np.zeros(1)) for each in (0, couple))
-    assert verdict(Spectra(orders, force=none, moment=none, couple=some), SI) == (f"Order 1: {told} balanced.",)
+    none, some = spectra(1, 0, 0).force, spectra(1, couple, couple).force
+    found = Spectra(none.orders, force=none, moment=none, couple=some)
+    assert verdict(found, SI) == (f"Order 1: {told} balanced.",)
 
 
 HEAVY = {"crank.stroke": 90, "rod.length": 200, "rod.mass": 2, "rod.cg": 50, "rod.inertia": 15000, "piston.mass": 1}
+HEAVY["operation.speed"] = 2000
 NO_H = "; rods equal to two masses at their ends (H = 0) have none."
 
 
@@ -107,16 +101,12 @@ NO_H = "; rods equal to two masses at their ends (H = 0) have none."
         ({"piston.offset": 10}, "offset pistons."),
         ({"rod.inertia": 9000, "piston.offset": 10}, "the rods and offset pistons."),
         ({"frame.reference": [0, 80, 0]}, "forces whose lines miss the reference."),
-        ({"operation.speed_ripple": [{"order": 2, "amplitude": 0.05}]}, "the acceleration of turning parts."),
+        ({"operation.speed_ripple": "[{ order = 2, amplitude = 0.05 }]"}, "the acceleration of turning parts."),
     ],
 )
 def test_the_causes_of_the_couple_are_named(changes: dict, told: str | None) -> None:
     """Its size is the largest harmonic of the sampled couple."""
-    tables: dict = {}
-    for path, value in {**HEAVY, "operation.speed": 2000, **changes}.items():
-        table, key = path.split(".")
-        tables.setdefault(table, {})[key] = value
-    engine = load(tables)
+    engine = build_text("".join(f"{key} = {value}\n" for key, value in (HEAVY | changes).items()))
     found = tell_couple(analyze(engine), SI)
     couple = np.abs(np.fft.rfft(curves(engine).curves["couple_Nm"][:360])) / 180
     order = int(couple[1:].argmax()) + 1

@@ -1,13 +1,12 @@
 """`balcli balance`: what it prints, what it refuses, and the workshop's figures."""
 
-import json
 import math
 import re
 from pathlib import Path
 
 import pytest
 from support.cases import cases
-from support.commands import ask_csv, refusal, run_here
+from support.commands import ask_csv, ask_json, refusal, run_here
 from support.engines import GOOD, SINGLE, build_text, changed
 from support.paths import write
 
@@ -25,57 +24,24 @@ def file(tmp_path) -> Path:
     return write(tmp_path / "engine.toml", GOOD)
 
 
-def run(*arguments: object, text: str | None = None):
-    return run_here("balance", *arguments, stdin=text or "")
-
-
-def document(*arguments: object, text: str | None = None) -> dict:
-    result = run(*arguments, "--format", "json", text=text)
-    assert result.status == 0, result.err
-    return json.loads(result.out)
-
-
 def test_json_has_devices_reasons_and_both_analyses(file):
-    doc = document(file, "--scheme", "two-shaft", "--at=-40,60", "--order", "2")
-    assert list(doc) == [
-        "format",
-        "version",
-        "scheme",
-        "order",
-        "counterweights",
-        "shafts",
-        "sliders",
-        "reasons",
-        "practical",
-        "details",
-        "assumed",
-        "before",
-        "after",
-        "ladder",
-    ]
+    doc = ask_json("balance", file, "--scheme", "two-shaft", "--at=-40,60", "--order", "2")
+    keys = "format version scheme order counterweights shafts sliders reasons practical details assumed before after"
+    assert list(doc) == [*keys.split(), "ladder"]
     assert [s["ratio"] for s in doc["shafts"]] == [-2, 2]
     assert doc["shafts"][0]["at_mm"] == [-40, 60]
     assert doc["shafts"][1]["at_mm"] == pytest.approx([-40, -60])
-    second = {
-        state: next(o for o in doc[state]["orders"] if o["order"] == 2)["force_N"] for state in ("before", "after")
-    }
-    assert second["before"]["balanced"] is False
-    assert second["after"]["balanced"] is True
+    for state in ("before", "after"):
+        (second,) = (entry["force_N"] for entry in doc[state]["orders"] if entry["order"] == 2)
+        assert second["balanced"] is (state == "after")
 
 
 def test_csv_has_one_figure_a_line(file):
     rows = ask_csv("balance", file)
     devices = {(r["part"], r["figure"]): r["value"] for r in rows if r["part"].startswith("shaft")}
     assert devices["shaft 1", "ratio"] == "2"
-    assert {r["part"] for r in rows} == {
-        *(f"counterweight {k}" for k in (1, 2, 3, 4)),
-        "shaft 1",
-        "shaft 2",
-        "step",
-        "ladder",
-        "before",
-        "after",
-    }
+    weights = {f"counterweight {k}" for k in (1, 2, 3, 4)}
+    assert {r["part"] for r in rows} == weights | {"shaft 1", "shaft 2", "step", "ladder", "before", "after"}
     ladder = {(r["quantity"], r["figure"]): r["value"] for r in rows if r["part"] == "ladder"}
     assert ladder["as drawn", "counterweights"] == "0"
     after = {r["figure"]: r["value"] for r in rows if r["quantity"] == "bearings" and r["part"] == "after"}
@@ -90,34 +56,24 @@ def test_imperial_units_reach_reasons_and_notes(file, scheme):
     for form in ("table", "markdown"):
         for text in (GOOD, SINGLE, changed(("throws = [0, 180, 180, 0]", "throws = [0, 0, 0, 0]"))):
             options = ("--scheme", scheme, "--units", "imperial", "--format", form)
-            told = run("-", *options, text=text.partition("firing_order")[0]).out
+            told = run_here("balance", "-", *options, stdin=text.partition("firing_order")[0]).out
             assert not re.search(r"\d (N|kN|N·m|kN·m|kg|g|mm|kg·m|g·mm)\b", told)
 
 
-def test_written_file_reads_back(file, tmp_path):
-    doc = document(file, "--scheme", "auto", "--write", tmp_path / "out.toml")
-    result = run_here("analyze", tmp_path / "out.toml", "--format", "json")
-    again = json.loads(result.out)
-    same = {o["order"]: o for o in again["orders"]}
-    assert again["peak"] == doc["after"]["peak"]
-    assert all(same[o["order"]] == o for o in doc["after"]["orders"] if o["order"] in same)
-
-
 @pytest.mark.parametrize(
-    ("scheme", "speed", "line"),
+    ("asked", "line"),
     [
-        ("auto", 4500, "speed = 4500.0    # as balanced by balcli\n"),
-        ("auto", 3000, "speed = 3000\n"),
-        ("auto", None, "speed = 3000\n"),
+        (["--speed", 4500], "speed = 4500.0    # as balanced by balcli\n"),
+        (["--speed", 3000], "speed = 3000\n"),
+        ([], "speed = 3000\n"),
     ],
 )
-def test_what_is_written_runs_at_the_speed_that_was_asked_for(file, tmp_path, scheme, speed, line):
+def test_what_is_written_runs_at_the_speed_that_was_asked_for(file, tmp_path, asked, line):
     """So that it reads back to exactly `after`."""
     out = tmp_path / "out.toml"
-    asked = [] if speed is None else ["--speed", speed]
-    after = document(file, "--scheme", scheme, "--write", out, *asked)["after"]
+    after = ask_json("balance", file, "--write", out, *asked)["after"]
     assert f"[operation]\n{line}" in out.read_text()
-    assert document(out, "--scheme", "factor", "--factor", "0")["before"]["peak"] == after["peak"]
+    assert ask_json("balance", out, "--scheme", "factor", "--factor", "0")["before"]["peak"] == after["peak"]
 
 
 @cases("analysis/balance", "refusals")
@@ -125,14 +81,10 @@ def test_refusals(file, options, told):
     assert told in refusal("balance", file, *options)
 
 
-def test_a_rotary_engine_has_no_factor(tmp_path):
-    file = write(
-        tmp_path / "rotary.toml",
-        GOOD.replace("throws = [0, 180, 180, 0]\n", "").replace(
-            "firing_order = [1, 3, 4, 2]", "radial = 5\nrotary = true"
-        ),
-    )
-    assert "crank pins that stand still have no rotating mass" in refusal("balance", file, "--scheme", "factor")
+def test_a_rotary_engine_has_no_factor():
+    text = changed(("throws = [0, 180, 180, 0]\n", ""), ("firing_order = [1, 3, 4, 2]", "radial = 5\nrotary = true"))
+    told = "crank pins that stand still have no rotating mass"
+    assert told in refusal("balance", "-", "--scheme", "factor", stdin=text)
 
 
 # ------------------------------------------------------------------ the workshop
@@ -145,15 +97,11 @@ def test_practical_figures_follow_from_their_definitions():
     *weights, shaft = result.practical
     weight = weights[0]
     assert [one.unbalance_kg_m for one in weights] == pytest.approx([weight.unbalance_kg_m] * 2)
-    omega = engine().omega
     assert weight.mass_kg == pytest.approx(weight.unbalance_kg_m / 0.06)
-    assert shaft.force_N == pytest.approx(shaft.unbalance_kg_m * omega**2)
-    assert (weight.force_N, weight.speed_rpm) == (pytest.approx(weight.unbalance_kg_m * omega**2), engine().speed_rpm)
-    assert shaft.speed_rpm == engine().speed_rpm
-    # half disc: mass pi R^2/2 t density, centroid at 4R/(3 pi)
-    assert STEEL * math.pi * 0.05**2 / 2 * weight.disc_thickness_mm / 1e3 * 4 * 0.05 / (3 * math.pi) == pytest.approx(
-        weight.unbalance_kg_m
-    )
+    assert weight.force_N == pytest.approx(weight.unbalance_kg_m * engine().omega ** 2)
+    assert weight.speed_rpm == shaft.speed_rpm == engine().speed_rpm
+    mass = STEEL * math.pi * 0.05**2 / 2 * weight.disc_thickness_mm / 1e3  # half disc, centroid at 4R/(3 pi)
+    assert mass * 4 * 0.05 / (3 * math.pi) == pytest.approx(weight.unbalance_kg_m)
 
 
 def test_drill_depth_removes_the_unbalance():

@@ -32,10 +32,8 @@ ENGINES = {
 @pytest.mark.parametrize("along", [0, 100, -1e6])
 def test_every_order_has_a_bound_of_its_rounding(name, along):
     """Real, and not below the rounding of what is there; about a far point that of the arms too."""
-    parts = ENGINES[name]
-    built = engine(
-        **parts, crank={"stroke": 100, "throws": [0], "positions": [100]}, frame={"reference": [20, 30, along]}
-    )
+    crank = {"stroke": 100, "throws": [0], "positions": [100]}
+    built = engine(**ENGINES[name], crank=crank, frame={"reference": [20, 30, along]})
     found = compute_spectra(built, np.arange(0.0, 9.0), QUANTITIES)
     for quantity in QUANTITIES:
         phasors = getattr(found, quantity)
@@ -49,10 +47,9 @@ def test_every_order_has_a_bound_of_its_rounding(name, along):
 
 def test_what_balances_does_so_about_any_point():
     """An in-line six has neither force nor moment of orders 1 and 2, a kilometre away or at its own cylinders."""
+    crank = {"stroke": 100, "throws": [0, 240, 120, 120, 240, 0], "spacing": 100}
     for reference in ([0, 0, 1e6], [3e5, -2e5, 250], [0, 0, -250]):
-        six = engine(
-            crank={"stroke": 100, "throws": [0, 240, 120, 120, 240, 0], "spacing": 100}, frame={"reference": reference}
-        )
+        six = engine(crank=crank, frame={"reference": reference})
         found = compute_spectra(six, np.arange(1.0, 6.0), ("force", "moment"))
         assert found.force.balanced.all()
         assert found.moment.balanced.all()
@@ -114,12 +111,8 @@ def test_variants_side_by_side_are_what_each_is_alone(vary):
             found = together[quantity.name]
             for name in ("forward", "backward", "noise"):
                 whole = np.broadcast_to(getattr(found, name), (len(LOW), *shape))[(slice(None), *place)]
-                error = np.abs(whole - getattr(single, name))
-                assert np.all(error <= (0.01 * single.noise if name == "noise" else single.noise)), (
-                    quantity,
-                    name,
-                    place,
-                )
+                most = 0.01 * single.noise if name == "noise" else single.noise
+                assert np.all(np.abs(whole - getattr(single, name)) <= most), (quantity, name, place)
 
 
 @pytest.mark.parametrize("ripple", ["", "speed_ripple = [{ order = 1, amplitude = 0.03, angle = 40 }]"])
@@ -130,8 +123,7 @@ def test_an_engine_does_what_its_cylinders_do(ripple):
     parts = [compute_spectra(alone(built, number), LOW, QUANTITIES) for number in built.numbers]
     for quantity, whole in compute_spectra(built, LOW, QUANTITIES).items():
         each = [part[quantity.name] for part in parts]
-        assert np.all(np.abs(sum(p.forward for p in each) - whole.forward) <= whole.noise), quantity
-        assert np.all(np.abs(sum(p.backward for p in each) - whole.backward) <= whole.noise), quantity
+        assert np.all(np.abs(sum(p.vectors for p in each) - whole.vectors) <= whole.noise), quantity
         assert np.all(max(p.noise.max() for p in each) <= whole.noise.max()), quantity
 
 
@@ -150,5 +142,4 @@ def test_errors_of_a_curve_stay_within_the_bounds_of_the_forces(name, size):
         off = {"along": Series(along + size), "across": Series(across + 3 * turn * size)}
         here, there = (Loads(c, (), 0j, 0.0, Phases(c, LOW), exact | it, 1.0).force for it in (curve, off))
         assert np.all(here.noise >= EPS * here.major)
-        assert np.all(np.abs(there.forward - here.forward) <= here.noise)
-        assert np.all(np.abs(there.backward - here.backward) <= here.noise)
+        assert np.all(np.abs(there.vectors - here.vectors) <= here.noise)

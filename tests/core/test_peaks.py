@@ -1,9 +1,10 @@
-"""The largest value over a revolution, on the curve and not on a grid."""
+"""The largest value over a revolution or a cycle, on the curve and not on a grid; of many curves at once."""
 
 import numpy as np
 import pytest
 
-from balcli.core.peaks import find_peak
+from balcli.core import peaks
+from balcli.core.peaks import find_largest, find_peak, find_peaks
 from balcli.core.phasors import Phasors
 
 RELATIVE = 1e-14
@@ -34,13 +35,6 @@ def test_half_orders_repeat_themselves_after_two_revolutions():
 def test_a_peak_at_0_is_not_at_a_whole_turn(turn):
     vector = 0.5 * np.exp(1j * turn)
     assert find_peak(curve((1, vector, vector.conjugate()), (2, 0.125, 0.125))).theta == 0
-
-
-def test_piston_acceleration_of_two_terms():
-    """cos t + lambda cos 2t: 1 + lambda at top dead centre; without the first, the second alone."""
-    found = find_peak(curve((1, 0.5, 0.5), (2, 0.125, 0.125)))
-    assert found.value == pytest.approx(1.25, rel=RELATIVE)
-    assert np.cos(found.theta) == pytest.approx(1)
 
 
 @pytest.mark.parametrize(
@@ -78,24 +72,6 @@ def test_a_narrow_peak_between_samples():
     assert found.theta == pytest.approx(at, abs=1e-9)
 
 
-@pytest.mark.parametrize("seed", range(4))
-def test_random_curves_against_many_samples(seed):
-    random = np.random.default_rng(seed)
-    orders = np.arange(0 if seed % 2 else 1, 3 + 4 * seed)
-    vectors = (random.normal(size=(4, len(orders))) * 0.7**orders).astype(complex)
-    backward = np.where(orders > 0, vectors[2] + 1j * vectors[3], 0)
-    phasors = Phasors.of(orders.astype(float), vectors[0] + 1j * vectors[1], backward, np.zeros(1))
-    found = find_peak(phasors)
-    sampled = np.abs(phasors.values(np.linspace(0, 2 * np.pi, 40_001))).max()
-    assert sampled * (1 - RELATIVE) <= found.value <= sampled * (1 + 1e-5)
-    assert abs(phasors.values(found.theta)) == pytest.approx(found.value, rel=RELATIVE)
-    there = np.exp(1j * orders * found.theta)
-    rate = np.sum(1j * orders * (phasors.forward * there - phasors.backward / there))
-    assert (
-        abs((np.conj(phasors.values(found.theta)) * rate).real) <= 1e-13 * orders[-1] * found.value**2
-    )  # level to rounding
-
-
 def test_of_equal_peaks_the_first_counts():
     """|cos 3 theta| is 1 at 0, 60, 120 .. deg, |sin 3 theta| at 30, 90 ..; rounding must not choose."""
     for turned, first in ((1, 0.0), (1j, 30.0), (1 - 1e-13j, 0.0), (1 + 1e-13j, 0.0)):  # the last a whole turn, nearly
@@ -105,19 +81,64 @@ def test_of_equal_peaks_the_first_counts():
         assert (np.degrees(found.theta) + 1e-9) % 360 == pytest.approx(first, abs=1e-7)
 
 
-@pytest.mark.parametrize("order", [200])
-def test_more_near_maxima_than_are_climbed(order):
+def test_more_near_maxima_than_are_climbed():
     """Two neighbouring orders against each other, and a little of a first that says which of their
     maxima, hundreds within 8 % of the top, is the highest: its sample is none of the highest 64.
     """
+    order = 200
     many = curve((1, 0.0242 * np.exp(0.7j), 0), (order - 1, 0, np.exp(1.7453j)), (order, np.exp(0.2967j), 0))
     found = find_peak(many)
     theta = np.linspace(0, 2 * np.pi, 400 * order, endpoint=False)
     dense = max(np.abs(many.values(part)).max() for part in np.array_split(theta, 100))
     assert found.value >= dense * (1 - 1e-9)
-    there = np.abs(many.values(np.array([found.theta])))[0]
-    assert found.value == pytest.approx(float(there), rel=1e-11)
+    assert found.value == pytest.approx(abs(many.values(found.theta)), rel=1e-11)
 
 
 def test_of_what_is_tiny_squares_may_underflow():
     assert 0 < find_peak(curve((1, 1e-170, 0), (40, 0, 1e-170))).value <= 2e-170
+
+
+# ------------------------------------------------------------------ many curves
+def curves(orders, forward, backward) -> Phasors:
+    return Phasors.of(np.asarray(orders, float), forward, backward, np.zeros(1))
+
+
+def random_curves(orders, count: int) -> Phasors:
+    """Amplitudes that fall with the order, as an engine's do."""
+    vectors = np.random.default_rng(3).normal(size=(2, len(orders), count, 2)) @ [1, 1j]
+    return curves(orders, *(vectors / (np.asarray(orders, float).reshape(-1, 1) + 1)))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "orders", [[1, 2, 4, 6], [0, 1, 2], [3, 6, 12, 18], [0.5, 1, 1.5, 3], [7], range(1, 40), [0]], ids=str
+)
+def test_against_a_dense_grid(orders):
+    many = random_curves([*orders], 25)
+    found = find_largest(many)
+    turning = np.exp(1j * np.multiply.outer(np.linspace(0, 4 * np.pi, 200_001), many.orders))
+    dense = np.abs(turning @ many.forward + turning.conj() @ many.backward).max(axis=0)
+    assert np.all(found >= dense * (1 - 1e-15))
+    assert np.all(found <= dense * (1 + 1e-6))
+    for k, peak in enumerate(find_peaks(many)):
+        assert found[k] == peak.value == pytest.approx(abs(many.select_place(k).values(peak.theta)), rel=RELATIVE)
+
+
+def test_what_is_balanced_level_or_turns_evenly():
+    """Nothing, a mean, a vector that turns, an ellipse, in one call."""
+    forward = np.array([[0, 2, 0, 0], [0, 0, 3j, 4]], complex)
+    backward = np.array([[0, 0, 0, 0], [0, 0, 0, -1]], complex)
+    assert find_largest(curves([0, 1], forward, backward)) == pytest.approx([0, 2, 3, 5], rel=1e-15)
+    assert find_largest(curves([1, 2], 0 * forward, 0 * backward)).tolist() == [0] * 4
+
+
+def test_trailing_axes_and_blocks(monkeypatch):
+    """A side that is the same for all, two axes of variants, a few curves at a time."""
+    many = random_curves([1, 2, 3], 12)
+    grid = curves(many.orders, many.forward.reshape(3, 3, 4), many.backward[:, :1].reshape(3, 1, 1))
+    whole = find_largest(grid)
+    assert whole.shape == (3, 4)
+    monkeypatch.setattr(peaks, "_AT_ONCE", 5 * 96)
+    assert np.array_equal(find_largest(grid), whole)
+    one = curves(many.orders, grid.forward[:, 1, 2], grid.backward[:, 0, 0])
+    assert whole[1, 2] == pytest.approx(find_peak(one).value, rel=4e-15, abs=0)

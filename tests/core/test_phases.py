@@ -19,21 +19,9 @@ ROUNDING = 1e-14
 
 def cylinders(first: int = 1) -> Cylinders:
     """Five in two banks, cylinder 1 in the second of them; masses and lengths count nowhere."""
-    ones = np.ones(1)
-    return Cylinders(
-        axis_deg=np.array(AXES),
-        pin_deg=np.array(PINS),
-        starts=np.array([0, 3]),
-        first=first,
-        z=ARMS,
-        radius=ones,
-        offset=ones,
-        lam=ones,
-        eps=ones,
-        reciprocating=ones,
-        rotating=ones,
-        couple=ones,
-    )
+    rest = dict.fromkeys(("radius", "offset", "lam", "eps", "reciprocating", "rotating", "couple"), np.ones(1))
+    angles = {"axis_deg": np.array(AXES), "pin_deg": np.array(PINS)}
+    return Cylinders(**angles, **rest, starts=np.array([0, 3]), first=first, z=ARMS)
 
 
 def random(seed: int, columns: int) -> np.ndarray:

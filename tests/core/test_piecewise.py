@@ -72,17 +72,12 @@ def test_extremes_are_found_between_the_nodes():
 
 def test_an_extreme_that_is_rounding_is_0():
     """1 - cos x touches 0; a hundred times further off, its lowest value is kept."""
-    curve = resolved(lambda x: 1 + 1e-16 - np.cos(x), [0, TURN])
-    assert curve.extremes()[0].value == 0.0
-    lifted = resolved(lambda x: 1 + 1e-12 - np.cos(x), [0, TURN])
-    assert lifted.extremes()[0].value == pytest.approx(1e-12, rel=1e-3)
+    for lift, lowest in ((1e-16, 0.0), (1e-12, pytest.approx(1e-12, rel=1e-3))):
+        assert resolved(lambda x, lift=lift: 1 + lift - np.cos(x), [0, TURN]).extremes()[0].value == lowest
 
 
 def test_a_jump_has_its_extremes_at_both_sides():
-    curve = polyline([0, 1, 1, 2, 3], [0, 4, -3, 1, 0])
-    lowest, highest = curve.extremes()
-    assert highest == (1.0, 4.0)
-    assert lowest == (1.0, -3.0)
+    assert polyline([0, 1, 1, 2, 3], [0, 4, -3, 1, 0]).extremes() == ((1.0, -3.0), (1.0, 4.0))
 
 
 def test_reversals_are_changes_of_sign_jumps_included_and_rounding_errors_not():

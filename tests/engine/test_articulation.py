@@ -83,18 +83,6 @@ def test_strokes_and_dead_centres_against_fine_sampling(offset):
 
 
 # ------------------------------------------------------------------ forces
-def test_a_radial_with_a_master_rod_shakes_forward_in_the_second_order():
-    """Equal rods on one pin: no second order at all. A master rod: a vector that turns with the
-    crank, and little against it.
-    """
-    equal = RADIAL[: RADIAL.index("[articulation]")]
-    before, after = (spectrum.compute_spectra(e, [2.0], ["force"]).force for e in (build_text(equal), built()))
-    assert before is not None
-    assert after is not None
-    assert before.balanced[0]
-    assert abs(after.forward[0]) > 50 * abs(after.backward[0]) > 0
-
-
 @pytest.mark.parametrize("angles", [(0, 60, 120), (0, 60, -60), (0, 120, -120)])
 def test_knuckles_that_differ_in_one_component_alone(angles):
     """Two rods in one direction, hung on opposite sides of the master's big end: against the momentum of every part."""
@@ -109,19 +97,6 @@ def test_knuckles_that_differ_in_one_component_alone(angles):
             assert (phasors.forward[row], phasors.backward[row]) == pytest.approx(
                 want.order(quantity.name, n), abs=1e-10 * size + 1e-9
             )
-
-
-def test_knuckle_pins_on_the_crank_pin_are_equal_rods():
-    """With a vanishing knuckle radius and equal rods nothing is left of the articulation."""
-    articulated = built(
-        ("knuckle_radius = 52", "knuckle_radius = 1e-11"),
-        ("length = 188, mass = 0.62, cg = 90", "length = 240, mass = 1.9, cg = 55"),
-    )
-    plain = build_text(RADIAL[: RADIAL.index("[articulation]")])
-    orders = np.arange(1.0, 9.0)
-    one, other = (spectrum.compute_spectra(articulated, orders), spectrum.compute_spectra(plain, orders))
-    for (quantity, a), (_, b) in zip(one.items(), other.items(), strict=True):
-        assert np.abs(a.forward - b.forward).max() < 1e-8 + 1e-12 * np.abs(b.forward).max(), quantity
 
 
 def highest(c):
@@ -162,26 +137,6 @@ def test_variants_on_a_trailing_axis():
 
 
 # ------------------------------------------------------------------ what articulated rods may say
-def _radial(rod: str) -> str:
-    return RADIAL.replace("{ length = 188, mass = 0.62, cg = 90 }", rod)
-
-
-def test_an_articulated_rod_weighed_at_its_ends_is_one_of_mass_and_cg():
-    ends = build_text(_radial("{ length = 188, small_end = 0.3, big_end = 0.32 }"))
-    whole = build_text(_radial(f"{{ length = 188, mass = 0.62, cg = {188 * 0.3 / 0.62} }}"))
-    assert ends.cylinders.reciprocating == pytest.approx(whole.cylinders.reciprocating, rel=1e-14)
-    assert ends.cylinders.linkage.mass == pytest.approx(whole.cylinders.linkage.mass, rel=1e-14)
-    assert ends.cylinders.couple == pytest.approx(whole.cylinders.couple, abs=1e-17)
-
-
-def test_a_pendulum_test_of_an_articulated_rod_is_its_inertia():
-    period = 2 * math.pi * math.sqrt((3.5e-3 + 0.62 * 0.09**2) / (0.62 * 9.80665 * 0.09))
-    swung = f'pendulum = {{ pivot = "big_end", period = {period!r} }}'
-    found = build_text(_radial(f"{{ length = 188, mass = 0.62, cg = 90, {swung} }}"))
-    wanted = build_text(_radial("{ length = 188, mass = 0.62, cg = 90, inertia = 3500 }"))
-    assert found.cylinders.couple == pytest.approx(wanted.cylinders.couple, rel=1e-12)
-
-
 @cases("engine/articulation", "mistakes_of_articulated_rods")
 def test_mistakes_of_articulated_rods(rod, message):
     assert mistakes(("{ length = 188, mass = 0.62, cg = 90 }", rod)) == [message]

@@ -17,74 +17,29 @@ from balcli.errors import BalcliError
 from balcli.studies.parameters import find_numbers
 
 VEE = """
-[crank]
-stroke = 90
-throws = [0, 95]
-positions = [-40, 60]
-splay = 10
-throw_mass = 0.8
-[rod]
-length = 160
-small_end = 0.2
-big_end = 0.5
-pendulum = { pivot = "small_end", period = 0.9 }
-[piston]
-bore = 86
-mass = 0.5
-offset = 2
-[layout]
-banks = [-40, 45]
-stagger = 20
-[operation]
-speed = 3000
-speed_ripple = [{ order = 2, amplitude = 0.01, angle = 20 }]
-[frame]
-reference = [1, 2, 3]
-[cylinder.3]
-piston_mass = 0.51
-rod_ratio = 0.28
-rod_mass = 0.7
-rod_cg = 50
-rod_inertia = 3000
-[[shaft]]
-ratio = -2
-unbalance = 9000
-at = [-40, 60]
-angle = 15
-[[counterweight]]
-mass = 2
-radius = 30
-position = 11
-inertia = 500
-[[counterweight]]
-sector = { inner_radius = 20, outer_radius = 70, opening = 130, thickness = 18 }
-[[counterweight]]
-unbalance = 9000
-sector = { inner_radius = 20, outer_radius = 70, opening = 130 }
-[[shaft]]
-ratio = -1
-unbalance = 50
-at = [5, 6]
-inertia = 150
-[[slider]]
-order = 2
-unbalance = 800
-direction = 90
+crank = { stroke = 90, throws = [0, 95], positions = [-40, 60], splay = 10, throw_mass = 0.8 }
+rod = { length = 160, small_end = 0.2, big_end = 0.5, pendulum = { pivot = "small_end", period = 0.9 } }
+piston = { bore = 86, mass = 0.5, offset = 2 }
+layout = { banks = [-40, 45], stagger = 20 }
+operation = { speed = 3000, speed_ripple = [{ order = 2, amplitude = 0.01, angle = 20 }] }
+frame = { reference = [1, 2, 3] }
+cylinder = { 3 = { piston_mass = 0.51, rod_ratio = 0.28, rod_mass = 0.7, rod_cg = 50, rod_inertia = 3000 } }
+shaft = [
+    { ratio = -2, unbalance = 9000, at = [-40, 60], angle = 15 },
+    { ratio = -1, unbalance = 50, at = [5, 6], inertia = 150 },
+]
+counterweight = [
+    { mass = 2, radius = 30, position = 11, inertia = 500 },
+    { sector = { inner_radius = 20, outer_radius = 70, opening = 130, thickness = 18 } },
+    { unbalance = 9000, sector = { inner_radius = 20, outer_radius = 70, opening = 130 } },
+]
+slider = [{ order = 2, unbalance = 800, direction = 90 }]
 """
 FIRED = """
-[crank]
-stroke = 90
-spacing = 100
-[rod]
-ratio = 0.28
-mass = 0.6
-cg = 45
-inertia = 2300
-[piston]
-mass = 0.5
-[layout]
-firing_order = [1, 3, 2]
-firing_intervals = [230, 250, 240]
+crank = { stroke = 90, spacing = 100 }
+rod = { ratio = 0.28, mass = 0.6, cg = 45, inertia = 2300 }
+piston = { mass = 0.5 }
+layout = { firing_order = [1, 3, 2], firing_intervals = [230, 250, 240] }
 """
 KNUCKLES = RADIAL.replace(
     "knuckle_radius", "knuckle_angles = [0, 50, 100, 150, 200, 250, 300]\nknuckle_radius"

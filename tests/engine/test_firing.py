@@ -6,14 +6,9 @@ import pytest
 from support.cases import cases
 from support.engines import engine, refused
 
-from balcli.engine.layout import find_dead_centres, find_intervals
+from balcli.engine.layout import find_intervals
 
 TIGHT = 1e-9  # deg
-
-
-def pins(**parts):
-    """Crank pins by cylinder number, deg in [0, 360)."""
-    return {n: round(float(a) % 360, 9) % 360 for n, a in sorted(engine(**parts).pins_deg.items())}
 
 
 def fires(**parts):
@@ -21,29 +16,11 @@ def fires(**parts):
 
 
 # ------------------------------------------------------------------ order -> throws
-@pytest.mark.parametrize(
-    ("layout", "wanted"),
-    [
-        ({"firing_order": [1, 3, 2]}, {1: 0, 2: 240, 3: 120}),
-        ({"firing_order": [1, 2, 3], "strokes": 2}, {1: 0, 2: 240, 3: 120}),
-        ({"firing_order": [1, 3, 4, 2]}, {1: 0, 2: 180, 3: 180, 4: 0}),
-        ({"firing_order": [1, 2, 4, 5, 3]}, {1: 0, 2: 216, 3: 144, 4: 72, 5: 288}),
-        ({"firing_order": [1, 5, 3, 6, 2, 4]}, {1: 0, 2: 240, 3: 120, 4: 120, 5: 240, 6: 0}),
-        ({"firing_order": [1, 2], "firing_intervals": [360, 360]}, {1: 0, 2: 0}),
-        ({"firing_order": [1, 2], "firing_intervals": [270, 450]}, {1: 0, 2: 90}),
-        ({"firing_order": [2, 1], "firing_intervals": [540, 180]}, {1: 0, 2: 180}),
-        ({"firing_order": [1, 2], "firing_intervals": [405, 315], "bank_angle": 45}, {1: 0, 2: 0}),
-        ({"firing_order": [1, 2], "firing_intervals": [270, 450], "banks": [45, -45]}, {1: 0, 2: 0}),
-        ({"firing_order": [1, 3, 5, 2, 4], "radial": 5}, {1: 0, 2: 0, 3: 0, 4: 0, 5: 0}),
-        (
-            {"firing_order": [1, 8, 4, 3, 6, 5, 7, 2], "banks": [45, -45], "numbering": [[1, 3, 5, 7], [2, 4, 6, 8]]},
-            {1: 0, 2: 0, 3: 90, 4: 90, 5: 270, 6: 270, 7: 180, 8: 180},
-        ),
-    ],
-)
+@cases("engine/firing", "throws_follow_from_the_firing_order")
 def test_throws_follow_from_the_firing_order(layout, wanted):
     """Pins of in-line engines are minus the firing angle; the rest are the shared pins of real engines."""
-    assert pins(layout=layout) == wanted
+    found = engine(layout=layout).pins_deg
+    assert [round(float(found[n]) % 360, 9) % 360 for n in sorted(found)] == wanted
 
 
 def test_vr6_pins_of_neighbours_are_split_by_the_offset_of_the_banks():
@@ -67,40 +44,19 @@ def test_vr6_pins_of_neighbours_are_split_by_the_offset_of_the_banks():
     assert fires(crank={"throws": [0]}, piston={"offset": 3, "mass": 1}, layout={"firing_order": [1]}) == {1: 0}
 
 
-V6 = {"bank_angle": 90, "firing_order": [1, 4, 2, 5, 3, 6]}
-
-
-def test_common_pins_of_a_90_degree_v6_fire_unevenly():
-    assert list(fires(crank={"throws": [0, 120, 240]}, layout=V6).values()) == [0, 90, 240, 330, 480, 570]
-
-
 def test_pins_split_by_30_degrees_fire_evenly():
     """The second bank's pins lag by 30 degrees, so that it fires 90 + 30 after the first."""
-    even = engine(crank={"throws": [0, 120, 240], "splay": -30}, layout=V6)
+    layout = {"bank_angle": 90, "firing_order": [1, 4, 2, 5, 3, 6]}
+    even = engine(crank={"throws": [0, 120, 240], "splay": -30}, layout=layout)
     assert list(even.fires_deg.values()) == [0, 120, 240, 360, 480, 600]
     assert {n: float(pin) for n, pin in even.pins_deg.items()} == {1: 0, 2: 120, 3: 240, 4: -30, 5: 90, 6: 210}
 
 
 # ------------------------------------------------------------------ throws and order -> intervals
-@pytest.mark.parametrize(
-    ("throws", "layout", "instants"),
-    [
-        ([0, 0], {"firing_order": [1, 2]}, {1: 0, 2: 360}),
-        ([0, 90], {"firing_order": [1, 2]}, {1: 0, 2: 270}),
-        ([0, 180], {"firing_order": [1, 2]}, {1: 0, 2: 180}),
-        ([0, 270], {"firing_order": [1, 2]}, {1: 0, 2: 450}),
-        ([0, 180], {"firing_order": [1, 2], "strokes": 2}, {1: 0, 2: 180}),
-        ([0, 180, 180, 0], {"firing_order": [1, 2, 4, 3]}, {1: 0, 2: 180, 4: 360, 3: 540}),
-        ([0, 90, 270, 180], {"firing_order": [1, 3, 2, 4]}, {1: 0, 3: 90, 2: 270, 4: 540}),
-        ([0], {"firing_order": [1, 2], "bank_angle": 45}, {1: 0, 2: 405}),  # one turn after the pin reaches its bank
-        ([0], {"firing_order": [1, 2], "bank_angle": 90}, {1: 0, 2: 450}),
-        ([0], {"firing_order": [1, 2], "bank_angle": 180}, {1: 0, 2: 180}),
-        ([0, 180], {"firing_order": [1, 2], "banks": [-90, 90], "rods": "alternating"}, {1: 0, 2: 360}),
-        ([0], {"firing_order": [1]}, {1: 0}),
-    ],
-)
+@cases("engine/firing", "intervals_follow_from_the_throws")
 def test_intervals_follow_from_the_throws(throws, layout, instants):
-    assert fires(crank={"throws": throws}, layout=layout) == instants
+    found = fires(crank={"throws": throws}, layout=layout)
+    assert found == dict(zip(layout["firing_order"], instants, strict=True))
 
 
 def test_an_order_that_takes_more_than_a_cycle():
@@ -126,13 +82,13 @@ def test_the_splay_that_makes_a_vee_six_fire_evenly(angle):
 
 def test_there_is_no_such_splay_where_throws_differ_or_intervals_are_said():
     vee = {"bank_angle": 90, "firing_order": [1, 4, 3, 6, 2, 5]}
-    assert engine(crank={"throws": [0, 230, 120]}, layout=vee).splay_for_even_firing is None
-    said = vee | {"firing_intervals": [90, 150, 90, 150, 90, 150]}
-    assert engine(crank={"throws": [0, 240, 120]}, layout=said).splay_for_even_firing is None
-    twin = {"bank_angle": 45, "firing_order": [1, 2]}
-    assert engine(crank={"throws": [0]}, layout=twin).splay_for_even_firing is None
-    in_line = {"firing_order": [1, 3, 2]}
-    assert engine(crank={"throws": [0, 240, 100]}, layout=in_line).splay_for_even_firing is None
+    for throws, layout in (
+        ([0, 230, 120], vee),
+        ([0, 240, 120], vee | {"firing_intervals": [90, 150] * 3}),
+        ([0], {"bank_angle": 45, "firing_order": [1, 2]}),
+        ([0, 240, 100], {"firing_order": [1, 3, 2]}),
+    ):
+        assert engine(crank={"throws": throws}, layout=layout).splay_for_even_firing is None
 
 
 @pytest.mark.parametrize(("throw", "good"), [(179.1, True), (180.9, True), (178.9, False), (181.1, False)])
@@ -148,10 +104,8 @@ def test_a_degree_is_forgiven(throw, good):
 def test_a_turn_that_is_left_over_goes_to_the_last_of_equal_intervals(count):
     """Of a seven-cylinder star it went to the last but one, whose interval is less by rounding."""
     order = list(range(1, count + 1))
-    pin = {k: -360 * (k - 1) / count for k in order}
-    ready = find_dead_centres(pin, dict.fromkeys(order, 0.0))
-    step = 360 / count
-    expected = [step] * (count - 1) + [step + 360]
+    ready = {k: 360 * (k - 1) / count for k in order}
+    expected = [360 / count] * (count - 1) + [360 / count + 360]
     assert find_intervals(order, ready, 720.0) == pytest.approx(expected, abs=TIGHT)
 
 

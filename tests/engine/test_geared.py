@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given, settings, strategies as st
 from support.cases import cases
 from support.commands import refusal, run_here as run
+from support.engines import list_problems
 from support.paths import write
 
 import balcli
@@ -239,15 +240,8 @@ def test_json_names_engines_and_cylinders(geared, tmp_path):
     geared()
     file = str(tmp_path / "geared.toml")
     told = json.loads(run("analyze", file, "-f", "json", "--by", "cylinder", "--misfire", "lower.1").out)
-    assert told["engine"]["engines"][1] == {
-        "name": "lower",
-        "file": "two.toml",
-        "ratio": -1,
-        "phase_deg": 75.0,
-        "turn_deg": 35.0,
-        "at_mm": [200.0, -300.0, 400.0],
-        "load": False,
-    }
+    lower = {"name": "lower", "file": "two.toml", "ratio": -1, "phase_deg": 75.0, "turn_deg": 35.0}
+    assert told["engine"]["engines"][1] == lower | {"at_mm": [200.0, -300.0, 400.0], "load": False}
     assert [share["cylinder"] for share in told["cylinders"]][3:5] == ["upper.4", "lower.1"]
     assert told["no_gas_in"] == ["lower.1"]
     curve = run("curves", file, "--cylinder", "lower.2", "--step", "90").out.splitlines()
@@ -272,10 +266,9 @@ def test_what_cannot_be_geared(geared, tmp_path, text, message):
     (tmp_path / "v4.toml").rename(tmp_path / "a.toml")
     write(tmp_path / "locked.toml", "[crank]\nstroke = 90\n[rod]\nlength = 30\n[piston]\nmass = 3\n")
     write(tmp_path / "wrong.toml", "[crank]\nstroke = 90\n[rod]\nlength = -3\n[piston]\nmas = 3\n")
-    with pytest.raises(balcli.InputError) as error:
-        balcli.load(write(tmp_path / "bad.toml", text.replace(r"\n", "\n")))
+    found = list_problems(write(tmp_path / "bad.toml", text.replace(r"\n", "\n")))
     wanted = [message.replace("none.toml: no", f"{tmp_path}/none.toml: no")] if isinstance(message, str) else message
-    assert {str(problem).partition(";  ")[0] for problem in error.value.problems} == set(wanted)
+    assert {problem.partition(";  ")[0] for problem in found} == set(wanted)
 
 
 @cases("engine/geared", "commands_of_one_crank")
@@ -287,19 +280,14 @@ def test_commands_of_one_crank(geared, tmp_path, command):
 
 def test_commands_that_take_several_cranks(geared, tmp_path):
     geared()
-    file = str(tmp_path / "geared.toml")
     for command in (
-        *(["report", file, str(tmp_path / "x.html")], ["compare", file, str(tmp_path / "v4.toml")]),
-        *(["check", file, "--update"], ["check", file], ["numbers", file]),
-        *(["plot", file, str(tmp_path / f"{what}.svg"), "--what", what] for what in ("all", "ladder", "torque")),
-        *(["scatter", file, "--mass-scatter", "1%", "--angle-scatter", "0.1", "--samples", "20"],),
-        *(
-            ["analyze", file, "--speed", "1000:2000:500"],
-            ["analyze", file, "--all"],
-            ["analyze", file, "--only", "pru"],
-        ),
-        *(["balance", file, "--scheme", scheme] for scheme in ("auto", "four-shaft", "couple-shaft", "slider")),
-        ["balance", file, "--scheme", "compensator", "--position", "3000"],
+        *("report FILE DIR/x.html", "compare FILE DIR/v4.toml", "check FILE --update", "check FILE", "numbers FILE"),
+        *(f"plot FILE DIR/{what}.svg --what {what}" for what in ("all", "ladder", "torque")),
+        "scatter FILE --mass-scatter 1% --angle-scatter 0.1 --samples 20",
+        *("analyze FILE --speed 1000:2000:500", "analyze FILE --all", "analyze FILE --only pru"),
+        *(f"balance FILE --scheme {scheme}" for scheme in ("auto", "four-shaft", "couple-shaft", "slider")),
+        "balance FILE --scheme compensator --position 3000",
     ):
-        assert run(*command).status == 0, command
+        words = command.replace("FILE", "DIR/geared.toml").replace("DIR", str(tmp_path)).split()
+        assert run(*words).status == 0, command
     assert 'id="motion"' not in (tmp_path / "x.html").read_text(encoding="utf-8")

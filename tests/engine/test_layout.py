@@ -8,8 +8,7 @@ import pytest
 from support.cases import cases
 from support.engines import engine, refused
 
-from balcli.engine.figures import FileFigures
-from balcli.engine.layout import bank_angles, plan_cylinders
+from balcli.engine.layout import plan_cylinders
 from balcli.file.model import Crank, Layout
 
 
@@ -21,23 +20,6 @@ def planned(throws=None, **layout):
 def where(found):
     """number -> (bank, throw)"""
     return {cell.number: (cell.bank, cell.throw) for cell in found.cells}
-
-
-# ------------------------------------------------------------------ banks
-@pytest.mark.parametrize(
-    ("layout", "angles"),
-    [
-        ({}, (0,)),
-        ({"bank_angle": 90}, (-45, 45)),
-        ({"bank_angle": 180}, (-90, 90)),
-        ({"banks": [45, -45]}, (45, -45)),
-        ({"banks": [-36, -20, 20, 36]}, (-36, -20, 20, 36)),
-        ({"radial": 4}, (0, 90, 180, 270)),
-        ({"radial": 7}, tuple(360 * k / 7 for k in range(7))),
-    ],
-)
-def test_bank_angles(layout, angles):
-    assert bank_angles(Layout(**layout), FileFigures()) == angles
 
 
 # ------------------------------------------------------------------ numbering
@@ -65,15 +47,6 @@ def test_as_many_throws_as_the_firing_order_needs():
 
 
 # ------------------------------------------------------------------ places along the crank
-def test_throws_stand_evenly_about_the_middle():
-    def places(**crank):
-        return np.ravel(engine(crank=crank).cylinders.z)
-
-    assert places(throws=[0, 120, 240], spacing=80) == pytest.approx([-0.08, 0, 0.08])
-    assert places(throws=[0, 180], spacing=80) == pytest.approx([-0.04, 0.04])
-    assert places(throws=[0, 0, 0]) == pytest.approx([0, 0, 0])
-
-
 def test_rods_side_by_side_the_first_bank_towards_the_free_end():
     e = engine(crank={"throws": [0, 180], "positions": [-30, 70]}, layout={"banks": [0, 60, 90], "stagger": 20})
     assert e.numbers == (1, 2, 3, 4, 5, 6)

@@ -116,13 +116,6 @@ def test_weights_of_readings():
     assert totals(text + "reading_weights = [1, 2]\n" + runs)[0] == pytest.approx(-17 / 5, rel=1e-13)
 
 
-def test_a_plane_that_is_left_out():
-    alpha, excess = random_rotor(4, 5, 3)
-    text = head(3, f"influence = [{', '.join(map(table, alpha))}]") + run(alpha @ excess)
-    expected = np.linalg.lstsq(alpha[:, [0, 2]], -alpha @ excess, rcond=None)[0]
-    assert totals(text, without=["p2"]) == pytest.approx(expected, rel=1e-11)
-
-
 # ------------------------------------------------------------------ the shop
 def test_drilled_holes_remove_what_weights_would_add():
     """The steel of all holes, from the rim inwards, has the unbalance of the correction."""
@@ -148,20 +141,8 @@ def put_on(planes, drilled=False):
     return (-1 if drilled else 1) * np.array([sum(piece) for piece in pieces])
 
 
-LIMITS = [
-    "places = [[0, 40, 80], 4]",
-    "places = [[10], [50, 230]]",
-    'places = ["free", [100, 160]]\nmost = [1.5, 0.4]',
-    "places = [4, 4]\nmost = [1, 5]",
-    "most = [1.5, 0.3]",
-    "radius = [90, 80]\nplaces = [12, [0, 60]]\ndrill = [6, 8]\ndeepest = [3, 20]",
-    'radius = [90, 80]\ndrill = [6, 8]\ndeepest = [3, 2]\nplaces = ["free", "free"]',
-    "radius = [9, 8]\ndrill = [1, 1]",
-]
-
-
 @pytest.mark.parametrize(("sense", "minimise"), [("with", "squares"), ("against", "max")])
-@pytest.mark.parametrize("limits", LIMITS)
+@cases("field/balance_rotor", "limits")
 def test_what_does_not_fit_leaves_what_it_says(limits, sense, minimise):
     """The readings after are those of the pieces, and pieces a little otherwise leave more."""
     last = run([60, 70j], [("front", 0.3), ("rear", 0.2j)]) if "drill" in limits else ""
@@ -319,25 +300,8 @@ def in_other_sense(known: bool, sense: str) -> str:
     return sense + head(1, 'influence = [["1 @ 0"]]' if known else "") + runs
 
 
-def trials(first: float, second: float, readings=([15, 10], [10, 14])) -> str:
-    return head(2) + run([10, 10]) + run(readings[0], [("p1", first)]) + run(readings[1], [("p2", second)])
-
-
 OFF = run([8]) + run([9], [("p1", 1)])
-TURNED = 'it fits if angles of weights count the other way round: weights = "against"'
 GRADED = "radius = [100, 100]\ngrade = 2.5\nmass = 30\nspeed = 1800"
-ALIKE = 'influence = [["1 @ 0", "1 @ 0"], ["1 @ 0", "1.1 @ 0"]]'
-TOGETHER = 'influence = [["1 @ 0", "0 @ 0", "1 @ 0"], ["0 @ 0", "1 @ 0", "1 @ 0"], ["0 @ 0", "0 @ 0", "0.1 @ 0"]]'
-DOUBTS = [
-    (trials(1, 1, ([10.5, 10], [10.5, 10.1])), "the trial weight in p1 changes no reading by more than 0.5, 5% of the largest; use a heavier one"),
-    (trials(1, 1, ([10.5, 10], [10.5, 10.1])), "the correction of 80 g in p1 is 80 times the largest weight tried there; put it on, read again, and add that run to the file"),
-    (at_speeds(), "the trial weight in p1 at 1500 rpm changes no reading by more than 0.011, 0.11% of the largest; use a heavier one"),
-    (three_runs("radius = [0.1, 0.45]"), 'radius is 0.45 mm; is it in mm? Give another unit as in "0.45 m"'),
-    *((in_other_sense(known, 'weights = "with"\n'), f"'in' reads 16 @ 90.0 at sensor 1; the other runs predict 0 @ 0.0; {TURNED}") for known in (False, True)),
-    ('sensors = ["rear"]\n' + head(1) + OFF + run([9], [("p1", -5)]), "'run 3' reads 9 @ 0.0 at rear; the other runs predict 3 @ 0.0; check its weights and the state of the machine, or leave the run out"),
-    (head(2, ALIKE) + run([1, 2]), "planes p1 and p2 have nearly the same effect: 95.2% of the effect of one can come from others (condition number 42.1), so small errors of readings change the weights much; if the weights are large, try --without p1"),
-    (head(3, TOGETHER) + run([1, 2, 3]), "planes p1, p2 and p3 have nearly the same effect: 92.9% of the effect of one can come from others (condition number 30.1), so small errors of readings change the weights much; if the weights are large, try --without p1"),
-]  # fmt: skip
 QUIET = {
     "plain": three_runs(),
     "the right sense": in_other_sense(True, ""),
@@ -348,7 +312,11 @@ QUIET = {
 }
 
 
-@pytest.mark.parametrize(("text", "doubt"), DOUBTS)
+RUNS = {"RUNS": three_runs("# head"), "SPEEDS": at_speeds(), "OFF": OFF + run([9], [("p1", -5)])}
+SENSES = {name: in_other_sense(known, 'weights = "with"\n') for name, known in (("FITTED", False), ("KNOWN", True))}
+
+
+@cases("field/balance_rotor", "doubts", **RUNS, **SENSES, HEAD=head(1))
 def test_doubts(text, doubt):
     assert doubt in balance(text).doubts
 

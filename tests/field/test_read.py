@@ -25,8 +25,8 @@ def test_several_mistakes_are_told_at_once():
     )
     assert [message.partition(":")[0] for message in found] == [
         "rotaton",
-        "radius",
-        "run.1.readings",
+        "radius.1",
+        "run.1.readings.2",
         "run.2.weights.front",
         "run.3.weights.rear",
     ]
@@ -35,7 +35,7 @@ def test_several_mistakes_are_told_at_once():
 def test_contradictions_are_told_once_all_values_can_be_read():
     head = "most = [60, 60, 60]\ndrill = [{}, 1]\ngrade = 6.3\nmass = 'x'\nspeed = 3000"
     found = [message.partition(";")[0] for message in mistakes(three_runs(head.format(0)))]
-    assert found == ["drill: the 1st value 0 is not above 0", 'mass: "x" is not a number followed by a unit']
+    assert found == ["drill.1: 0 is not above 0", 'mass: "x" is not a number followed by a unit']
     found = [message.partition(";")[0] for message in mistakes(three_runs(head.format(1).replace("'x'", "3")))]
     assert found == ["most: has 3 values, but there are 2 planes", "radius: is missing"]
 
@@ -56,3 +56,8 @@ def test_ways_to_write_a_reading(text):
     (one,) = parse_runs(f'planes = ["a"]\n[[run]]\nreadings = ["{text}"]\n').run[0].readings
     assert one == pytest.approx(make_polar(170, 112), rel=1e-14)
     assert [make_polar(2, angle) for angle in (0, 90, 180, 270, 360, -90)] == [2, 2j, -2, -2j, 2, -2j]
+
+
+@pytest.mark.parametrize("grade", ['"G6.3"', '"G 6.3"', '"g6.3"'])
+def test_a_grade_may_be_written_with_its_letter(grade):
+    assert parse_runs(three_runs(f"grade = {grade}")).grade == 6.3

@@ -7,7 +7,7 @@ import tomllib
 import zipfile
 
 import pytest
-from support.commands import run_command
+from support.commands import ask, refusal, run_command
 from support.paths import ENGINE_FILES, ENGINES, GEARED_FILES, ROOT
 
 from balcli.errors import BalcliError
@@ -17,7 +17,7 @@ EVERY = [*ENGINE_FILES, *GEARED_FILES]
 
 
 def test_every_engine_is_listed_with_its_lesson():
-    lines = run_command("engines").stdout.splitlines()
+    lines = ask("engines").splitlines()
     listed = {line.split("  ")[0]: line.split("  ")[-1].strip() for line in lines if "  " in line}
     lessons = {file.stem: file.read_text(encoding="utf-8").splitlines()[0] for file in EVERY}
     assert len(lessons) == len(EVERY), "two engines of one name"
@@ -33,32 +33,25 @@ def test_every_engine_says_where_its_figures_come_from(path):
 
 
 def test_a_copy_is_the_file(tmp_path):
-    original = (ENGINES / "v8_crossplane.toml").read_text(encoding="utf-8")
-    assert run_command("engines", "v8_crossplane").stdout == original
-    target = tmp_path / "mine.toml"
-    assert run_command("engines", "v8_crossplane", target).returncode == 0
+    original, target = (ENGINES / "v8_crossplane.toml").read_text(encoding="utf-8"), tmp_path / "mine.toml"
+    assert ask("engines", "v8_crossplane") == original
+    assert ask("engines", "v8_crossplane", target) == ""
     assert target.read_text(encoding="utf-8") == original
-    again = run_command("engines", "i4", target)
-    assert (again.returncode, again.stderr) == (
-        2,
-        f"balcli: {target}: already exists; choose another name, or --force\n",
-    )
-    assert run_command("engines", "i4", target, "--force").returncode == 0
+    assert refusal("engines", "i4", target) == f"{target}: already exists; choose another name, or --force"
+    assert ask("engines", "i4", target, "--force") == ""
     assert target.read_text(encoding="utf-8") == examples.text("i4")
 
 
 def test_a_copy_of_geared_engines_comes_with_their_files(tmp_path):
-    target = tmp_path / "mine.toml"
-    assert run_command("engines", "napier_deltic", target).returncode == 0
-    assert run_command("analyze", target).stdout == run_command("analyze", ENGINES / "geared/napier_deltic.toml").stdout
-    assert run_command("engines", "napier_deltic", tmp_path / "other.toml").returncode == 2
+    ask("engines", "napier_deltic", tmp_path / "mine.toml")
+    assert ask("analyze", tmp_path / "mine.toml") == ask("analyze", ENGINES / "geared/napier_deltic.toml")
+    assert refusal("engines", "napier_deltic", tmp_path / "other.toml")
 
 
 @pytest.mark.parametrize("name", ["v8crossplane", "../engines/i4", "expected"])
 def test_unknown_names(name):
-    with pytest.raises(
-        BalcliError, match=f'^there is no example "{name}": (balcli engines lists them|did you mean v8_crossplane)'
-    ):
+    told = f'^there is no example "{name}": (balcli engines lists them|did you mean v8_crossplane)'
+    with pytest.raises(BalcliError, match=told):
         examples.text(name)
 
 
@@ -75,4 +68,4 @@ def test_a_wheel_has_the_examples_and_the_page(tmp_path):
         assert {f"balcli/report/assets/report.{end}" for end in ("html", "css", "js")} <= set(inside)
         content.extractall(tmp_path / "installed")
     listed = run_command("engines", env={"PYTHONPATH": str(tmp_path / "installed")}).stdout
-    assert listed == run_command("engines").stdout
+    assert listed == ask("engines")

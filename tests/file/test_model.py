@@ -9,17 +9,6 @@ from balcli.engine.parse import parse
 from balcli.file import model
 
 
-def test_defaults():
-    engine = parse("[crank]\nstroke = 90\n[rod]\nlength = 160\n[piston]\nmass = 0.5\n")
-    assert engine.operation.speed == 1000.0
-    assert engine.crank.throws is engine.crank.positions is engine.crank.spacing is None
-    assert (engine.crank.throw_mass, engine.crank.splay, engine.piston.offset, engine.layout.stagger) == (0.0,) * 4
-    assert (engine.layout.rods, engine.layout.strokes) == ("shared", 4)
-    assert engine.frame.reference is engine.articulation is None
-    assert (engine.bobweight.rod_bearing, engine.bobweight.oil) == (0, 0)
-    assert (engine.cylinder, engine.counterweight, engine.shaft, engine.slider) == ({}, (), (), ())
-
-
 def test_values_are_numbers_in_the_files_units():
     engine = parse(
         changed(
@@ -38,26 +27,13 @@ def test_values_are_numbers_in_the_files_units():
 
 def test_devices_and_cylinders():
     engine = parse(
-        GOOD
-        + """
-[cylinder.3]
-piston_mass = 0.502
-rod_pendulum = { pivot = "big_end", period = 0.6 }
-[[counterweight]]
-mass = 0.5
-radius = "40 mm"
-[[shaft]]
-ratio = -2.0
-unbalance = "0.009 kg m"
-at = [-40, "60 mm"]
-[[shaft]]
-ratio = 1
-unbalance = -3
-[[slider]]
-order = 2
-unbalance = 9000
-direction = 90
+        """
+cylinder.3 = { piston_mass = 0.502, rod_pendulum = { pivot = "big_end", period = 0.6 } }
+counterweight = [{ mass = 0.5, radius = "40 mm" }]
+shaft = [{ ratio = -2.0, unbalance = "0.009 kg m", at = [-40, "60 mm"] }, { ratio = 1, unbalance = -3 }]
+slider = [{ order = 2, unbalance = 9000, direction = 90 }]
 """
+        + GOOD
     )
     assert engine.cylinder[3].piston_mass == 0.502
     assert engine.cylinder[3].rod_pendulum == model.Pendulum(pivot="big_end", period=0.6)

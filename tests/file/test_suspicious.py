@@ -43,10 +43,9 @@ def test_warnings(changes, more, warning):
 @pytest.mark.parametrize(("key", "value"), [("intake", 14.7), ("exhaust", 0.101), ("crankcase", 14.7)])
 def test_gas_of_no_engine_is_doubted(key, value):
     """Psi and MPa for bar."""
-    gas = {"cycle": '"otto"', "compression_ratio": 10, "imep": 9} | {key: value}
-    text = "\n".join(f"{name} = {figure}" for name, figure in gas.items())
+    gas = f'[gas]\ncycle = "otto"\ncompression_ratio = 10\nimep = 9\n{key} = {value}\n'
     told = 'where 0.15 to 12 is usual; is it in bar? Give another unit as in "130 psi" or "0.9 MPa"'
-    assert find_suspicious(parse(changed(more=f"[gas]\n{text}\n"))) == [f"gas.{key} is {value:g} bar absolute, {told}"]
+    assert find_suspicious(parse(changed(more=gas))) == [f"gas.{key} is {value:g} bar absolute, {told}"]
 
 
 def test_engines_of_the_project_are_of_usual_size():
@@ -59,14 +58,12 @@ def test_engines_of_the_project_are_of_usual_size():
 TWIST = """
 [torsion]
 throw_stiffness = 1e6
-throw_inertia = %s
+throw_inertia = 25000
 [[torsion.rear]]
 name = "Flywheel"
-inertia = %s
+inertia = 250000
 stiffness = 1e6
 """
-
-
 LIGHT = "where at least 89 is usual; is it in kg mm^2? Give another unit as in "
 
 
@@ -76,7 +73,7 @@ def test_inertias_in_kg_m2_are_asked_back(more, told):
 
 
 def test_loss_factors_in_percent_are_asked_back():
-    more = (TWIST % ("20000", "250000")).replace("[torsion]\n", "[torsion]\nloss = 3.5\n", 1)
+    more = TWIST.replace("[torsion]\n", "[torsion]\nloss = 3.5\n", 1)
     told = "where at most 1 is usual; {} % is {}, and a relative damping psi is a loss factor of"
     assert find_suspicious(parse(changed(more=more + "loss = 1.13\n"))) == [
         f"torsion.loss is 3.5, {told.format(3.5, 0.035)} psi/(2 pi)",
@@ -86,10 +83,9 @@ def test_loss_factors_in_percent_are_asked_back():
 
 def test_a_flywheel_that_torsion_lacks():
     """[flywheel] is for `torque`; without one of its own the crankshaft twists at far higher frequencies."""
-    wheel, twist = "[flywheel]\ninertia = 250000\n", TWIST % ("25000", "250000")
-    alone = twist.partition("[[torsion.rear]]")[0]
+    wheel, alone = "[flywheel]\ninertia = 250000\n", TWIST.partition("[[torsion.rear]]")[0]
     assert find_suspicious(parse(changed(more=wheel + alone))) == [
         "`torsion` does not use [flywheel]; also write it as [[torsion.rear]]"
     ]
-    assert find_suspicious(parse(changed(more=wheel + twist))) == []
+    assert find_suspicious(parse(changed(more=wheel + TWIST))) == []
     assert find_suspicious(parse(changed(more=alone))) == []

@@ -27,56 +27,22 @@ def test_the_first_order_along_an_inline_four():
         assert got.phasors.backward[0] == pytest.approx(np.array(pattern) * factor * against, rel=1e-12, abs=1e-9)
 
 
-def test_an_inline_six_has_a_large_inner_moment_and_counterweights_take_most_of_it():
-    """0-120-240-240-120-0: nothing is free, but the middle carries what three throws on one side make."""
-    plain = inline_engine([0, 120, 240, 240, 120, 0])
-    weights = "".join(
-        f"[[counterweight]]\nunbalance = {(ROTATING + RECIPROCATING / 2) / OMEGA**2 * 1e6}\n"
-        f"angle = {angle + 180}\nposition = {place}\n"
-        for angle, place in zip([0, 120, 240, 240, 120, 0], range(-250, 251, 100), strict=True)
-    )
-    fitted = inline_engine([0, 120, 240, 240, 120, 0], more=weights)
-    assert all(spectrum.compute_spectra(e, [1.0], ["moment"]).moment.balanced[0] for e in (plain, fitted))
-    before, after = (compute_inner_loads(e, ORDERS).bending for e in (plain, fitted))
-    middle = abs(before.phasors.forward[0, 2])
-    statics = abs(sum((z + 50) * np.exp(1j * np.radians(a)) for z, a in ((-250, 0), (-150, 120), (-50, 240)))) / 1e3
-    assert middle == pytest.approx(statics * (ROTATING + RECIPROCATING / 2), rel=1e-12)
-    assert np.abs(after.phasors.forward[0]).max() < 1e-9 * middle
-    assert before.peaks[before.largest].value > 3 * after.peaks[after.largest].value
-
-
 @pytest.mark.parametrize("layout", ["", "bank_angle = 70\nstagger = 20"])
-def test_beyond_the_last_load_stand_free_force_and_moment(layout):
+def test_beyond_the_last_load_stand_free_force_and_moment_which_the_bearings_carry(layout):
     last = 0.1 + (0.01 if layout else 0)
     weight = "[[counterweight]]\nunbalance = 30000\nangle = 99\nposition = -20\n"
     subject = inline_engine([0, 90, 200], layout, f"[frame]\nreference = [0, 0, {last * 1e3}]\n{weight}")
     found, free = compute_inner_loads(subject, ORDERS), spectrum.compute_spectra(subject, ORDERS)
     assert found.shear.z_m[-1] == pytest.approx(last)
-    for along, whole in ((found.shear, free.force), (found.bending, free.moment)):
-        assert along.phasors.forward[:, -1] == pytest.approx(whole.forward, rel=1e-11, abs=1e-8)
-        assert along.phasors.backward[:, -1] == pytest.approx(whole.backward, rel=1e-11, abs=1e-8)
-
-
-def test_bearings_carry_all_force_and_moment():
-    subject = inline_engine([0, 90, 200], more="[[counterweight]]\nunbalance = 30000\nangle = 99\nposition = -20\n")
-    found, free = (compute_inner_loads(subject, ORDERS).bearings, spectrum.compute_spectra(subject, ORDERS))
-    assert found is not None
-    assert found.z_m == pytest.approx([-0.15, -0.05, 0.05, 0.15])
-    assert found.phasors.forward.sum(axis=1) == pytest.approx(free.force.forward, rel=1e-11, abs=1e-8)
-    assert 1j * found.phasors.forward @ found.z_m == pytest.approx(free.moment.forward, rel=1e-11, abs=1e-8)
-
-
-def test_guide_force_moments():
-    """H is the roll moment of the engine; X of two cylinders 50 mm to either side is the moment of
-    the side forces at their guides, 160 mm (the rod's length) above the crankshaft.
-    """
-    subject = inline_engine([0, 180])
-    found, roll = (compute_guide_moments(subject, ORDERS), spectrum.compute_spectra(subject, ORDERS).roll)
-    assert found.h.forward == pytest.approx(roll.forward, rel=1e-11, abs=1e-9)
-    first, second = (spectrum.compute_spectra(alone(subject, n), ORDERS).roll for n in (1, 2))
-    assert found.x is not None
-    assert found.x.forward == pytest.approx((second.forward - first.forward) * 50 / 160, rel=1e-11, abs=1e-9)
-    assert found.x.balanced.tolist() == [False, True, False, True]
+    assert found.bearings.z_m == pytest.approx([-0.15, -0.05, 0.05, 0.15])
+    bearings = found.bearings.phasors
+    for way in ("forward", "backward"):
+        force, moment = getattr(free.force, way), getattr(free.moment, way)
+        arms = getattr(bearings, way) @ (found.bearings.z_m - last)
+        for along, whole in ((found.shear, force), (found.bending, moment)):
+            assert getattr(along.phasors, way)[:, -1] == pytest.approx(whole, rel=1e-11, abs=1e-8)
+        assert getattr(bearings, way).sum(axis=1) == pytest.approx(force, rel=1e-11, abs=1e-8)
+        assert 1j * arms == pytest.approx(moment, rel=1e-11, abs=1e-8)
 
 
 def test_the_x_type_is_the_moment_of_the_side_forces_on_the_pistons():
@@ -97,10 +63,11 @@ def test_the_x_type_is_the_moment_of_the_side_forces_on_the_pistons():
         couples.append(mass * acceleration * np.tan(tilt) * _height_of_pin(theta + pin, r, rod))
     places = np.array([-250, -150, -50, 50, 150, 250]) / 1e3
     for height_m, length in ((None, rod), (0.2, 0.2)):
-        found = compute_guide_moments(subject, ORDERS, height_m).x
+        found = compute_guide_moments(subject, ORDERS, height_m)
         wanted = np.fft.fft(places @ np.array(couples) / length) / 128
-        assert found is not None
-        assert found.major == pytest.approx(abs(wanted[1:5]), rel=1e-9, abs=1e-6)
+        assert found.x.major == pytest.approx(abs(wanted[1:5]), rel=1e-9, abs=1e-6)
+    roll = spectrum.compute_spectra(subject, ORDERS).roll
+    assert found.h.forward == pytest.approx(roll.forward, rel=1e-11, abs=1e-9)
 
 
 def _height_of_pin(angle, r, rod):
@@ -123,31 +90,23 @@ def test_each_cylinder_is_what_it_is_alone(name):
 
 
 def near_the_lock(throws, more=""):
-    text = (
-        INLINE.format(throws=throws, layout="")
-        .replace("length = 160", "ratio = 0.999999")
-        .replace("cg = 45\n", "cg = 20\n")
-    )
-    return build_text(text + more)
+    text = INLINE.replace("length = 160", "ratio = 0.999999").replace("cg = 45\n", "cg = 20\n")
+    return build_text(text.format(throws=throws, layout="") + more)
 
 
 def test_so_many_loads_that_they_would_fill_the_memory_are_refused():
-    with pytest.raises(
-        BalcliError,
-        match=r"^32768 orders of 34 single cylinders and counterweights are 1114112 forces, "
-        r"and at most 1100000 are kept: an engine with longer rods has fewer orders$",
-    ):
+    told = (
+        "^32768 orders of 34 single cylinders and counterweights are 1114112 forces, "
+        "and at most 1100000 are kept: an engine with longer rods has fewer orders$"
+    )
+    with pytest.raises(BalcliError, match=told):
         compute_inner_loads(near_the_lock([10 * k for k in range(34)]))
+    uneven = near_the_lock([10 * k for k in range(17)], "speed_ripple = [{order = 2, amplitude = 0.01}]\n")
     with pytest.raises(BalcliError, match=r"32773 orders of 17 single cylinders .* at most 550000 are kept"):
-        compute_guide_moments(
-            near_the_lock([10 * k for k in range(17)], "speed_ripple = [{order = 2, amplitude = 0.01}]\n")
-        )
+        compute_guide_moments(uneven)
 
 
 def test_more_results_along_the_crank_than_anybody_reads_are_refused():
-    with pytest.raises(
-        BalcliError,
-        match=r"^along the crankshaft, 4096 orders of 9 cylinders and counterweights are 36864 results, and at most 32768 "
-        r"are listed; give fewer orders$",
-    ):
+    told = "^along the crankshaft, 4096 orders of 9 cylinders and counterweights are 36864 results, and at most 32768 "
+    with pytest.raises(BalcliError, match=f"{told}are listed; give fewer orders$"):
         compute_inner_loads(inline_engine([0] * 9), np.arange(1.0, 4097))

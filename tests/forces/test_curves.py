@@ -62,8 +62,8 @@ def scale(subject):
 )
 def test_direct_evaluation_is_the_sum_of_all_orders(name):
     subject, angles = replace(engine(name), up_deg=None), divide_revolution(7.5)
-    direct = compute_engine_curves(subject, angles).curves
-    orders = compute_order_curves(subject, find_relevant_orders(subject), angles).curves
+    direct = compute_engine_curves(subject, angles)
+    orders = compute_order_curves(subject, find_relevant_orders(subject), angles)
     assert set(direct) == set(orders)
     for quantity, curve in direct.items():
         assert np.abs(curve - orders[quantity]).max() <= RELATIVE * scale(subject)[quantity.endswith("_N")], quantity
@@ -73,7 +73,7 @@ def test_direct_evaluation_is_the_sum_of_all_orders(name):
 def test_what_is_zero_is_exactly_zero(name):
     """No rounding noise and no negative zeros beside real figures, which may be as small as 1e-9 of their parts."""
     subject = engine(name)
-    curves = compute_engine_curves(subject, divide_revolution(15)).curves
+    curves = compute_engine_curves(subject, divide_revolution(15))
     for quantity, curve in curves.items():
         small = np.abs(curve) <= 1e-13 * scale(subject)[quantity.endswith("_N")]
         assert not curve[small].any(), quantity
@@ -86,7 +86,7 @@ def test_a_mean_under_uneven_speed_keeps_its_sign_where_the_documents_say():
     """Order 0 is the mean over the crank angle: in `forward` with signs, in the amplitudes of x and y without them."""
     subject, angles = engine("uneven"), divide_revolution(0.5)
     (order,) = write_each(list_orders(compute_spectra(subject, [0])))
-    mean = {name: float(curve.mean()) for name, curve in compute_engine_curves(subject, angles).curves.items()}
+    mean = {name: float(curve.mean()) for name, curve in compute_engine_curves(subject, angles).items()}
     force, couple = order["force_N"], order["couple_Nm"]
     assert force["forward"] == pytest.approx([mean["force_x_N"], mean["force_y_N"]], rel=1e-9)
     assert [force[axis] for axis in "xy"] == [{"amplitude": abs(v), "phase_deg": None} for v in force["forward"]]
@@ -97,7 +97,6 @@ def test_a_mean_under_uneven_speed_keeps_its_sign_where_the_documents_say():
 
 def test_a_revolution_is_divided_from_0_without_360():
     assert divide_revolution().tolist() == list(range(360))
-    assert divide_revolution(0.1).size == 3600
     assert divide_revolution(7)[-1] == 357
     assert divide_revolution(0.1).tolist() == [k / 10 for k in range(3600)]
     assert divide_revolution(0.7)[-2:].tolist() == [359.1, 359.8]
@@ -114,7 +113,7 @@ def test_other_mechanisms_by_differences(name):
     subject, fine = build_text(text), divide_revolution(0.05)
     omega, step = float(subject.omega), np.radians(0.05)
     for number in (1, 6):
-        curve = compute_cylinder_curves(subject, number, fine).curves
+        curve = compute_cylinder_curves(subject, number, fine)
         travel = curve["travel_m"]
         assert 0 <= travel.min() < 1e-7
         slope = (np.roll(travel, -1) - np.roll(travel, 1)) / (2 * step) * omega
@@ -128,7 +127,7 @@ def test_a_piston_at_uneven_speed_accelerates_as_its_velocity_changes_in_time():
     text = TEXTS["uneven"]
     subject, h = build_text(text), 1e-3
     angles = divide_revolution(15)
-    mid, before, after = (compute_cylinder_curves(subject, 1, angles + d).curves for d in (0, -h, h))
+    mid, before, after = (compute_cylinder_curves(subject, 1, angles + d) for d in (0, -h, h))
     omega = subject.omega * (1 + 0.02 * np.cos(np.radians(2 * angles - 40)))
     for name, slope_of in (("velocity_m_per_s", "travel_m"), ("acceleration_m_per_s2", "velocity_m_per_s")):
         slope = (after[slope_of] - before[slope_of]) / (2 * np.radians(h)) * omega
@@ -139,7 +138,7 @@ def test_crankshaft_and_flywheel_resist_an_uneven_speed():
     """Each adds -J xi to couple and torque, by differences of the squared speed; the roll has none of it."""
     heavy = SKEW.replace("throw_mass = 0.8", "throw_mass = 0.8, inertia = 60000") + "flywheel = { inertia = 90000 }\n"
     degrees = np.arange(0.0, 360.0)
-    bare, found = (compute_engine_curves(build_text(one), degrees).curves for one in (SKEW, heavy))
+    bare, found = (compute_engine_curves(build_text(one), degrees) for one in (SKEW, heavy))
     squared = (3000 * np.pi / 30 * (1 + 0.02 * np.cos(np.radians(2 * np.arange(-0.5, 360) - 40)))) ** 2
     added = -(0.15 - 4 * 0.8 * 0.043**2) * np.diff(squared / 2) / np.radians(1)
     for name in ("couple_Nm", "inertia_torque_Nm"):

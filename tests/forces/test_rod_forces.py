@@ -1,14 +1,12 @@
 """Gas on each piston of an engine whose cylinders are in part equal."""
 
-from pathlib import Path
-
 import numpy as np
 from support.engines import build_text
 from support.gas_engines import WIEBE
+from support.paths import ENGINES
 
 from balcli.forces.rod_forces import compute_rod_forces
 
-ENGINES = Path(__file__).parents[2] / "engines"
 DEGREES = np.linspace(0.0, 720.0, 97)
 
 

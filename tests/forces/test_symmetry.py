@@ -6,23 +6,16 @@ import numpy as np
 import pytest
 from support.cases import cases
 from support.engines import build_text
-from support.paths import ENGINE_FILES
+from support.paths import ENGINE_FILES, ENGINES
 
-from balcli.analysis import answer as analysis
-from balcli.core.records import to_document as analysis_document
-from balcli.engine import build as engine, parse as enginefile
-from balcli.forces import spectrum
+from balcli import analyze, load
+from balcli.forces.spectrum import compute_spectra
 from balcli.forces.symmetry import explain_symmetry
 
 BASE = """\
-[crank]
-stroke = 90
-throws = {throws}
-spacing = {spacing}
-[rod]
-length = 160
-[piston]
-mass = 0.5
+crank = {{ stroke = 90, throws = {throws}, spacing = {spacing} }}
+rod = {{ length = 160 }}
+piston.mass = 0.5
 """
 
 
@@ -67,28 +60,24 @@ def test_balanced_by_masses_that_fit_is_chance(throws, heavy):
 
 def test_two_banks_of_different_mechanisms_that_are_each_balanced():
     """A VR6: neighbouring pins stand at no fraction of a turn, but each bank is a balanced three."""
-    vr6 = engine.build(enginefile.read(next(p for p in ENGINE_FILES if p.stem == "vr6")))
-    assert explain_symmetry(vr6, [1]).reasons[0].verdict == "symmetry"
+    assert explain_symmetry(load(ENGINES / "vr6.toml"), [1]).reasons[0].verdict == "symmetry"
 
 
 @cases("forces/symmetry", "even_and_uneven_fire_in_words")
 def test_even_and_uneven_fire_in_words(layout, text):
-    base = "[crank]\nstroke = 90\n[rod]\nlength = 160\n[piston]\nmass = 0.5\n[layout]\n"
+    base = "crank.stroke = 90\nrod.length = 160\npiston.mass = 0.5\n[layout]\n"
     assert explain_symmetry(build_text(base + layout), [1]).firing == text
 
 
 @pytest.mark.parametrize("path", ENGINE_FILES, ids=lambda path: path.stem)
 def test_verdicts_agree_with_the_figures(path):
     """What is called balanced has no force left but rounding, and nothing else has."""
-    built = engine.build(enginefile.read(path))
-    bare = replace(built, devices=())
-    found = spectrum.compute_spectra(bare, np.arange(1.0, 9.0))
+    built = load(path)
+    found = compute_spectra(replace(built, devices=()), np.arange(1.0, 9.0))
     for reason in explain_symmetry(built, range(1, 9)).reasons:
-        numeric = [
-            getattr(found, q).balanced[reason.order - 1]
-            for q in (["couple", "torque"] if reason.quantity == "turning" else [reason.quantity])
-        ]
-        assert all(numeric) == (reason.verdict in ("symmetry", "none", "chance")), reason
+        kinds = ["couple", "torque"] if reason.quantity == "turning" else [reason.quantity]
+        balanced = all(found[kind].balanced[reason.order - 1] for kind in kinds)
+        assert balanced == (reason.verdict in ("symmetry", "none", "chance")), reason
 
 
 @pytest.mark.parametrize(
@@ -105,8 +94,7 @@ def test_what_the_reasons_leave_out_is_said(more, left_out):
     assert told[0] == f"cylinders only: {left_out}"
     assert told[1:] == sentences([0, 180], orders=[1])
     text = BASE.format(throws=[0, 180], spacing=100) + more
-    result = analysis.analyze(build_text(text), [1], ["force"], reasons=True)
-    assert analysis_document(result)["why"]["scope"] == told[0]
+    assert analyze(build_text(text), [1], ["force"], reasons=True).to_dict()["why"]["scope"] == told[0]
 
 
 LAYOUTS = {
@@ -128,7 +116,7 @@ def test_what_is_symmetrical_by_construction_is_balanced_by_symmetry(layout, par
     given = np.random.default_rng(parts).permutation(parts)
     throws = str([f"{k}/{parts} turn" for k in [*given, *given[::-1]]]).replace("'", '"')
     text = BASE.format(throws=throws, spacing=77.777) + f"[layout]\n{LAYOUTS[layout]}\n"
-    text = text.replace("length = 160\n[piston]", "length = 160\nmass = 0.6\ncg = 45\ninertia = 2500\n[piston]")
+    text = text.replace("length = 160 }", "length = 160, mass = 0.6, cg = 45, inertia = 2500 }")
     verdicts = {(r.quantity, r.order): r.verdict for r in explain_symmetry(build_text(text), range(1, 7)).reasons}
     none = {n for n in range(1, 7) if n % parts}
     beside = {n for n in range(1, 7) if (n - 1) % parts and (n + 1) % parts}

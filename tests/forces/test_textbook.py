@@ -3,10 +3,11 @@
 import json
 import re
 from functools import cache
-from math import sqrt
+from itertools import product
 
 import numpy as np
 import pytest
+from support.cases import cases
 from support.commands import ask_csv, run_here
 from support.engines import engine
 
@@ -16,39 +17,15 @@ from balcli.forces.kinds import FORCE, MOMENT
 from balcli.forces.spectrum import compute_spectra
 from balcli.forces.symmetry import find_textbook, find_textbook_units, with_reciprocating_only
 
-# Bosch, Automotive Handbook, "Free forces and moments of the 1st and 2nd order, and ignition intervals of the most
-# common engine designs": sizes in F1 and F2, F1 a and F2 a. Engines not in it (cross-plane four, V-twin) by the
-# formulas of C. F. Taylor, The Internal-Combustion Engine in Theory and Practice, vol. 2, ch. 8.
-HANDBOOK = {  # forces of order 1 and 2, moments of order 1 and 2
-    "twin180": (0, 2, 1, 0),
-    "i3": (0, 0, 1.732, 1.732),
-    "i4": (0, 4, 0, 0),
-    "i4_crossplane": (0, 0, sqrt(10), 0),
-    "i5": (0, 0, 0.449, 4.98),
-    "i6": (0, 0, 0, 0),
-    "vtwin90": (1, sqrt(2), 0, 0),
-    "v6_60": (0, 0, 1.5, 1.5),
-    "v6_90_common": (0, 0, 1.732, 2.449),
-    "v8_crossplane": (0, 0, sqrt(10), 0),
-    "v8_flatplane": (0, 4 * sqrt(2), 0, 0),
-    "boxer2": (0, 0, 1, 1),
-    "boxer4": (0, 0, 0, 2),
-    "boxer6": (0, 0, 0, 0),
-    "v12_60": (0, 0, 0, 0),
-}
 
-
-@pytest.mark.parametrize("name", HANDBOOK)
-def test_column_reasons_and_table_of_layouts_are_the_handbooks(name):
+@cases("forces/textbook", "column_reasons_and_table_of_layouts_are_the_handbooks")
+def test_column_reasons_and_table_of_layouts_are_the_handbooks(name, sizes):
+    """Sizes: forces of order 1 and 2 in F1 and F2, moments in F1 a and F2 a."""
     text = run_here("analyze", folder() / f"{name}.toml", "--all", "--why", "--orders", "1,2").out
-    columns = _columns(text)
-    reasons = _reasons(text)
-    layouts = _layouts()[name]
-    for place, printed in enumerate(HANDBOOK[name]):
-        kind, order = ("force", "moment")[place // 2], place % 2 + 1
-        assert columns.get((kind, order), 0) == pytest.approx(printed, abs=6e-4), (kind, order)
-        assert reasons[kind, order] == pytest.approx(printed, abs=6e-4), (kind, order)
-        assert layouts[kind, order] == pytest.approx(printed, abs=6e-4), (kind, order)
+    printed = dict(zip(product(("force", "moment"), (1, 2)), sizes, strict=True))
+    columns = dict.fromkeys(printed, 0) | _columns(text)
+    for found in (columns, _reasons(text), _layouts()[name]):
+        assert found == pytest.approx(printed, abs=6e-4)
 
 
 def _columns(text: str) -> dict[tuple[str, int], float]:
@@ -79,16 +56,9 @@ def _reasons(text: str) -> dict[tuple[str, int], float]:
 @cache
 def _layouts() -> dict[str, dict[tuple[str, int], float]]:
     """Semi-major axes of `tables layouts`, by engine."""
-    found = ask_csv("tables", "layouts")
-    return {
-        row["engine"]: {
-            (kind, order): float(row[f"{letter}{order}_major"])
-            for kind, letter in (("force", "F"), ("moment", "M"))
-            for order in (1, 2)
-        }
-        for row in found
-        if row["engine"] in HANDBOOK
-    }
+    sizes = {(kind, n): f"{kind[0].upper()}{n}_major" for kind, n in product(("force", "moment"), (1, 2))}
+    rows = {row["engine"]: row for row in ask_csv("tables", "layouts")}
+    return {name: {key: float(row[column] or "nan") for key, column in sizes.items()} for name, row in rows.items()}
 
 
 def test_textbook_units():

@@ -22,18 +22,11 @@ def four(tmp_path):
 def test_json_and_csv_are_what_they_promise(four):
     said = ask_json("mounts", four, "--speeds", "600:3000:100")
     assert said["format"] == "balcli.mounts/1"
-    assert len(said["modes"]) == 6
-    first = said["modes"][0]
-    assert first.keys() >= {"frequency_Hz", "energy_percent", "shape"}
-    assert list(first["energy_percent"]) == ["x", "y", "z", "rx", "ry", "rz"]
-    assert sum(first["energy_percent"].values()) == pytest.approx(100)
-    assert len(first["shape"]) == 6
+    assert [len(mode["shape"]) for mode in said["modes"]] == [6] * 6
+    assert list(said["modes"][0]["energy_percent"]) == ["x", "y", "z", "rx", "ry", "rz"]
     assert said["roll_axis"] == pytest.approx([0, 0, 1])
     assert [mount["name"] for mount in said["static"]["mounts"]] == ["1", "2", "3", "4"]
     assert sum(mount["force_N"][2] for mount in said["static"]["mounts"]) == pytest.approx(-200 * 9.80665)
-    assert len(said["static"]["mounts"][0]["travel_mm"]) == 3
-    assert [len(row) for row in said["stiffness_N_per_m"]] == [6] * 6
-    assert said["stiffness_N_per_m"][0][0] == pytest.approx(800e3)
     response = said["response"]
     assert response["speeds_rpm"] == list(range(600, 3001, 100))
     mount, point = response["mounts"][0], response["points"][0]
@@ -41,7 +34,6 @@ def test_json_and_csv_are_what_they_promise(four):
     assert [order["order"] for order in mount["orders"]][:2] == [1, 2]
     assert len(mount["orders"][0]["force_N"]) == len(mount["peak_N"]) == 25
     assert len(point["orders"][0]["motion_mm"]) == len(point["peak_mm"]) == 25
-    assert max(mount["peak_N"]) <= mount["worst"]["force_N"] * (1 + 1e-12)
     lines = ask_csv("mounts", four, "--speeds", "600:3000:100")
     keys = ("part", "name", "order", "speed_rpm", "figure")
     found = {tuple(row[key] for key in keys): (row["value"], row["unit"]) for row in lines}
@@ -117,29 +109,24 @@ def test_other_engines_on_the_same_mounts(four, tmp_path):
 
 def test_a_misfire_is_a_cylinder_whose_gas_does_nothing(tmp_path):
     """As the file has it with `gas = 0`; of every engine that is shown."""
-    order = "[layout]\nfiring_order = [1, 3, 4, 2]\n"
-    fired, weak = tmp_path / "fired.toml", tmp_path / "weak.toml"
-    for path, extra in ((fired, ""), (weak, "[cylinder.3]\ngas = 0\n")):
-        path.write_text(ENGINE + order + extra + WIEBE + block("loss = 0.1"), encoding="utf-8")
-    asked = ("--speeds", "700:900:50", "-f", "json")
-    of_option = run_here("mounts", fired, "--misfire", "3", *asked).out
-    assert json.loads(of_option) == json.loads(run_here("mounts", weak, *asked).out)
-    beside = json.loads(run_here("mounts", fired, weak, "--misfire", "1", *asked).out)
+    text = f"{ENGINE}[layout]\nfiring_order = [1, 3, 4, 2]\n{WIEBE}{block('loss = 0.1')}"
+    fired = write(tmp_path / "fired.toml", text)
+    weak = write(tmp_path / "weak.toml", f"{text}[cylinder.3]\ngas = 0\n")
+    asked = ("--speeds", "700:900:50")
+    assert ask_json("mounts", fired, "--misfire", "3", *asked) == ask_json("mounts", weak, *asked)
+    beside = ask_json("mounts", fired, weak, "--misfire", "1", *asked)
     assert beside["response"]["no_gas_in"] == [1]
     assert "no gas in 1, 3" in run_here("mounts", fired, weak, "--misfire", "1").out
     assert "there is no cylinder 9: " in refusal("mounts", fired, "--misfire", "9")
 
 
-def test_rounding_is_no_share_of_a_mode_and_turns_no_shape(tmp_path):
+def test_rounding_is_no_share_of_a_mode_and_turns_no_shape():
     """Mounts at the height of the centre of gravity, stiff along the diagonals of x and y: two modes
     move along these, half and half; which half is larger is rounding.
     """
-    path = tmp_path / "block.toml"
-    found = []
+    text, found = block("angles = [0, 0, 45]").replace("-200]", "0]"), []
     for stiff in range(150, 250, 5):
-        text = block("angles = [0, 0, 45]").replace("-200]", "0]")
-        path.write_text(text.replace("[200, 150", f"[200.7, {stiff}.3"), encoding="utf-8")
-        found += ask_json("mounts", path)["modes"]
+        found += ask_json("mounts", "-", stdin=text.replace("[200, 150", f"[200.7, {stiff}.3"))["modes"]
     diagonal = [mode for mode in found if mode["energy_percent"]["x"] > 49]
     assert len(diagonal) == 40
     assert all(mode["shape"][0] > 0 for mode in diagonal)
@@ -196,8 +183,7 @@ def test_speeds_that_are_none(four, text, message):
 
 def test_an_engine_that_shakes_nothing():
     weightless = re.sub(r"((throw_|piston_)?mass|inertia) = [\d.]+", r"\1 = 0", ENGINE)
-    status, out, _ = run_here("mounts", "-", stdin=weightless + block("loss = 0.1"))
-    assert status == 0
+    out = run_here("mounts", "-", stdin=weightless + block("loss = 0.1")).out
     assert "The orders included put no force on the mounts." in out
 
 
@@ -214,13 +200,6 @@ def test_what_is_refused(four):
     assert "3 orders at 19000 speeds of 100 mounts and 0 points are 5700000 results" in told
 
 
-def test_the_starting_file_runs(tmp_path):
-    path = tmp_path / "four.toml"
-    assert run_here("new", "mounts", path) == (0, "", "")
-    assert "Largest mount force" in ask("mounts", path)
-    assert run_here("analyze", path).status == 0
-
-
 def test_a_mount_that_nothing_moves_has_no_force(tmp_path):
     """A six, which rolls alone in order 3, and a mount on the axis of roll: no force of 1e-17 N."""
     six = ENGINE.replace("throws = [0, 180, 180, 0]", "throws = [0, 240, 120, 120, 240, 0]")
@@ -234,7 +213,5 @@ def test_a_mount_that_nothing_moves_has_no_force(tmp_path):
     assert not any(rear)
     passed = response["passed"][response["orders"].index(3)]
     assert set(passed["rigid"]) == set(passed["on_mounts"]) == {"moment_z_Nm"}
-    small = [abs(x) for mode in found["modes"] for x in mode["shape"]] + np.abs(
-        found["stiffness_N_per_m"]
-    ).ravel().tolist()
-    assert all(value == 0 or value > 1e-6 for value in small)
+    small = np.abs([mode["shape"] for mode in found["modes"]] + found["stiffness_N_per_m"])
+    assert np.all((small == 0) | (small > 1e-6))

@@ -289,7 +289,7 @@ def test_a_motion_that_nothing_holds_is_named(report, text, motion):
 
 
 def test_what_is_not_known_is_told(report):
-    told = describe_free_motion(np.array([0, 0, 0, 0.8, 6e-17, 0.6]))
+    told = describe_free_motion(np.array([0, 3, 0, 0.8, 6e-17, 0.6]))
     assert told == "turning about (1, 0, 0.75)"
     text = ENGINE.replace("spacing = 100\n", "") + block("loss = 0.1")
     assert refused(report, text).startswith("engine.toml: moments are not known")

@@ -19,28 +19,8 @@ import numpy as np
 POINTS = 1024
 THETA = np.arange(POINTS) * (2 * np.pi / POINTS)
 GRAVITY = 9.80665
-UNITS = {
-    "mm": 1,
-    "cm": 10,
-    "m": 1e3,
-    "in": 25.4,
-    "g": 1e-3,
-    "kg": 1,
-    "lb": 0.45359237,
-    "oz": 0.45359237 / 16,
-    "deg": 1,
-    "rad": 180 / math.pi,
-    "turn": 360,
-    "rpm": 1,
-    "lb in^2": 0.45359237 * 25.4**2,
-    "kg mm^2": 1,
-    "g mm": 1,
-    "kg m": 1e6,
-    "km/h": 1,
-    "mph": 1.609344,
-    "kN": 1e3,
-    "t": 1e3 * GRAVITY,  # a load of wheels
-}
+# Units in the files of `engines`; a load of wheels may be in tonnes.
+UNITS = {"in": 25.4, "km/h": 1, "mph": 1.609344, "kN": 1e3, "t": 1e3 * GRAVITY}
 
 
 def slope(values: np.ndarray) -> np.ndarray:
@@ -102,6 +82,7 @@ class Engine:
     def __post_init__(self) -> None:
         data = self.data
         self.speed = data.get("operation", {}).get("speed", 1000.0) * 2 * math.pi / 60
+        self.rotary = data.get("layout", {}).get("rotary", False)
         self._arrange()
         for cell in self.cells:
             self._move(cell)
@@ -126,13 +107,11 @@ class Engine:
     def _arrange(self) -> None:
         crank, layout = self.data["crank"], self.data.get("layout", {})
         order = layout.get("firing_order")
-        banks = (
-            [-layout["bank_angle"] / 2, layout["bank_angle"] / 2]
-            if "bank_angle" in layout
-            else [360 / layout["radial"] * k for k in range(layout["radial"])]
-            if "radial" in layout
-            else layout.get("banks", [0])
-        )
+        banks = layout.get("banks", [0])
+        if "bank_angle" in layout:
+            banks = [-layout["bank_angle"] / 2, layout["bank_angle"] / 2]
+        elif "radial" in layout:
+            banks = [360 / layout["radial"] * k for k in range(layout["radial"])]
         shared = layout.get("rods", "shared") == "shared"
         rods = len(banks) if shared else 1
         rows = layout.get("rows", 1)
@@ -141,9 +120,7 @@ class Engine:
         where = [(b, t) for b in range(len(banks)) for t in range(count) if shared or t % len(banks) == b]
         if "rows" in layout or "row_angle" in layout:
             where = sorted(where, key=lambda place: place[::-1])
-        numbers = (
-            [n for row in layout["numbering"] for n in row] if "numbering" in layout else list(range(1, len(where) + 1))
-        )
+        numbers = [n for row in layout["numbering"] for n in row] if "numbering" in layout else range(1, len(where) + 1)
         along = crank.get("positions") or [(t - (count - 1) / 2) * crank.get("spacing", 0) for t in range(count)]
         lean = layout.get("stagger", 0) if shared else 0
         card = self.data.get("bobweight", {})
@@ -226,24 +203,18 @@ class Engine:
 
     # -------------------------------------------------------------- motion
     def _axis(self, cell: dict[str, Any]) -> np.ndarray:
-        turning = self.data.get("layout", {}).get("rotary", False)
-        return np.exp(1j * (math.radians(cell["axis"]) + (THETA if turning else 0 * THETA)))
+        return np.exp(1j * (math.radians(cell["axis"]) + self.rotary * THETA))
 
     def _pin(self, cell: dict[str, Any]) -> np.ndarray:
-        turning = not self.data.get("layout", {}).get("rotary", False)
-        return cell["radius"] * np.exp(
-            1j * (math.radians(self.first["axis"] + cell["pin"]) + (THETA if turning else 0 * THETA))
-        )
+        angle = math.radians(self.first["axis"] + cell["pin"])
+        return cell["radius"] * np.exp(1j * (angle + (0 if self.rotary else 1) * THETA))
 
     def _piston(self, cell: dict[str, Any], foot: np.ndarray) -> np.ndarray:
         """Where the rod that stands on `foot` meets the path of the piston pin."""
         piston, rod = self._parts(cell)
-        side = (
-            -1 if self.data.get("layout", {}).get("rotary", False) else 1
-        )  # of the cylinder to which the crank pin moves
         axis = self._axis(cell)
         local = foot * np.conj(axis)
-        offset = side * piston["offset"]
+        offset = -piston["offset"] if self.rotary else piston["offset"]  # to where the crank pin moves
         if self.data["rod"].get("motion") == "harmonic":
             return axis * (local.real + rod["length"] + 1j * offset)
         return axis * (local.real + np.sqrt(rod["length"] ** 2 - (local.imag - offset) ** 2) + 1j * offset)
@@ -286,16 +257,13 @@ class Engine:
     def _pace(self) -> np.ndarray:
         """Crank speed over its mean."""
         lines = self.data.get("operation", {}).get("speed_ripple", [])
-        waves = (
-            line["amplitude"] * np.cos(line["order"] * THETA - math.radians(line.get("angle", 0))) for line in lines
-        )
-        return 1 + sum(waves, 0 * THETA)
+        angles = (line["order"] * THETA - math.radians(line.get("angle", 0)) for line in lines)
+        return 1 + sum((line["amplitude"] * np.cos(a) for line, a in zip(lines, angles, strict=True)), 0 * THETA)
 
     def curves(self, numbers: list[int] | None = None) -> Curves:
         """Of the whole engine, or of some cylinders without the devices."""
-        bodies = [b for n in numbers or self.cylinders for b in self.cylinders[n]] + (
-            self.devices if numbers is None else []
-        )
+        bodies = [b for n in numbers or self.cylinders for b in self.cylinders[n]]
+        bodies += self.devices if numbers is None else []
         omega = self.speed * self._pace
         total = Curves(0j * THETA, 0j * THETA, 0 * THETA, 0 * THETA)
         for body in bodies:

@@ -69,9 +69,8 @@ def test_single_cylinder_at_high_precision(lam, offset):
     """mpmath finds where the curve is farthest from the centre; three such points, solved to 30
     digits, are the true optimum.
     """
-    found = circle.enclose_curve(
-        force(rod=f"ratio = {lam}", piston=f"mass = 1\noffset = {offset}", operation="speed = 1000")
-    )
+    tables = {"rod": f"ratio = {lam}", "piston": f"mass = 1\noffset = {offset}", "operation": "speed = 1000"}
+    found = circle.enclose_curve(force(**tables))
     with mpmath.workdps(30):
         r, length = mpmath.mpf(50) / 1000, mpmath.mpf(50) / 1000 / mpmath.mpf(str(lam))
         omega = mpmath.mpf(1000) * mpmath.pi / 30
@@ -109,9 +108,8 @@ def test_nothing_near_is_better(tables):
     found = circle.enclose_curve(curve)
     samples = seen(curve, np.linspace(0, 2 * np.pi, 20001))
     assert np.abs(samples - found.centre).max() <= found.radius * (1 + 1e-13)
-    assert np.abs(seen(curve, found.theta) - found.centre) == pytest.approx(
-        found.radius, rel=1e-10
-    )  # lower peaks are not named
+    # lower peaks are not named
+    assert np.abs(seen(curve, found.theta) - found.centre) == pytest.approx(found.radius, rel=1e-10)
     for step in (1e-3, 1e-5):
         for direction in np.exp(1j * np.linspace(0, 2 * np.pi, 24)):
             other = found.centre + step * found.radius * direction
@@ -148,10 +146,8 @@ def test_cardioids_and_a_deltoid(forward, backward, centre, radius, touching, fi
 def test_a_small_circle_beside_a_large_first_order_is_touched_wherever_it_is_but_for_rounding():
     """Equal peaks 18 times a revolution, of a millionth of what a weight takes away."""
     eight, ten = 1e-6, 2e-8
-    curve = Phasors.of(
-        np.array([1.0, 8.0, 10.0]), np.array([1.0, 0, ten]) + 0j, np.array([0, eight, 0]) + 0j, np.zeros(1)
-    )
-    found = circle.enclose_curve(curve)
+    vectors = np.array([[1.0, 0, ten], [0, eight, 0]], complex)
+    found = circle.enclose_curve(Phasors(np.array([1.0, 8.0, 10.0]), vectors, np.zeros(1)))
     assert found.radius == pytest.approx(eight + ten, rel=1e-9)
     assert len(found.theta) == 18
     assert found.excess == 0

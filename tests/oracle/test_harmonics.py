@@ -1,14 +1,9 @@
-"""The harmonics against two computations in mpmath that share nothing with the closed forms.
-
-Up to lambda = 0.3 the power series in lambda (binomial series of `cos beta` and `arcsin`, powers of
-the sine as multiple angles), whose terms have one sign; above, the trapezoidal rule over a
-revolution of the textbook's own expressions, which converges geometrically for a periodic analytic
-function. At 0.3 the two are compared.
+"""The harmonics against a computation in mpmath that shares nothing with the closed forms: the trapezoidal rule over a
+revolution of the textbook's own expressions, which converges geometrically for a periodic analytic function.
 """
 
 from collections.abc import Sequence
 from functools import cache
-from math import comb
 
 import mpmath as mp
 import numpy as np
@@ -20,70 +15,17 @@ RELATIVE = 1e-14  # of each order to 32 of the centred mechanism, twice that to 
 ABSOLUTE = 1e-15  # of the offset mechanism, in units of the first order
 SMALLEST = 1e-290
 ORDERS = np.arange(1, 65)
-SMALL = [1e-6, 1e-3, 0.05, 0.2632, 0.3]
-LARGE = [0.32, 0.4, 0.6180339887, 0.9, 0.95, 0.999]
+LAMBDAS = [1e-6, 1e-3, 0.05, 0.2632, 0.3, 0.32, 0.4, 0.6180339887, 0.9, 0.95, 0.999]
 SERIES = ("piston", "rod", "kinetic", "rod_kinetic")
 OFFSETS = [(0.2632, 0.01), (0.25, -0.08), (0.3, 0.002), (0.45, 0.3), (0.3, 0.65), (1e-3, 0.5)]  # lam + |eps| <= 0.95
 
 
 @pytest.fixture(autouse=True, scope="module")
 def _digits():
-    with mp.workdps(110):  # order 64 at lambda = 0.3 is 1e-52 of what is summed
+    with mp.workdps(110):  # order 64 at lambda = 0.2632 is 1e-56 of what is summed
         yield
 
 
-# ------------------------------------------------------------------ power series in lambda
-@cache
-def of_power_series(lam: float) -> dict[str, list[mp.mpf]]:
-    """Coefficients for the orders 0, 1, 2, ... by their own series."""
-    highest, terms = 64 + 44, 64 + 60
-    powers = [(mp.mpf(lam) / 2) ** (2 * j) for j in range(terms)]
-    cosine = [mp.mpf(0)] * (highest + 1)  # of cos beta, by cos n psi
-    angle = [mp.mpf(0)] * (highest + 1)  # of beta, by sin k psi
-    for n in range(2, highest + 1, 2):
-        cosine[n] = mp.fsum(
-            _half(j) * (-1) ** (j + n // 2) * 2 * comb(2 * j, j - n // 2) * powers[j] for j in range(n // 2, terms)
-        )
-    for k in range(1, highest + 1, 2):
-        angle[k] = lam * mp.fsum(
-            _arcsine(j) * (-1) ** (k // 2) * comb(2 * j + 1, j - k // 2) * powers[j] for j in range(k // 2, terms)
-        )
-    speed = [n * c / lam for n, c in enumerate(cosine)]  # -s'/r, by sin n psi
-    speed[1] += 1
-    piston = [n * c for n, c in enumerate(speed)]
-    rate = [k * c for k, c in enumerate(angle)]  # beta', by cos k psi
-    return {
-        "piston": piston,
-        "rod": [k * c for k, c in enumerate(rate)],
-        "kinetic": squared(speed, -1),
-        "rod_kinetic": squared(rate, 1),
-    }
-
-
-@cache
-def _half(j: int) -> mp.mpf:
-    return mp.binomial(mp.mpf(1) / 2, j)
-
-
-@cache
-def _arcsine(j: int) -> mp.mpf:
-    """Coefficient of x^(2j+1)."""
-    return mp.mpf(comb(2 * j, j)) / (4**j * (2 * j + 1))
-
-
-def squared(a: list[mp.mpf], sign: int) -> list[mp.mpf]:
-    """Cosine series of (sum a_n sin n psi)^2 (sign -1) or of (sum a_n cos n psi)^2 (sign 1), a_0 = 0."""
-    there = [n for n, c in enumerate(a) if c]
-    found = [mp.mpf(0)] * len(a)
-    for i in there:
-        for j in there:
-            found[abs(i - j)] += a[i] * a[j] / 2
-            if i + j < len(a):
-                found[i + j] += sign * a[i] * a[j] / 2
-    return found
-
-
-# ------------------------------------------------------------------ trapezoidal rule
 @cache
 def of_revolution(lam: float, eps: float = 0.0, highest: int = 64, digits: int = 25) -> dict[str, list[mp.mpc]]:
     """Coefficients c_n of `Re c_n e^{i n psi}` for the orders 0 .. highest, by sampling one revolution."""
@@ -141,34 +83,20 @@ def worst(got: np.ndarray, want: list[mp.mpf]) -> float:
     return max(errors)
 
 
-@pytest.mark.parametrize("lam", SMALL)
-def test_centred_against_the_power_series(lam):
-    want = of_power_series(lam)
-    for name in SERIES:
-        assert worst(centred(name, ORDERS, lam), want[name]) < RELATIVE, name
-
-
-@pytest.mark.parametrize("lam", LARGE)
+@pytest.mark.parametrize("lam", LAMBDAS)
 def test_centred_against_the_trapezoidal_rule(lam):
-    want = of_revolution(lam)
+    with mp.workdps(110 if lam > 0.2 else 330):  # orders below lambda = 0.2 go down to SMALLEST
+        want, least = of_revolution(lam), mp.mpf(10) ** (30 - mp.mp.dps)
     for name in SERIES:
         exact = [c if name != "rod" else -c.imag for c in want[name]]
-        exact = [c.real if abs(c) > mp.mpf(10) ** -80 else mp.mpf(0) for c in exact]
+        exact = [c.real if abs(c) > least else mp.mpf(0) for c in exact]
         assert worst(centred(name, ORDERS, lam), exact) < RELATIVE, name
-
-
-def test_the_two_oracles_agree():
-    series, revolution = of_power_series(0.3), of_revolution(0.3)
-    for name in SERIES:
-        for n in ORDERS:
-            scalar = -revolution[name][n].imag if name == "rod" else revolution[name][n].real
-            assert abs(series[name][n] - scalar) < mp.mpf(10) ** -75, (name, n)
 
 
 @pytest.mark.parametrize("lam", [1e-3, 0.3, 0.999])
 def test_means_of_the_squares(lam):
     """Order 0 enters the mean inertia under uneven speed."""
-    want = of_power_series(lam) if lam < 0.3 else of_revolution(lam)
+    want = of_revolution(lam)
     for name in ("kinetic", "rod_kinetic"):
         assert centred(name, [0], lam)[0] == pytest.approx(float(mp.re(want[name][0])), rel=RELATIVE)
 
@@ -180,9 +108,8 @@ def test_high_orders_lose_a_rounding_an_order(lam):
     with mp.workdps(145):
         count = 1700  # aliases of orders above 1098
         turn = [mp.expjpi(mp.mpf(2 * k) / count) for k in range(count)]
-        curves = dict(
-            zip(SERIES, zip(*(motion(e.imag, e.real, mp.mpf(lam), mp.mpf(0)) for e in turn), strict=True), strict=True)
-        )
+        motions = (motion(e.imag, e.real, mp.mpf(lam), mp.mpf(0)) for e in turn)
+        curves = dict(zip(SERIES, zip(*motions, strict=True), strict=True))
         for name, n in (("piston", 600), ("rod", 601), ("kinetic", 600), ("kinetic", 601), ("rod_kinetic", 600)):
             waves = ((e.imag if name == "rod" else e.real) for e in (turn[n * k % count] for k in range(count)))
             want = 2 * mp.fdot(curves[name], waves) / count
@@ -219,23 +146,6 @@ def test_offset_against_the_trapezoidal_rule(lam, eps):
                 assert error <= float(got.noise[0]), (name, n, "beyond its own bound")
 
 
-def test_sampling_agrees_with_the_closed_form_where_there_is_no_offset():
-    orders, lam, eps = np.arange(0, 40), np.array([0.25, 0.31]), np.full(2, 1e-300)
-    closed, sampled = (closed_form.find_harmonics(orders, lam), harmonics.find_harmonics(orders, lam, eps))
-    for name in SERIES:
-        assert np.abs(closed[name].c - sampled[name].c).max() < ABSOLUTE, name
-
-
-def test_equal_mechanisms_are_gathered_in_their_places():
-    """Of three cylinders the middle one has an offset; then all are sampled."""
-    lam, eps = np.array([0.3, 0.3, 0.3]), np.array([0.0, 0.02, 0.0])
-    found = harmonics.find_harmonics([1, 2, 3, 4], lam, eps)["piston"]
-    assert np.abs(found.c[:, 0] - closed_form.piston([1, 2, 3, 4], 0.3)).max() < ABSOLUTE
-    assert np.array_equal(found.c[:, 0], found.c[:, 2])
-    assert found.c[2, 1] != 0
-    assert np.all(found.noise > 0)
-
-
 def test_a_variant_is_the_same_among_any_others():
     """To the last bit."""
     lam, eps = np.array([0.1, 0.6, 0.3, 0.3]), np.array([0.3, 0.35, -0.2, 0.01])
@@ -247,16 +157,3 @@ def test_a_variant_is_the_same_among_any_others():
         single = harmonics.find_harmonics(np.arange(9), lam[k : k + 1], eps[k : k + 1])
         for name in SERIES:
             assert np.array_equal(found[name].c[:, 0, k], single[name].c[:, 0]), name
-
-
-@pytest.mark.parametrize(("lam", "eps"), [(0.3, 0.1), (0.6, 0.39), (0.05, 0.9)])
-def test_an_offset_to_the_other_side_is_the_mirror_image(lam, eps):
-    """Seen in a mirror along the cylinder's axis the crank turns backward: coefficients become
-    conjugate, those of the rod's angle change sign besides; as many samples either way.
-    """
-    assert harmonics.count_samples(lam, eps) == harmonics.count_samples(lam, -eps)
-    orders = np.arange(1, 40)
-    one, other = (harmonics.find_harmonics(orders, np.array([lam]), np.array([e])) for e in (eps, -eps))
-    mirrored = np.conj(one["piston"].c[:, 0])
-    assert np.abs(other["piston"].c[:, 0] - mirrored).max() <= 1e-14 * np.abs(mirrored).max()
-    assert np.abs(other["rod"].c[:, 0] + np.conj(one["rod"].c[:, 0])).max() <= 1e-14 * np.abs(one["rod"].c).max()

@@ -75,7 +75,6 @@ CASES = {
     },
     "shells on the master rods alone": {"layout": "radial = 5", "more": ARTICULATED + BOBWEIGHT},
     "shells on pins that stand still": {"layout": "radial = 5\nrotary = true", "more": BOBWEIGHT},
-    "centred": {"layout": "bank_angle = 70\nstagger = 20", "crank": "throws = [0, 130, 265]\nspacing = 110"},
     "offset": {
         "layout": "banks = [-30, 35]",
         "crank": "throws = [0, 130]\nspacing = 110\nsplay = 12",
@@ -88,7 +87,6 @@ CASES = {
         "operation": RIPPLE,
         "more": "[cylinder.2]\npiston_mass = 2.5\nrod_length = 200\n",
     },
-    "radial with master rod": {"layout": "radial = 7", "more": ARTICULATED},
     "articulated rods weighed at both ends": {"layout": "radial = 7", "more": WEIGHED},
     "articulated rods by ratio, swung": {"layout": "radial = 5", "more": SWUNG},
     "articulated rods weighed and swung, one of its own": {
@@ -109,14 +107,12 @@ CASES = {
         "crank": "throws = [0, 120, 240, 240, 120, 0]\nspacing = 160",
         "more": ARTICULATED.replace("knuckle", "master = 2\nknuckle_angles = [-66.5, 0]\nknuckle"),
     },
-    "rotary": {"layout": "radial = 5\nrotary = true"},
     "rotary in two rows, offset": {
         "layout": "radial = 3\nrotary = true\nstagger = 3",
         "piston": "offset = 11",
         "crank": "throws = [0, 175]\nspacing = 160",
         "more": DISPLACED,
     },
-    "rotary with master rod": {"layout": "radial = 7\nrotary = true", "more": ARTICULATED},
     "rotary with master rods in two rows": {
         "layout": "radial = 5\nrotary = true\nstagger = 4",
         "crank": "throws = [0, 180]\nspacing = 160",
@@ -149,11 +145,9 @@ def compare(text: str) -> None:
     curves, scales = oracle.curves(), oracle.scales()
     found = spectrum.compute_spectra(build_text(text), ORDERS)
     for kind, phasors in found.items():
-        quantity = kind.name
         for row, n in enumerate(ORDERS):
-            forward, backward = curves.order(quantity, int(n))
-            error = max(abs(phasors.forward[row] - forward), abs(phasors.backward[row] - backward)) / scales[quantity]
-            assert error < TOLERANCE, f"{quantity} of order {n:g}: off by {error:.2e}"
+            error = np.abs(phasors.vectors[:, row] - curves.order(kind.name, int(n))).max() / scales[kind.name]
+            assert error < TOLERANCE, f"{kind.name} of order {n:g}: off by {error:.2e}"
 
 
 @pytest.mark.parametrize("name", CASES)

@@ -4,6 +4,8 @@ in matplotlib's settings.
 
 import matplotlib
 import pytest
+from support.commands import run_here
+from support.paths import ENGINES
 from support.rotors import three_runs
 
 import balcli
@@ -38,9 +40,6 @@ def test_an_answer_has_a_figure(name):
 
 
 def test_a_figure_is_written_as_the_command_writes_it(tmp_path):
-    from support.commands import run_here
-    from support.paths import ENGINES
-
     run_here("plot", ENGINES / "i3.toml", "--what", "polar", "-o", tmp_path / "command.svg")
     balcli.plot(THREE, "polar").savefig(tmp_path / "figure.svg", metadata={"Date": None})
     texts = [(tmp_path / f"{name}.svg").read_text() for name in ("command", "figure")]

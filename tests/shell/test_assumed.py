@@ -1,14 +1,20 @@
 """What a file leaves out and a result depends on stands in its document, and at the head of its table."""
 
 import json
+import re
 from pathlib import Path
-from typing import Any
 
 import pytest
 from support.cases import cases
 from support.commands import run_here
+from support.engines import GOOD, changed
+from support.paths import ENGINES, write
 
-FILE = """
+MOUNTS = "".join(
+    f'[[mount]]\nname = "{name}"\nat = [0, {at}]\nstiffness = 200\nloss = 0.1\n'
+    for name, at in (("left", "290, 10"), ("right", "-290, 10"), ("rear", "0, 500"))
+)
+FILE = f"""
 [crank]
 stroke = 80
 spacing = 90
@@ -29,30 +35,11 @@ imep = 9
 mass = 150
 cg = [0, 0, 0]
 inertia = [9e6, 9e6, 5e6, 0, 0, 0]
-[[mount]]
-name = "left"
-at = [0, 290, 10]
-stiffness = 200
-loss = 0.1
-[[mount]]
-name = "right"
-at = [0, -290, 10]
-stiffness = 200
-loss = 0.1
-[[mount]]
-name = "rear"
-at = [0, 0, 500]
-stiffness = 200
-loss = 0.1
-[torsion]
+{MOUNTS}[torsion]
 throw_stiffness = 1e6
 throw_inertia = 10000
 loss = 0.03
-[[torsion.rear]]
-name = "flywheel"
-inertia = 200000
-length = 300
-diameter = 60
+rear = [{{ name = "flywheel", inertia = 200000, length = 300, diameter = 60 }}]
 """
 CRANK = ["layout.strokes = 4", "crank.throws = [0, 180, 180, 0]"]
 GAS = ["gas.compression_index = 1.32", "gas.expansion_index = 1.28", "gas.exhaust_opens = lower dead centre"]
@@ -63,23 +50,20 @@ PARTS = {"CRANK": CRANK, "GAS": GAS, "MODULUS": MODULUS, "MOUNTS": [GRAVITY, FAC
 
 @pytest.fixture
 def file(tmp_path: Path) -> str:
-    path = tmp_path / "four.toml"
-    path.write_text(FILE, encoding="utf-8")
-    return str(path)
+    return str(write(tmp_path / "four.toml", FILE))
 
 
-def ask(command: str, file: str, *options: str) -> dict[str, Any]:
-    found = run_here(command, file, *options, "-f", "json")
+def list_assumed(command: str, file: object, *options: str, stdin: str = "") -> list[str]:
+    found = run_here(command, file, *options, "-f", "json", stdin=stdin)
     assert found.status == 0, found.err
-    answer: dict[str, Any] = json.loads(found.out)
-    return answer
+    return json.loads(found.out).get("assumed", [])
 
 
 @cases("shell/assumed", "each_document_lists_the_defaults_that_it_depends_on", **PARTS)
 def test_each_document_lists_the_defaults_that_it_depends_on(
     command: str, options: list[str], there: list[str], absent: list[str], file: str
 ) -> None:
-    assumed = ask(command, file, *options)["assumed"]
+    assumed = list_assumed(command, file, *options)
     assert {*there} <= {*assumed}
     assert not {*absent} & {*assumed}
     if command != "curves":  # which has no table
@@ -90,51 +74,67 @@ def test_each_document_lists_the_defaults_that_it_depends_on(
 
 @cases("shell/assumed", "masses_that_are_left_out_are_assumed_where_they_count")
 def test_masses_that_are_left_out_are_assumed_where_they_count(
-    command: str, options: list[str], changes: list[list[str]], there: list[str], absent: list[str], file: str
+    command: str, options: list[str], changes: list[list[str]], there: list[str], absent: list[str]
 ) -> None:
     text = FILE
     for old, new in changes:
         assert old in text
         text = text.replace(old, new)
-    Path(file).write_text(text, encoding="utf-8")
-    assumed = ask(command, file, *options)["assumed"]
+    assumed = list_assumed(command, "-", *options, stdin=text)
     assert {*there} <= {*assumed}
     assert not {*absent} & {line.partition(" = ")[0] for line in assumed}
 
 
-def test_what_the_file_gives_is_not_assumed(file: str) -> None:
+def test_what_the_file_gives_is_not_assumed() -> None:
     text = FILE.replace("[layout]", "[layout]\nstrokes = 4").replace("[gas]", "[gas]\nexpansion_index = 1.28")
-    text = text.replace("length = 300", "length = 300\nshear_modulus = 79.3").replace(
-        "spacing", "throws = [0, 180, 180, 0]\nspacing"
-    )
-    Path(file).write_text(text, encoding="utf-8")
-    keys = [line.partition(" = ")[0] for line in ask("torsion", file)["assumed"]]
+    text = text.replace("length = 300", "length = 300, shear_modulus = 79.3")
+    text = text.replace("spacing", "throws = [0, 180, 180, 0]\nspacing")
+    keys = [line.partition(" = ")[0] for line in list_assumed("torsion", "-", stdin=text)]
     assert "gas.compression_index" in keys
     assert not {"layout.strokes", "crank.throws", "gas.expansion_index", "torsion.rear.shear_modulus"} & {*keys}
 
 
 def test_two_engines_have_what_holds_for_one_after_its_name(file: str, tmp_path: Path) -> None:
-    other = tmp_path / "other.toml"
-    other.write_text(FILE.replace("[layout]", "[layout]\nstrokes = 4"), encoding="utf-8")
-    assumed = ask("sum", file, str(other))["assumed"]
+    other = write(tmp_path / "other.toml", FILE.replace("[layout]", "[layout]\nstrokes = 4"))
+    assumed = list_assumed("sum", file, str(other))
     assert CRANK[1] in assumed
     assert "first: layout.strokes = 4" in assumed
 
 
 def test_on_mounts_other_engines_have_theirs_after_their_names(file: str, tmp_path: Path) -> None:
-    other = tmp_path / "other.toml"
-    other.write_text('name = "other four"\n' + FILE.partition("[gas]")[0], encoding="utf-8")
-    assumed = ask("mounts", file, str(other))["assumed"]
+    other = write(tmp_path / "other.toml", 'name = "other four"\n' + FILE.partition("[gas]")[0])
+    assumed = list_assumed("mounts", file, str(other))
     assert {*CRANK, GRAVITY, FACTOR} <= {*assumed}
-    assert [line for line in assumed if line.startswith("other four: crank.throws = [0, 180, 180, 0]")]
+    assert [line for line in assumed if line.startswith(f"other four: {CRANK[1]}")]
 
 
 def test_a_chain_names_the_steel_of_its_shafts() -> None:
-    chain = """
-node = [{ name = "a", inertia = 1e6 }, { name = "b", inertia = 2e6 }]
-shaft = [{ from = "a", to = "b", length = 300, diameter = 60 }]
-"""
-    found = json.loads(run_here("torsion", "-", "-f", "json", stdin=chain).out)
-    assert found["assumed"] == ["shaft.shear_modulus = 79.3"]
-    given = chain.replace("diameter", "shear_modulus = 80, diameter")
-    assert "assumed" not in json.loads(run_here("torsion", "-", "-f", "json", stdin=given).out)
+    chain = 'node = [{ name = "a", inertia = 1e6 }, { name = "b", inertia = 2e6 }]\n'
+    chain += 'shaft = [{ from = "a", to = "b", length = 300, diameter = 60 }]\n'
+    assert list_assumed("torsion", "-", stdin=chain) == ["shaft.shear_modulus = 79.3"]
+    assert list_assumed("torsion", "-", stdin=chain.replace("diameter", "shear_modulus = 80, diameter")) == []
+
+
+# ------------------------------------------------------------------ the speed
+TOLD = "operation.speed = 1000"
+OF_ORDER_2 = ("--minimise", "force.2.major")
+
+
+@cases("shell/assumed_speed", "an_assumed_speed_is_told", OF_ORDER_2=OF_ORDER_2)
+def test_an_assumed_speed_is_told(command: str, options: list[str], others: list[str]) -> None:
+    """And not where the file gives one, or the speed is chosen or varied (`others`)."""
+    without = changed(("speed = 3000", ""))
+    assert TOLD in run_here(command, "-", *options, stdin=without).out
+    assert TOLD not in run_here(command, "-", *options, stdin=GOOD).out
+    if others:
+        found = run_here(command, "-", *others, stdin=without)
+        assert found.status == 0
+        assert TOLD not in found.out
+
+
+def test_mounts_say_up_to_which_assumed_speed_they_go() -> None:
+    own = (ENGINES / "i4_mounts.toml").read_text(encoding="utf-8")
+    without = re.sub(r"(?m)^speed .*", "", own)
+    assert TOLD in run_here("mounts", "-", stdin=without).out
+    assert TOLD not in run_here("mounts", "-", stdin=own).out
+    assert TOLD not in run_here("mounts", "-", "--speeds", "800:900:50", stdin=without).out

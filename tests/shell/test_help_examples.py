@@ -1,11 +1,11 @@
-"""The examples in the help of every command run as they stand."""
+"""Help and completion of every command; the examples in the help run as they stand."""
 
 import shlex
 import shutil
 from pathlib import Path
 
 import pytest
-from support.commands import run_here
+from support.commands import run_here, run_python
 from support.paths import ENGINES
 
 from balcli.cli import COMMANDS
@@ -51,3 +51,20 @@ def test_the_examples_run(command: str, tmp_path: Path, monkeypatch: pytest.Monk
             pytest.importorskip("pyarrow")
         status, _, err = run_here(*shlex.split(line)[1:])
         assert (line, status, err) == (line, 0, err)
+
+
+OFFERED = {
+    "": {*COMMANDS},
+    "ana": {"analyze"},
+    "balance --scheme k": {"knuckles"},
+    "tables liu-": {"liu-1", "liu-2", "liu-3"},
+    "engines vtwin": {"vtwin45", "vtwin90"},
+}
+
+
+@pytest.mark.parametrize("typed", OFFERED)
+def test_tab_offers(typed: str) -> None:
+    """Asked as bash asks it, in a process of its own."""
+    words = {"COMP_WORDS": f"balcli {typed}", "COMP_CWORD": str(typed.count(" ") + 1)}
+    done = run_python("-m", "balcli", env={"_BALCLI_COMPLETE": "complete_bash", **words})
+    assert ({*done.stdout.split()}, done.stderr) == (OFFERED[typed], "")

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import pytest
 import typer
 from support.cases import slow
-from support.commands import ask, run_here, run_python
+from support.commands import ask, run_here
 from support.paths import ENGINES
 
 from balcli import errors
@@ -101,33 +101,24 @@ def test_an_interrupt_that_is_ignored_stays_so() -> None:
 
 
 @unix
-def test_the_last_word_of_what_cannot_end_early() -> None:
-    code = """
-import signal
-import typer
-from balcli.shell.progress import reporting
-signal.signal(signal.SIGINT, signal.default_int_handler)
-try:
-    with reporting("speeds", 200) as tell:
+@pytest.mark.usefixtures("interruptible")
+def test_the_last_word_of_what_cannot_end_early(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(typer.Exit) as ended, progress.reporting("speeds", 200) as tell:  # noqa: PT012 - within it
         tell(50)
         signal.raise_signal(signal.SIGINT)
         print("still here")
-except typer.Exit as end:
-    print(end.exit_code)
-"""
-    done = run_python("-c", code)
-    told = "balcli: stopped after 50 of 200 speeds\n"
-    assert (done.returncode, done.stdout, done.stderr) == (0, "130\n", told)
+    assert ended.value.exit_code == 130
+    assert capsys.readouterr() == ("", "balcli: stopped after 50 of 200 speeds\n")
 
 
 LONG = {
     "sweep": ("sweep", ENGINES / "i4.toml", "--vary", "rod.ratio=0.2:0.3:0.001", "-o", "x.csv"),
     "scatter": ("scatter", ENGINES / "i4.toml", "--samples", "20000"),
-    "search": (*("search", ENGINES / "v8_crossplane.toml"), *("--over", "throws", "--minimise", "moment.1.major")),
+    "search": ("search", ENGINES / "v8_crossplane.toml", "--over", "throws", "--minimise", "moment.1.major"),
     "check": ("check", ENGINES / "i4.toml"),
     "mounts": ("mounts", ENGINES / "i4_mounts.toml"),
     "torsion": ("torsion", ENGINES / "i6_diesel.toml", "--speeds", "1000:1200:10"),
-    "damper": (*("torsion", ENGINES / "i6_diesel.toml"), *("--speeds", "1000:2500:500", "--damper", "viscous")),
+    "damper": ("torsion", ENGINES / "i6_diesel.toml", "--speeds", "1000:2500:500", "--damper", "viscous"),
     "report": ("report", ENGINES / "single.toml", "-o", "x.html"),
 }
 
@@ -151,21 +142,17 @@ def test_all_that_may_take_long_tells_how_far_it_is_to_the_end(
     assert told[-1] == pytest.approx(1)
 
 
-@pytest.mark.parametrize("on_mounts", [False, True])
-def test_a_scatter_that_ctrl_c_ends_is_one_of_fewer_samples(on_mounts: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("asked", [("i4", "force.2.major", 20_000, 8192), ("i4_mounts", "mode.1.Hz", 30, 7)])
+def test_a_scatter_that_ctrl_c_ends_is_one_of_fewer_samples(asked: tuple, monkeypatch: pytest.MonkeyPatch) -> None:
     """The same as of so many samples asked for."""
-    file, what, all_of_them, some = (
-        (ENGINES / "i4_mounts.toml", "mode.1.Hz", 30, 7)
-        if on_mounts
-        else (ENGINES / "i4.toml", "force.2.major", 20_000, 8192)
-    )
+    file, what, all_of_them, some = asked
     listen = progress.Progress.__call__
 
     def stop(self: progress.Progress, done: float) -> bool:
         self.stopped = done >= some
         return listen(self, done)
 
-    args = ("scatter", file, "--quantity", what, "--seed", "1", "-f", "json", "--samples")
+    args = ("scatter", ENGINES / f"{file}.toml", "--quantity", what, "--seed", "1", "-f", "json", "--samples")
     whole = run_here(*args, some)
     monkeypatch.setattr(progress.Progress, "__call__", stop)
     status, out, err = run_here(*args, all_of_them)

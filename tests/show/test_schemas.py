@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 from jsonschema import Draft202012Validator
 from support.cases import slow
-from support.commands import ask, refusal, run_here
+from support.commands import ask, run_here
 from support.gas_engines import WIEBE
 from support.paths import ENGINES, GEARED_FILES
 
@@ -154,21 +154,3 @@ def test_the_command_prints_the_schema_with_its_address_and_units(name: str) -> 
     assert schema["properties"]["format"]["const"] == f"balcli.{name}/1"
     assert {"format", "version"} <= {*schema["required"]}
     assert "additionalProperties" not in schema  # new keys may be added
-
-
-def test_units_come_from_the_names() -> None:
-    node = describe_document("torsion")["$defs"]
-    shown = {key: field.get("description", "") for part in node.values() for key, field in part["properties"].items()}
-    assert shown["inertia_kg_m2"].endswith("[kg·m²]")
-    assert shown["stiffness_Nm_per_rad"].endswith("[N·m/rad]")
-    assert "[" not in shown["node_in"]
-
-
-def test_a_result_that_there_is_not() -> None:
-    assert refusal("schema", "--of", "serach") == ("--of serach: there is no such result; did you mean search?")
-    assert refusal("schema", "--of", "zzz").startswith(
-        "--of zzz: there is no such result; there are analysis, balance, "
-    )
-    assert refusal("schema", "field", "--of", "field") == (
-        "--of field names a result; leave out field, which is a kind of file"
-    )

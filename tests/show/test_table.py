@@ -13,7 +13,7 @@ from balcli import analyze, load
 from balcli.analysis import comparison, show as analysis
 from balcli.analysis.comparison import compare
 from balcli.show.sheet import Facts, Grid, Sheet, Text, View
-from balcli.show.table import PROSE, WIDTH, count_places, fold, plain_text
+from balcli.show.table import PROSE, WIDTH, count_places, fold, write_text
 from balcli.show.units import SYSTEMS
 
 WIDE = 100_000
@@ -67,7 +67,7 @@ def test_an_analysis_and_a_comparison_are_as_rich_prints_them():
         analysis.sheet(analyze(engines[0]), si, View()),
         comparison.sheet(compare(*engines, names=["single", "i4", "vr6"]), si),
     ]
-    assert plain_text(sheets) == print_by_rich(sheets)
+    assert write_text(sheets) == print_by_rich(sheets)
 
 
 LETTERS = "a few words of different length, 七气缸 and e\u0301tude, μ − ω"
@@ -84,7 +84,7 @@ def test_any_grid_is_as_rich_prints_it(cells):
         Text("Title", (LETTERS, LONG, "")),
     )
     sheets = [Sheet("七 cylinders", parts), Sheet("second", parts[:1])]
-    assert plain_text(sheets) == print_by_rich(sheets)
+    assert write_text(sheets) == print_by_rich(sheets)
 
 
 def test_words_are_folded_between_blanks_and_long_ones_within():
@@ -100,16 +100,16 @@ def test_letters_take_the_places_they_have_in_a_terminal():
 
 def test_control_characters_command_nobody():
     sheet = Sheet("a\x1b[31m", (Text("", ("b\u202e", "c\x9b")),))
-    assert plain_text([sheet]) == "a?[31m\n\nb?\nc?\n"
+    assert write_text([sheet]) == "a?[31m\n\nb?\nc?\n"
 
 
 def test_a_wide_table_is_narrowed_to_80_columns_but_no_figure_is_folded():
     heads = ("step", *(f"a head of several words, unit {k}" for k in range(6)))
     cells = ("2 counterweights at every throw", *("12345.6 ≠ 7",) * 6)
-    lines = plain_text([Sheet("s", (Grid("", heads, (cells,)),))]).splitlines()
+    lines = write_text([Sheet("s", (Grid("", heads, (cells,)),))]).splitlines()
     assert max(map(len, lines[2:])) > 80  # six figures of 11 places do not fit
     assert any(line.count("12345.6 ≠ 7") == 6 for line in lines)
     cells = ("2 counterweights at every throw", *("12345",) * 6)
-    lines = plain_text([Sheet("s", (Grid("", heads, (cells,)),))]).splitlines()
+    lines = write_text([Sheet("s", (Grid("", heads, (cells,)),))]).splitlines()
     assert max(map(len, lines)) == 80
     assert " ".join(" ".join(lines).split()).count("12345") == 6

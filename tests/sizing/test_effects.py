@@ -25,15 +25,18 @@ def residual(noise: float = 1e-16, **parts: complex) -> Residual:
     return Residual(2, found, dict.fromkeys(found, noise), ReferencePoint(0j, 0.0), 1.0)
 
 
+def find_total(slots: list[Slot], unbalances: tuple[complex, ...], parts: tuple[ResidualPart, ...]) -> np.ndarray:
+    """Effect of all devices on each part, about a point of reference on the crank axis."""
+    devices = [slot.make_device(u) for slot, u in zip(slots, unbalances, strict=True)]
+    return sum(find_effect(device, parts, ReferencePoint(0j, 0.0)) for device in devices)
+
+
 @given(VECTOR, VECTOR)
 def test_two_planes_take_any_force_and_moment(force, moment):
     slots = [Slot("shaft", 2, 1, z) for z in (-0.3, 0.2)]
     fit = size_unbalances(slots, residual(forward=force, moment=moment), (FORCE, MOMENT))
-    left = sum(
-        find_effect(s.make_device(u), (FORCE, MOMENT), ReferencePoint(0j, 0.0))
-        for s, u in zip(slots, fit.unbalances, strict=True)
-    )
-    assert left == pytest.approx([-force, -moment], rel=1e-13, abs=1e-13 * (abs(force) + abs(moment)))
+    total = find_total(slots, fit.unbalances, (FORCE, MOMENT))
+    assert total == pytest.approx([-force, -moment], rel=1e-13, abs=1e-13 * (abs(force) + abs(moment)))
 
 
 @given(VECTOR, VECTOR)
@@ -49,10 +52,7 @@ def test_a_force_and_a_roll_by_shafts_at_three_places():
     parts = (FORCE, BACK, ROLL)
     asked = residual(forward=1 + 2j, backward=0.5 - 1j, roll=0.3 + 0.1j)
     fit = size_unbalances(slots, asked, parts)
-    total = sum(
-        find_effect(s.make_device(u), parts, ReferencePoint(0j, 0.0))
-        for s, u in zip(slots, fit.unbalances, strict=True)
-    )
+    total = find_total(slots, fit.unbalances, parts)
     assert total == pytest.approx([-asked.parts[p] for p in parts], rel=1e-13)
 
 

@@ -7,6 +7,7 @@ import math
 import numpy as np
 import pytest
 from support.commands import ask, ask_json, refusal, run_here
+from support.engines import engine_text
 
 from balcli.analysis.answer import analyze
 from balcli.balancing.answer import insert_remedy
@@ -15,23 +16,12 @@ from balcli.engine.parse import parse
 from balcli.errors import BalcliError
 from balcli.sizing.fit import find_scales, remove_to_fit, size_fit
 
-THREE = """
-[crank]
-stroke = 77.4
-throws = [0, 240, 120]
-spacing = 82
-throw_mass = 0.55
-[rod]
-length = 130
-mass = 0.39
-cg = 36
-inertia = 1200
-[piston]
-bore = 74
-mass = 0.32
-[operation]
-speed = 6000
-"""
+THREE = engine_text(
+    crank="stroke = 77.4\nthrows = [0, 240, 120]\nspacing = 82\nthrow_mass = 0.55",
+    rod="length = 130\nmass = 0.39\ncg = 36\ninertia = 1200",
+    piston="bore = 74\nmass = 0.32",
+    operation="speed = 6000",
+)
 GAS = '[gas]\ncycle = "otto"\ncompression_ratio = 9\nimep = 8\n'
 SINGLE = THREE.replace("[0, 240, 120]", "[0]")
 
@@ -144,15 +134,11 @@ def test_written_figures_stand_where_the_word_stood(tmp_path):
     assert "not determined" not in ask("balance", tmp_path / "e.toml")
 
 
-COMMANDS = ("analyze", "curves", "check")
-
-
-@pytest.mark.parametrize("command", COMMANDS)
+@pytest.mark.parametrize("command", ["analyze", "curves", "check"])
 def test_other_commands_name_the_device(tmp_path, command):
     (tmp_path / "e.toml").write_text(THREE + device("shaft", ratio=-1))
-    found = run_here(command, tmp_path / "e.toml")
-    assert found.status == 2
-    assert 'shaft.1.unbalance is "fit": run balcli balance FILE --write OUT' in found.err
+    status, _, err = run_here(command, tmp_path / "e.toml")
+    assert (status, 'shaft.1.unbalance is "fit": run balcli balance FILE --write OUT' in err) == (2, True)
 
 
 def test_what_does_not_go_together(tmp_path):

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given, strategies as st
 from support.engines import build_text
-from support.remedies import SMALL, figures, find_orders, fit_scheme, size_scheme
+from support.remedies import SMALL, figures, find_orders, fit_scheme, size_scheme, weigh
 
 from balcli.core.peaks import find_peak
 from balcli.errors import BalcliError
@@ -16,7 +16,7 @@ from balcli.sizing.remedy import fit_devices
 from balcli.sizing.sizing import size
 
 
-@pytest.mark.parametrize("more", ["", "[[counterweight]]\nunbalance = 30000\nangle = 170\n"])
+@pytest.mark.parametrize("more", ["", weigh(30000, 170)])
 def test_minimax_reaches_what_it_says_where_it_says(more):
     """The peak, the crank angles at which it is reached, and the gain over half the reciprocating
     mass, by the analysis.
@@ -51,11 +51,7 @@ def test_minimax_in_several_planes_takes_the_moment_too():
     )
     after = compute_spectra(fit_devices(engine, several), [1], ("moment",)).moment
     assert abs(after.forward[0]) <= 1e-13 * abs(after.backward[0])
-    with pytest.raises(
-        BalcliError,
-        match=r"--planes: one plane, or planes at the same z, cannot take a moment; "
-        r"choose two planes with some distance between them$",
-    ):
+    with pytest.raises(BalcliError, match="--planes: one plane, or planes at the same z, cannot take a moment; choose"):
         size_scheme(engine, "minimax", planes=(0.1,))
 
 

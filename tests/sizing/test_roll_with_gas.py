@@ -5,6 +5,7 @@ import json
 import numpy as np
 import pytest
 from support.commands import ask_json, run_here
+from support.engines import engine_text
 from support.paths import write
 
 from balcli.file import examples
@@ -12,24 +13,14 @@ from balcli.file import examples
 # As of the file: crank radius, rod, bore (m), reciprocating mass (kg), crank speed (rad/s).
 R, L, BORE, MASS, OMEGA = 0.043, 0.139, 0.086, 0.5, 4000 * np.pi / 30
 COS, SIN = 2.0, 3.5  # bar, of order 2 of the mean tangential pressure of a cylinder
-FILE = """
-name = "four"
-[crank]
-stroke = 86
-throws = [0, 180, 180, 0]
-spacing = 94
-[rod]
-length = 139
-[piston]
-bore = 86
-mass = 0.5
-[layout]
-firing_order = [1, 3, 4, 2]
-[operation]
-speed = 4000
-[gas]
-harmonics = "tangential.csv"
-"""
+FILE = engine_text(
+    crank="stroke = 86\nthrows = [0, 180, 180, 0]\nspacing = 94",
+    rod="length = 139",
+    piston="bore = 86\nmass = 0.5",
+    layout="firing_order = [1, 3, 4, 2]",
+    operation="speed = 4000",
+    gas='harmonics = "tangential.csv"',
+)
 
 
 @pytest.fixture
@@ -87,7 +78,9 @@ def test_knuckle_angles_change_the_roll_of_the_gas_in_half_orders_too(tmp_path):
     radial.write_text(examples.text("radial7_articulated") + gas)
     asked = ("balance", radial, "--scheme", "knuckles", "--write", even, "-f", "json")
     found = json.loads(run_here(*asked).out)
-    rows = {line[:6].strip(): line.split() for line in run_here(*asked[:4]).out.splitlines()}
+    table = run_here(*asked[:4]).out
+    assert "with gas," in table
+    rows = {line[:6].strip(): line.split() for line in table.splitlines()}
     for state, file, column in (("before", radial, -2), ("after", even, -1)):
         told = {entry["order"]: entry["roll_total_Nm"] for entry in found[state]["orders"]}
         options = ("--only", "roll_total", "--orders", "3.5,7", "-f", "json")

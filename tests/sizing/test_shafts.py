@@ -123,9 +123,6 @@ def test_a_force_has_no_free_place():
     assert "At 0, 0 (on the crank axis), a shaft adds no roll about this axis" in table
 
 
-# ------------------------------------------------------------------ an order that was not asked for
-
-
 # ------------------------------------------------------------------ moment compensators
 @pytest.mark.parametrize("places", [(3.0,), (-2.0, 3.0)])
 @pytest.mark.parametrize(("path", "order"), [(I5, 2), (I3, 1), (I3, 2), (V6, 1), (V6, 2)])

@@ -5,13 +5,12 @@ import re
 import numpy as np
 import pytest
 from support.commands import ask, ask_json
-from support.engines import build_text
+from support.engines import build_text, engine_text
 from support.paths import ENGINES
+from support.remedies import weigh
 
 from balcli.analysis.answer import analyze
-from balcli.engine.build import build
 from balcli.engine.load import load
-from balcli.engine.parse import parse
 from balcli.errors import BalcliError
 from balcli.forces.crankshaft import find_crank_loads
 from balcli.forces.spectrum import compute_spectra
@@ -20,30 +19,18 @@ from balcli.sizing.remedy import fit_devices
 from balcli.sizing.sizing import size
 
 AT_THROWS = SchemeOptions(planes="throws")
-FOUR = """
-[crank]
-stroke = 86
-throws = [0, 180, 180, 0]
-spacing = 94
-throw_mass = 0.8
-[rod]
-length = 139
-mass = 0.57
-cg = 39
-inertia = 2000
-[piston]
-bore = 86
-mass = 0.51
-[layout]
-firing_order = [1, 3, 4, 2]
-[operation]
-speed = 7000
-"""
+FOUR = engine_text(
+    crank="stroke = 86\nthrows = [0, 180, 180, 0]\nspacing = 94\nthrow_mass = 0.8",
+    rod="length = 139\nmass = 0.57\ncg = 39\ninertia = 2000",
+    piston="bore = 86\nmass = 0.51",
+    layout="firing_order = [1, 3, 4, 2]",
+    operation="speed = 7000",
+)
 
 
 def test_weights_at_every_throw_unload_the_bearings_of_an_in_line_four():
     """48.23 to 12.53 kN, by momentum of rigid bodies on a grid; free forces stay as they are."""
-    engine = build(parse(FOUR))
+    engine = build_text(FOUR)
     fitted = fit_devices(engine, size(engine, "counterweights", AT_THROWS))
     before, after = find_crank_loads(engine), find_crank_loads(fitted)
     assert (before.main_N, before.main_mm) == pytest.approx((48227.52541877826, 0))
@@ -71,16 +58,10 @@ def test_they_are_those_of_half_the_reciprocating_mass(name):
     assert np.allclose(vectors(ours), vectors(half), rtol=0, atol=1e-9 * largest)
 
 
-@pytest.mark.parametrize("change", ["", "[[counterweight]]\nunbalance = 20000\nangle = 30\nposition = 11\n"])
+@pytest.mark.parametrize("change", ["", weigh(20000, 30, 11)])
 def test_nothing_of_order_1_is_left_whatever_the_file_has(change):
-    engine = build(
-        parse(
-            FOUR.replace("throws = [0, 180, 180, 0]", "throws = [0, 90, 270, 180]")
-            .replace("[1, 3, 4, 2]", "[]")
-            .replace("firing_order = []\n", "")
-            + change
-        )
-    )
+    cross = FOUR.replace("[0, 180, 180, 0]", "[0, 90, 270, 180]").replace("firing_order = [1, 3, 4, 2]", "")
+    engine = build_text(cross + change)
     fitted = fit_devices(engine, size(engine, "counterweights", AT_THROWS))
     found = compute_spectra(fitted, [1], ("force", "moment"))
     assert abs(found["force"].forward[0]) < 1e-9 * engine.omega**2

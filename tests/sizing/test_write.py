@@ -9,7 +9,7 @@ from balcli.analysis.answer import analyze
 from balcli.balancing.answer import insert_remedy
 from balcli.errors import BalcliError
 from balcli.sizing.options import SCHEMES
-from balcli.sizing.remedy import fit_devices
+from balcli.sizing.remedy import Remedy, fit_devices
 from balcli.sizing.sizing import size
 
 
@@ -20,6 +20,11 @@ def figures(engine):
         found.peak.force,
         found.peak.moment,
     )
+
+
+def check(text: bytes, remedy: Remedy) -> None:
+    """The text with a remedy is exactly the engine with its devices."""
+    assert figures(build_text(insert_remedy(text, remedy))) == figures(fit_devices(build_text(text), remedy))
 
 
 @pytest.mark.parametrize("scheme", sorted(set(SCHEMES) - {"compensator", "eccentric-slider", "oldham", "step"}))
@@ -33,7 +38,7 @@ def test_every_written_engine_reads_back_to_exactly_what_was_promised(path, sche
         pytest.skip("pins that stand still have no factor")
     wanted = {"direction": 20.0, "ratio": 0.4} if scheme == "ellipse" else {}
     remedy = size_scheme(engine, scheme, small=0, **wanted)
-    assert figures(build_text(insert_remedy(text, remedy))) == figures(fit_devices(engine, remedy))
+    check(text, remedy)
 
 
 @pytest.mark.parametrize("scheme", ["auto", "minimax", "two-shaft", "slider", "factor"])
@@ -43,9 +48,7 @@ def test_devices_of_the_file_stay(scheme):
         '[[slider]]\norder = 2\nunbalance = "3 kg*mm"\ndirection = 20\n'
         "[[counterweight]]\nmass = 0.3\nradius = 50\n"
     )
-    engine = build_text(SINGLE + own)
-    remedy = size(engine, scheme)
-    assert figures(build_text(insert_remedy((SINGLE + own).encode(), remedy))) == figures(fit_devices(engine, remedy))
+    check((SINGLE + own).encode(), size(build_text(SINGLE + own), scheme))
 
 
 def test_the_text_stays_and_reasons_stand_beside_the_devices():
@@ -62,18 +65,15 @@ def test_the_text_stays_and_reasons_stand_beside_the_devices():
 )
 def test_marks_and_line_ends(dressed):
     text = dressed(SINGLE).encode()
-    engine = build_text(text)
-    remedy = size(engine, "auto")
-    assert figures(build_text(insert_remedy(text, remedy))) == figures(fit_devices(engine, remedy))
+    check(text, size(build_text(text), "auto"))
 
 
 def test_an_inline_list_of_devices_is_written_anew():
     text = "counterweight = [{ unbalance = 500, angle = 180 }]  # by hand\n" + SINGLE
-    engine = build_text(text)
-    remedy = size(engine, "auto")
+    remedy = size(build_text(text), "auto")
     new = insert_remedy(text.encode(), remedy)
     assert new.startswith("# Comments and layout of the original could not be kept")
-    assert figures(build_text(new)) == figures(fit_devices(engine, remedy))
+    check(text.encode(), remedy)
 
 
 @pytest.mark.parametrize("scheme", ["eccentric-slider", "oldham"])

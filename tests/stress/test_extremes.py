@@ -94,8 +94,7 @@ def test_closed_forms_at_any_lambda(exponent, which, n):
     assert error("piston" if n % 2 == 0 else "rod", [n], lam) < BOUNDS["closed forms"]
 
 
-# ------------------------------------------------------------------ offset and articulated
-# mechanisms
+# ------------------------------------------------------------------ offset and articulated mechanisms
 def revolution(motion, count: int, orders: list[int]) -> list[list[mp.mpc]]:
     """Coefficients of `Re c_n e^{i n psi}` of each curve, from as many samples as the product takes."""
     turn = [mp.expjpi(mp.mpf(2 * k) / count) for k in range(count)]
@@ -166,15 +165,11 @@ def vee(short: float, master: int = 1) -> Engine:
     """A V twin whose articulated rod comes this close to dead lock: its angle's sine reaches 1 -
     short, or short - 1 where the second cylinder has the master rod.
     """
+    rod = {"length": DEAD / (1 - short), "mass": 0.8, "cg": 40}
     return engine(
-        crank={"stroke": 100},
         rod={"length": 180, "mass": 1, "cg": 50},
         layout={"banks": [-22.5, 22.5]},
-        articulation={
-            "master": master,
-            "knuckle_radius": 40,
-            "rod": {"length": DEAD / (1 - short), "mass": 0.8, "cg": 40},
-        },
+        articulation={"master": master, "knuckle_radius": 40, "rod": rod},
     )
 
 
@@ -213,11 +208,6 @@ def test_an_articulated_rod_nearer_to_dead_lock_is_refused_with_the_number():
     assert len(find_relevant_orders(vee(2e-6))) == 1 << 14
     with pytest.raises(InputError, match=r"is 0\.9999995\d* rod lengths off .*at most 1 - 1e-06 is allowed"):
         vee(5e-7)
-
-
-def short(number: int) -> float:
-    """Of the lock, by the number of a cylinder."""
-    return 1e-6 * (1.1 + number / 1000)
 
 
 @pytest.mark.parametrize(
@@ -292,15 +282,10 @@ def test_scale(stroke, mass, speed):
     """Forces go with m r omega^2, moments with the length too: bores of a um to a km, to 16 roundings."""
 
     def found(stroke, mass, speed):
-        return analyze(
-            engine(
-                crank={"stroke": stroke, "throws": [0, 90], "spacing": stroke, "throw_mass": mass / 2},
-                rod={"ratio": 0.3},
-                piston={"mass": mass, "bore": stroke},
-                operation={"speed": speed},
-            ),
-            only=QUANTITIES,
-        )
+        crank = {"stroke": stroke, "throws": [0, 90], "spacing": stroke, "throw_mass": mass / 2}
+        piston = {"mass": mass, "bore": stroke}
+        whole = engine(crank=crank, rod={"ratio": 0.3}, piston=piston, operation={"speed": speed})
+        return analyze(whole, only=QUANTITIES)
 
     one, other = found(100, 1, 60), found(stroke, mass, speed)
     size = mass * stroke / 100 * (speed / 60) ** 2

@@ -63,16 +63,14 @@ def test_the_order_of_cylinders_in_the_file_does_not_matter(seed):
     """
     order = [0, *(1 + np.random.default_rng(seed).permutation(7)).tolist()]
     one, other = (compute_spectra(listed(each), ORDERS) for each in (list(range(8)), order))
+    whole = listed(list(range(8)))
+    parts = [compute_spectra(alone(whole, n), ORDERS) for n in whole.numbers]
     for q in KINDS:
         p, o = getattr(one, q), getattr(other, q)
-        sizes = sum(getattr(part, q).major for part in alone_each(listed(list(range(8)))))
+        sizes = sum(getattr(part, q).major for part in parts)
         for way in ("forward", "backward"):
             error = np.abs(getattr(p, way) - getattr(o, way))
             assert np.all(error <= 8 * len(order) * EPS * sizes), q
-
-
-def alone_each(whole: Engine) -> list:
-    return [compute_spectra(alone(whole, n), ORDERS) for n in whole.numbers]
 
 
 LARGEST = """

@@ -90,13 +90,8 @@ def engines(draw: st.DrawFn) -> Tables:
         "slider": [draw(devices(order=st.integers(1, 4), direction=angles, at=points))],
     }
     if draw(st.booleans()):
-        model["cylinder"] = {
-            "1": {
-                "piston_mass": draw(figures(0, 3)),
-                "piston_offset": draw(figures(-10, 10)),
-                "rod_length": draw(figures(150, 300)),
-            }
-        }
+        first = {"piston_mass": draw(figures(0, 3)), "piston_offset": draw(figures(-10, 10))}
+        model["cylinder"] = {"1": first | {"rod_length": draw(figures(150, 300))}}
     return model
 
 
@@ -190,13 +185,16 @@ def in_a_mirror(m: Tables) -> None:
             device["at"][1] *= -1
 
 
+def place_throws(m: Tables, sense: int = 1, shift: float = 0.0) -> None:
+    """Positions in place of the spacing."""
+    spacing, count = m["crank"].pop("spacing"), len(m["crank"]["throws"])
+    m["crank"]["positions"] = [shift + sense * (t - (count - 1) / 2) * spacing for t in range(count)]
+
+
 def end_to_end(m: Tables) -> None:
     """Throws in reverse: the plane of x and y as a mirror."""
-    crank, layout = m["crank"], m["layout"]
-    count = len(crank["throws"])
-    crank["positions"] = [-(t - (count - 1) / 2) * crank["spacing"] for t in range(count)]
-    del crank["spacing"]
-    layout["stagger"] = -layout.get("stagger", 0)
+    place_throws(m, sense=-1)
+    m["layout"]["stagger"] = -m["layout"].get("stagger", 0)
     m["frame"]["reference"][2] *= -1
     for device in (*m["counterweight"], *m["shaft"], *m["slider"]):
         device["position"] *= -1
@@ -251,28 +249,10 @@ def test_an_engine_with_its_throws_in_reverse(model):
 
 
 @quick
-@given(engines())
-def test_time_reversed(model):
-    """What turns backward through the same angles at the same speeds makes the same forces at each of them; seen
-    from its other end (half a turn about x) it is an engine that turns forward, at crank angle -theta.
-    """
-    one, other = made(model), made(changed(changed(model, in_a_mirror), end_to_end))
-    before, after, scale = found(one), found(other), sizes(one)
-    theta = np.radians(np.arange(0.0, 360.0, 30.0))
-    for q in KINDS:
-        seen = np.conj if q in ("force", "moment") else np.negative
-        error = np.abs(getattr(after, q).values(-theta) - seen(getattr(before, q).values(theta))).max()
-        assert error <= 2 * len(ORDERS) * (SCALED * scale[q] + rounding(getattr(before, q), getattr(after, q))), q
-
-
-@quick
 @given(engines(), figures(-500, 500))
 def test_shifted_along_the_crank_with_its_point_of_reference(model, shift):
     def change(m: Tables) -> None:
-        crank = m["crank"]
-        count = len(crank["throws"])
-        crank["positions"] = [shift + (t - (count - 1) / 2) * crank["spacing"] for t in range(count)]
-        del crank["spacing"]
+        place_throws(m, shift=shift)
         m["frame"]["reference"][2] += shift
         for device in (*m["counterweight"], *m["shaft"], *m["slider"]):
             device["position"] += shift
@@ -345,25 +325,13 @@ def test_two_engines_on_one_crank_add_up(model, more, where):
 def test_every_mass_in_two_parts(model, share):
     """All moving masses of the cylinders split in one proportion between two engines at the same place."""
     model.pop("cylinder", None)
-    del model["crank"]["spacing"]
-    throws = model["crank"]["throws"]
-    along = [37.0 * t for t in range(len(throws))]
-
-    def masses(part: float) -> Any:
-        """Of each throw: pistons, rods and the throw's own, in this proportion."""
-
-        def change(m: Tables) -> None:
-            m["piston"]["mass"] *= part
-            m["crank"]["throw_mass"] *= part
-            for key in {"mass", "inertia", "small_end", "big_end"} & m["rod"].keys():
-                m["rod"][key] *= part
-
-        return change
-
-    bare = without_devices(model)
-    placed = [changed(m, lambda m: m["crank"].update(throws=throws, positions=along)) for m in (model, bare)]
-    one = made(placed[0])
-    parts = [found(made(changed(m, masses(part)))) for m, part in zip(placed, (share, 1 - share), strict=True)]
+    one, parts = made(model), []
+    for tables, part in ((copy.deepcopy(model), share), (without_devices(model), 1 - share)):
+        tables["piston"]["mass"] *= part
+        tables["crank"]["throw_mass"] *= part
+        for key in {"mass", "inertia", "small_end", "big_end"} & tables["rod"].keys():
+            tables["rod"][key] *= part
+        parts.append(found(made(tables)))
     assert_sum(found(one), parts, sizes(one))
 
 

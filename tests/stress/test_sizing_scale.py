@@ -18,16 +18,8 @@ from balcli.sizing.sizing import size
 pytestmark = pytest.mark.stress
 
 LEFT = 1e-12
-APART = (
-    "auto",
-    "complete",
-    "compensator",
-    "step",
-    "two-shaft",
-    "ellipse",
-    "eccentric-slider",
-    "oldham",
-)  # stressed below, or of one cylinder
+# stressed below, or of one cylinder
+APART = ("auto", "complete", "compensator", "step", "two-shaft", "ellipse", "eccentric-slider", "oldham")
 
 
 def share_left(engine: Engine, after: Engine, quantities=("force", "moment")) -> float:
@@ -48,10 +40,8 @@ def random_engine(seed: int) -> Engine:
     )
     return build_text(
         engine_text(
-            crank=f"stroke = 100\nthrows = {list(map(float, r.uniform(0, 360, throws)))}\n"
-            "positions = "
-            f"{list(map(float, np.sort(r.uniform(-400, 400, throws))))}\nthrow_mass = "
-            f"{r.uniform(0, 3)}",
+            crank=f"stroke = 100\nthrows = {r.uniform(0, 360, throws).tolist()}\n"
+            f"positions = {np.sort(r.uniform(-400, 400, throws)).tolist()}\nthrow_mass = {r.uniform(0, 3)}",
             rod=f"ratio = {r.uniform(0.05, 0.5)}\nmass = {r.uniform(0, 2)}\ncg = {r.uniform(0, 100)}",
             piston=f"mass = 1\noffset = {r.choice([0.0, 3.0, -8.0])}",
             layout=f"banks = {list(map(float, r.uniform(-180, 180, banks)))}\nstagger = {r.choice([0.0, 22.0])}",

@@ -7,6 +7,7 @@ from itertools import product
 
 import numpy as np
 import pytest
+from support.cases import cases
 from support.commands import refusal, run_here
 from support.engines import build_text
 from support.gas_engines import PETROL_FOUR
@@ -55,32 +56,12 @@ def test_cycles_that_cannot_be_are_told_with_their_figures(tmp_path):
     assert told.startswith(f"{path}: gas.burn_duration = 200: 2 mistakes\n")
 
 
-KINDS = {
-    "wiebe": 'cycle = "wiebe"\ncompression_ratio = 10\nimep = 9\n',
-    "otto": 'cycle = "otto"\ncompression_ratio = 10\nimep = 9\n',
-    "dual": 'cycle = "dual"\ncompression_ratio = 10\nimep = 9\nmax_pressure = 50\n',
-    "diagram": 'indicator = "p.csv"\nimep = 9\ncompression_ratio = 10\n',
-    "harmonics": 'harmonics = "h.csv"\n',
-    "harmonics, one diagram": 'harmonics = "h.csv"\n[cylinder.3]\nindicator = "p.csv"\n',
-}
-FIGURES = {  # of [gas], at which each may stand
-    "compression_ratio": (9, 11),
-    "compression_index": (1.3, 1.35),
-    "intake": (0.9, 1.1),
-    "expansion_index": (1.25, 1.3),
-    "exhaust": (1.1, 1.2),
-    "crankcase": (1, 1.2),
-    "imep": (8, 9.5),
-    "bmep": (7, 8),
-    "heat": (900, 1000),
-    "max_pressure": (52, 55),
-    "burn_start": (-10, -8),
-    "burn_duration": (40, 50),
-    "burn_shape": (1, 2),
-    "exhaust_opens": (130, 140),
-    "intake_closes": (570, 580),
-    "phase": (-1, 1),
-}
+FIGURES = """
+compression_ratio=9,11 compression_index=1.3,1.35 intake=0.9,1.1 expansion_index=1.25,1.3 exhaust=1.1,1.2 crankcase=1,1.2
+imep=8,9.5 bmep=7,8 heat=900,1000 max_pressure=52,55 burn_start=-10,-8 burn_duration=40,50 burn_shape=1,2
+exhaust_opens=130,140 intake_closes=570,580 phase=-1,1
+"""
+FIGURES = dict(figure.split("=") for figure in FIGURES.split())  # of [gas], at which each may stand
 
 
 def list_numbers(path) -> set[str]:
@@ -90,8 +71,8 @@ def list_numbers(path) -> set[str]:
 
 
 @pytest.mark.parametrize("strokes", [pytest.param(2, marks=pytest.mark.stress), 4])
-@pytest.mark.parametrize("kind", KINDS)
-def test_what_can_be_varied_of_the_gas_changes_it(kind, strokes, tmp_path):
+@cases("studies/gas_variants", "kinds")
+def test_what_can_be_varied_of_the_gas_changes_it(kind, gas, strokes, tmp_path):
     """The rest is no number of this file: the same figures in every row told nothing of that."""
     cycle = np.arange(0, 180 * strokes + 1, 10)
     pressure = 1 + 40 * np.exp(-(((cycle - 20) / 60) ** 2))
@@ -103,10 +84,10 @@ def test_what_can_be_varied_of_the_gas_changes_it(kind, strokes, tmp_path):
     text = PETROL_FOUR.partition("[gas]")[0].replace("[layout]", f"[layout]\nstrokes = {strokes}")
     if strokes == 2:
         text = text.replace("[0, 180, 180, 0]", "[0, 90, 270, 180]")
-    path.write_text(f"{text}[gas]\n{KINDS[kind]}", encoding="utf-8")
+    path.write_text(f"{text}[gas]\n{gas}", encoding="utf-8")
     known = list_numbers(path)
     for key, values in FIGURES.items():
-        vary = f"gas.{key}={values[0]},{values[1]}"
+        vary = f"gas.{key}={values}"
         if kind != "harmonics" and key == "bmep":
             vary = f"gas.mechanical_efficiency=0.9 --vary {vary}"
         done = run_here("sweep", path, "--vary", *vary.split(), "-q", "torque.max,gas.1.sin")
@@ -140,13 +121,7 @@ def test_where_all_cylinders_have_diagrams_no_number_is_of_the_cycle(tmp_path):
     assert list_numbers(path) & of_gas == {"phase", "mechanical_efficiency", "crankcase"}
 
 
-@pytest.mark.parametrize(
-    ("vary", "told"),
-    [
-        (("gas.imep=8,9", "gas.heat=900"), "gas.imep and gas.heat give the same figure; vary one of them"),
-        (("gas.bmep=8",), "{}: gas.bmep = 8: gas: has bmep without mechanical_efficiency; give both, or imep"),
-    ],
-)
+@cases("studies/gas_variants", "goals_that_contradict_each_other")
 def test_goals_that_contradict_each_other_are_refused(vary, told, tmp_path):
     """The first alone counted; nothing counted, and cells stayed empty."""
     path = write(tmp_path / "four.toml", FOUR)

@@ -186,17 +186,7 @@ def test_what_is_wrong_is_told(kind, call, message):
     assert str(caught.value).startswith(message)
 
 
-@pytest.mark.parametrize(
-    "call",
-    [
-        "sweep(V8, {'rod.length': range(10**9)}, ['force.1.major'])",
-        "sweep(V8, {'rod.length': [range(10**9)]}, ['force.1.major'])",
-        "sweep(V8, {'rod.length': np.broadcast_to(150, 10**9)}, ['force.1.major'])",
-        "analyze_torsion(DIESEL, np.broadcast_to(1500.0, 10**9))",
-        "analyze_mounts(MOUNTS, range(1, 10**30))",
-        "V8.vary({'rod.length': np.broadcast_to(150.0, 10**9)})",
-    ],
-)
+@cases("studies/in_python", "a_thousand_million_values")
 def test_a_thousand_million_values_are_refused_before_they_take_memory(call):
     named = {name: getattr(balcli, name) for name in balcli.__all__} | THERE
     tracemalloc.start()

@@ -58,23 +58,9 @@ def test_two_pistons_alone_have_a_triangular_difference() -> None:
     assert normal.mean == pytest.approx(2 * t / 3 / math.sqrt(math.pi) * WHOLE, rel=0.01)
 
 
-@pytest.mark.parametrize(
-    ("text", "name", "within", "source", "own", "close"),
-    [
-        (GOOD, "force.2.major", Tolerances(0.01), "piston mass 2", "[cylinder.2]\npiston_mass = 0.505\n", 1e-9),
-        (
-            changed(("mass = 0.6\ncg = 45\n", "small_end = 0.17\nbig_end = 0.43\n")),
-            *("force.2.major", Tolerances(length=1e-6), "rod length 3", "[cylinder.3]\nrod_length = 160.00016\n", 1e-4),
-        ),
-        (
-            ARTICULATED,
-            *("force.1.major", Tolerances(0.005), "rod mass 3", "[cylinder.3]\nrod_mass = 0.6231\nrod_cg = 30\n", 1e-3),
-        ),
-    ],
-    ids=["piston", "length", "articulated"],
-)
+@cases("studies/scatter", "effects_are_what_a_changed_file_gives", GOOD=GOOD, ARTICULATED=ARTICULATED)
 def test_effects_are_what_a_changed_file_gives(text, name, within, source, own, close):
-    (spread,) = scatter(text, name, within)
+    (spread,) = scatter(text, name, Tolerances(**within))
     nominal = evaluate(text, name)
     assert spread.nominal == pytest.approx(nominal, rel=1e-14)
     assert spread.sensitivity[source] == pytest.approx(evaluate(text + own, name) - nominal, rel=close)
@@ -105,24 +91,6 @@ def test_a_rod_deviates_without_its_shells() -> None:
 def test_a_throw_has_a_mass_of_its_own() -> None:
     (spread,) = scatter(GOOD, "force.1.forward", Tolerances(0.01))
     assert spread.sensitivity["throw mass 2"] == pytest.approx(0.01 * 0.8 * 0.045 * (3000 * math.pi / 30) ** 2)
-
-
-def test_a_longer_rod_has_less_of_its_weight_at_its_small_end() -> None:
-    """The centre of mass keeps its distance c from the big end. Of one cylinder the first order
-    turns against the crank with (m_p + m c/l) r w^2 / 2, and the couple is H D_1 w^2 with
-    H = m c (l - c) - J and D_1 = lambda, but for lambda cubed.
-    """
-    text = (
-        "[crank]\nstroke = 4\n[rod]\nlength = 200\nmass = 0.6\ncg = 45\ninertia = 3000\n"
-        "[piston]\nmass = 0.5\n[operation]\nspeed = 3000\n"
-    )
-    against, couple = scatter(text, "force.1.backward,couple.1.amplitude", Tolerances(length=1e-4))
-    w2 = (3000 * math.pi / 30) ** 2
-    expected = -1e-4 * 0.6 * 0.045 / 0.2 * 0.002 * w2 / 2
-    assert against.sensitivity["rod length 1"] == pytest.approx(expected, rel=1e-3)
-    h = 0.6 * 0.045 * 0.155 - 0.003
-    change = 1e-4 * (0.6 * 0.045 * 0.2 - h) * 0.01 * w2  # of H lambda, lambda = r/l
-    assert couple.sensitivity["rod length 1"] == pytest.approx(change, rel=1e-3)
 
 
 @pytest.mark.parametrize("text", [GOOD, RADIAL], ids=["plain", "articulated"])

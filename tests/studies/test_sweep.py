@@ -8,6 +8,7 @@ from threading import Thread
 
 import numpy as np
 import pytest
+from support.cases import cases
 from support.engines import GOOD, VEE, changed
 
 from balcli.core.phasors import Array
@@ -37,22 +38,6 @@ EVERYTHING = parse_quantities(
     "force.1.major,force.2.minor,moment.1.backward,moment.4.x,"
     "couple.3.amplitude,torque.2.amplitude,roll.4.amplitude,peak.force"
 )
-MORE = """
-[[shaft]]
-ratio = -2
-unbalance = 9000
-at = [-40, 60]
-position = 10
-[[counterweight]]
-unbalance = 4000
-[[slider]]
-order = 2
-unbalance = 500
-direction = 20
-[frame]
-reference = [10, 20, 30]
-"""
-UNSTEADY = "[[operation.speed_ripple]]\norder = 4\namplitude = 0.01\n"
 
 
 def asked(engine: str, *vary: str, of: str = "") -> Sweep:
@@ -60,24 +45,8 @@ def asked(engine: str, *vary: str, of: str = "") -> Sweep:
     return Sweep(file, tuple(parse_parameter(v, file) for v in vary), parse_quantities(of) if of else EVERYTHING)
 
 
-@pytest.mark.parametrize(
-    ("engine", "vary"),
-    [
-        (VEE, ("layout.bank_angle=0:180:45", "rod.ratio=0.2,0.3")),
-        (VEE, ("crank.throws.2=0:180:60", "crank.stroke=80,90", "piston.mass=0.4,0.5")),
-        (VEE, ("crank.splay=-30,0", "crank.spacing=90,100", "layout.stagger=0,20")),
-        (VEE, ("cylinder.3.piston_mass=0.5,0.6", "cylinder.2.rod_length=150,160", "cylinder.4.position=3,4")),
-        (VEE, ("piston.offset=-2,0,2", "rod.length=150,160")),
-        (VEE + "[cylinder.2]\nrod_cg = 46\n", ("bobweight.oil=0,0.1",)),
-        (VEE, ("layout.stagger=0,20", "cylinder.4.position=3,4", "crank.spacing=90,100")),
-        (VEE, ("rod.inertia=1000,5000", "operation.speed=1000,3000", "crank.throw_mass=0,1")),
-        (VEE + MORE, ("shaft.1.unbalance=0,9000", "shaft.1.at.2=0,60", "counterweight.1.angle=0,180")),
-        (VEE + MORE, ("slider.1.direction=0,90", "frame.reference.1=0,10", "frame.reference.3=0,10")),
-        (VEE + UNSTEADY, ("operation.speed_ripple.1.amplitude=0.01,0.02", "rod.ratio=0.2,0.3")),
-        (changed(("throws = [0, 180, 180, 0]\n", "")), ("piston.offset=0,2", "rod.length=150,160")),
-    ],
-)
-def test_every_variant_is_the_engine_alone(engine: str, vary: tuple[str, ...]) -> None:
+@cases("studies/sweep", "every_variant_is_the_engine_alone", VEE=VEE)
+def test_every_variant_is_the_engine_alone(engine: str, vary: list[str]) -> None:
     sweep = asked(engine, *vary)
     found = join_chunks(sweep, evaluate_chunks(sweep))
     paths = [p.path for p in sweep.parameters]
@@ -120,19 +89,10 @@ def test_boxes_cover_the_grid_in_the_order_of_rows(shape: tuple[int, ...], most:
     assert max(map(len, parts)) <= most
 
 
-@pytest.mark.parametrize(
-    ("engine", "vary", "of", "most"),
-    [
-        (VEE, "rod.ratio=0.2:0.3:0.01", "force.2.major", 65_536),
-        (VEE, "rod.ratio=0.2:0.3:0.01", "force.4096.major", 128),
-        (VEE, "rod.ratio=0.2:0.999:0.001", "peak.force", 200),
-        (VEE, "cylinder.1.piston_offset=0:2:0.01", "force.2.major", 65_536),
-        (VEE, "cylinder.1.piston_offset=0:114.9:0.1", "force.2.major", 10_000),
-    ],
-)
-def test_boxes_are_the_smaller_the_more_each_variant_needs(engine: str, vary: str, of: str, most: int) -> None:
+@cases("studies/sweep", "boxes_are_the_smaller_the_more_each_variant_needs")
+def test_boxes_are_the_smaller_the_more_each_variant_needs(vary: str, of: str, most: int) -> None:
     """Orders, and samples near the lock: a box takes a fraction of a second, and little memory."""
-    assert count_at_once(asked(engine, vary, of=of)) <= most
+    assert count_at_once(asked(VEE, vary, of=of)) <= most
 
 
 def test_chunks_do_not_change_figures(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -22,10 +22,6 @@ VARY = ("--vary", "rod.ratio=0.2:0.299:0.001", "--vary", "piston.mass=0.4,0.5,0.
 FIGURES = ("-q", "force.2.major,force.1.axis")
 ASKED = (*VARY, *FIGURES)
 FEW = ("--vary", "rod.ratio=0.2,0.3", "-q", "force.2.major")
-# Between the corners of this grid the crank would turn back: a mistake in a later block.
-RIPPLE = "[[operation.speed_ripple]]\norder = 1\namplitude = 0.6\n"
-RIPPLE += "[[operation.speed_ripple]]\norder = 2\namplitude = 0.5\n"
-TURN_BACK = ("--vary", "operation.speed_ripple.2.angle=0:360:1", "-q", "force.1.major")
 
 
 @pytest.fixture(autouse=True)

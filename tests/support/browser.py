@@ -30,14 +30,8 @@ class Browser:
         os.close(theirs_in)
         os.close(theirs_out)
         options = (
-            "--headless",
-            "--no-sandbox",
-            "--disable-gpu",
-            "--remote-debugging-pipe",
-            "--no-first-run",
-            "--disable-dev-shm-usage",
-            "--force-color-profile=srgb",
-            f"--user-data-dir={profile}",
+            *("--headless", "--no-sandbox", "--disable-gpu", "--remote-debugging-pipe", "--no-first-run"),
+            *("--disable-dev-shm-usage", "--force-color-profile=srgb", f"--user-data-dir={profile}"),
         )
         self._process = subprocess.Popen(
             [str(CHROMIUM), *options],
@@ -61,9 +55,8 @@ class Browser:
     def call(self, method: str, **params: Any) -> Any:
         """Result of a DevTools command."""
         self._count += 1
-        message = {"id": self._count, "method": method, "params": params} | (
-            {"sessionId": self._session} if self._session else {}
-        )
+        session = {"sessionId": self._session} if self._session else {}
+        message = {"id": self._count, "method": method, "params": params} | session
         self._out.write(json.dumps(message).encode() + b"\0")
         self._out.flush()
         while (answer := self._next()).get("id") != self._count:
@@ -75,10 +68,8 @@ class Browser:
     def open(self, page: Path, width: int = 1280, height: int = 900, dark: bool = False) -> None:
         """Show a file and wait until it is loaded."""
         self.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
-        self.call(
-            "Emulation.setEmulatedMedia",
-            features=[{"name": "prefers-color-scheme", "value": "dark" if dark else "light"}],
-        )
+        scheme = {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}
+        self.call("Emulation.setEmulatedMedia", features=[scheme])
         self.complaints, self.requests = [], []
         self.call("Page.navigate", url=page.as_uri())
         while self._next().get("method") != "Page.loadEventFired":
@@ -90,6 +81,10 @@ class Browser:
         if "exceptionDetails" in answer:
             raise RuntimeError(str(answer["exceptionDetails"]))
         return answer["result"].get("value")
+
+    def read(self, name: str) -> str:
+        """Text of the element with this id."""
+        return str(self.run(f"document.getElementById('{name}').textContent"))
 
     def press(self, key: str, code: int, text: str = "") -> None:
         """One key, as from a keyboard."""

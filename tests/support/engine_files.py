@@ -31,54 +31,39 @@ def engine_tables(draw: st.DrawFn) -> Tables:
         "operation": {"speed": draw(numbers(1, 15000))},
     }
     tables["rod"]["cg"] = tables["rod"]["length"] * draw(numbers(0, 1))
-    for add in _OPTIONAL:
-        if draw(st.booleans()):
-            add(draw, tables)
+    _add_chapters(draw, tables)
     return tables
 
 
-def _add_gas(draw: st.DrawFn, tables: Tables) -> None:
-    tables["gas"] = {"cycle": "wiebe", "compression_ratio": draw(numbers(5, 25)), "imep": draw(numbers(1, 30))}
-    tables.setdefault("layout", {})["strokes"] = 2  # four-stroke engines need a firing order that fits
-
-
-def _add_body(draw: st.DrawFn, tables: Tables) -> None:
-    spring = st.lists(numbers(1, 5000), min_size=3, max_size=3)
-    tables["body"] = {"mass": draw(numbers(10, 500)), "cg": [0, 0, 0], "inertia": [8e6, 12e6, 14e6, 0, 0, 0]}
-    tables["mount"] = [
-        {"name": str(k), "at": [x, y, -200], "stiffness": draw(spring), "loss": draw(numbers(0, 1))}
-        for k, (x, y) in enumerate([(400, 300), (400, -300), (-400, 0)])
-    ]
-
-
-def _add_torsion(draw: st.DrawFn, tables: Tables) -> None:
-    flywheel = {"name": "flywheel", "inertia": draw(numbers(1e5, 1e8)), "stiffness": draw(numbers(1e3, 1e7))}
-    tables["torsion"] = {"throw_inertia": draw(numbers(1e3, 1e6)), "rear": [flywheel]}
-    if len(tables["crank"]["throws"]) > 1:
-        tables["torsion"]["throw_stiffness"] = draw(numbers(1e4, 1e7))
-
-
-def _add_devices(draw: st.DrawFn, tables: Tables) -> None:
-    tables["counterweight"] = [{"unbalance": draw(numbers(0, 1e5)), "angle": draw(numbers(-360, 360))}]
-    ratio = draw(st.sampled_from([1, -1, 2, -2]))
-    tables["shaft"] = [{"ratio": ratio, "unbalance": draw(numbers(0, 1e4)), "at": [30, 40]}]
-
-
-def _add_exceptions(draw: st.DrawFn, tables: Tables) -> None:
-    tables["cylinder"] = {"1": {"piston_mass": draw(numbers(0, 5))}}
-    tables["piston"]["offset"] = draw(numbers(-3, 3))
-
-
-def _add_ripple(draw: st.DrawFn, tables: Tables) -> None:
-    line = {"order": draw(st.integers(1, 6)), "amplitude": draw(numbers(0, 0.2))}
-    tables["operation"]["speed_ripple"] = [line]
-
-
-def _add_bank(draw: st.DrawFn, tables: Tables) -> None:
-    tables.setdefault("layout", {})["bank_angle"] = draw(numbers(0, 180))
-
-
-_OPTIONAL = (_add_gas, _add_body, _add_torsion, _add_devices, _add_exceptions, _add_ripple, _add_bank)
+def _add_chapters(draw: st.DrawFn, tables: Tables) -> None:
+    """Add some of gas, body, torsion, devices, exceptions, uneven speed and banks."""
+    if draw(st.booleans()):
+        tables["gas"] = {"cycle": "wiebe", "compression_ratio": draw(numbers(5, 25)), "imep": draw(numbers(1, 30))}
+        tables.setdefault("layout", {})["strokes"] = 2  # four-stroke engines need a firing order that fits
+    if draw(st.booleans()):
+        spring = st.lists(numbers(1, 5000), min_size=3, max_size=3)
+        tables["body"] = {"mass": draw(numbers(10, 500)), "cg": [0, 0, 0], "inertia": [8e6, 12e6, 14e6, 0, 0, 0]}
+        tables["mount"] = [
+            {"name": str(k), "at": [x, y, -200], "stiffness": draw(spring), "loss": draw(numbers(0, 1))}
+            for k, (x, y) in enumerate([(400, 300), (400, -300), (-400, 0)])
+        ]
+    if draw(st.booleans()):
+        flywheel = {"name": "flywheel", "inertia": draw(numbers(1e5, 1e8)), "stiffness": draw(numbers(1e3, 1e7))}
+        tables["torsion"] = {"throw_inertia": draw(numbers(1e3, 1e6)), "rear": [flywheel]}
+        if len(tables["crank"]["throws"]) > 1:
+            tables["torsion"]["throw_stiffness"] = draw(numbers(1e4, 1e7))
+    if draw(st.booleans()):
+        tables["counterweight"] = [{"unbalance": draw(numbers(0, 1e5)), "angle": draw(numbers(-360, 360))}]
+        ratio = draw(st.sampled_from([1, -1, 2, -2]))
+        tables["shaft"] = [{"ratio": ratio, "unbalance": draw(numbers(0, 1e4)), "at": [30, 40]}]
+    if draw(st.booleans()):
+        tables["cylinder"] = {"1": {"piston_mass": draw(numbers(0, 5))}}
+        tables["piston"]["offset"] = draw(numbers(-3, 3))
+    if draw(st.booleans()):
+        line = {"order": draw(st.integers(1, 6)), "amplitude": draw(numbers(0, 0.2))}
+        tables["operation"]["speed_ripple"] = [line]
+    if draw(st.booleans()):
+        tables.setdefault("layout", {})["bank_angle"] = draw(numbers(0, 180))
 
 
 @st.composite

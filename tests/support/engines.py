@@ -1,11 +1,16 @@
 """What several tests need: a good engine file, the same with some text replaced, and small engines."""
 
-from __future__ import annotations
+from typing import Any
 
-from typing import TYPE_CHECKING, Any
+import pytest
+import tomli_w
 
-if TYPE_CHECKING:
-    from balcli.engine.engine import Engine
+from balcli.engine.build import build
+from balcli.engine.engine import Engine
+from balcli.engine.load import load
+from balcli.engine.parse import parse
+from balcli.errors import InputError
+from balcli.forces.spectrum import with_only
 
 GOOD = """\
 name = "in-line four"
@@ -43,26 +48,6 @@ knuckle_radius = 52
 rod = { length = 188, mass = 0.62, cg = 90 }
 """
 
-
-INLINE = """\
-[crank]
-stroke = 90
-throws = {throws}
-spacing = 100
-throw_mass = 1.0
-[rod]
-length = 160
-mass = 0.6
-cg = 45
-inertia = 2000
-[piston]
-mass = 0.5
-[layout]
-{layout}
-[operation]
-speed = 3000
-"""
-
 GNOME = """\
 [crank]
 stroke = 120
@@ -91,6 +76,10 @@ def changed(*replacements: tuple[str, str], more: str = "") -> str:
     return text + more
 
 
+INLINE = changed(
+    *(('name = "in-line four"\n', ""), ("[0, 180, 180, 0]", "{throws}"), ("throw_mass = 0.8", "throw_mass = 1.0")),
+    *(("cg = 45", "cg = 45\ninertia = 2000"), ("bore = 86\n", ""), ("firing_order = [1, 3, 4, 2]", "{layout}")),
+)
 SINGLE = changed(("throws = [0, 180, 180, 0]", "throws = [0]"), ("firing_order = [1, 3, 4, 2]", "strokes = 4"))
 VEE = changed(
     ("[0, 180, 180, 0]", "[0, 100, 250, 190]"), ("firing_order = [1, 3, 4, 2]", "bank_angle = 70\nstagger = 20")
@@ -115,16 +104,11 @@ def tables(**parts: dict[str, Any] | list[dict[str, Any]]) -> dict[str, Any]:
 
 def engine(**parts: dict[str, Any] | list[dict[str, Any]]) -> Engine:
     """The same, built: through TOML and the loader, as a user's file would be."""
-    import tomli_w
-
     return build_text(tomli_w.dumps(tables(**parts)))
 
 
 def build_text(text: str) -> Engine:
     """The engine of a file's text."""
-    from balcli.engine.build import build
-    from balcli.engine.parse import parse
-
     return build(parse(text))
 
 
@@ -140,10 +124,6 @@ def rotary_engine(layout: str = "radial = 7", offset: float = 0, more: str = "")
 
 def refused(**parts: dict[str, Any] | list[dict[str, Any]]) -> str:
     """All of what is said against such an engine."""
-    import pytest
-
-    from balcli.errors import InputError
-
     with pytest.raises(InputError) as caught:
         engine(**parts)
     return str(caught.value)
@@ -151,14 +131,16 @@ def refused(**parts: dict[str, Any] | list[dict[str, Any]]) -> str:
 
 def mistakes_in(text: str | bytes) -> str:
     """All of what is said against the text of an engine file, without its name."""
-    import pytest
-
-    from balcli.engine.parse import parse
-    from balcli.errors import InputError
-
     with pytest.raises(InputError) as caught:
         parse(text, "e.toml")
     return str(caught.value).removeprefix("e.toml: ")
+
+
+def list_problems(source: object) -> list[str]:
+    """Every mistake of an engine that cannot be loaded: a text, a path or tables."""
+    with pytest.raises(InputError) as caught:
+        load(source)
+    return [str(problem) for problem in caught.value.problems]
 
 
 def engine_text(**tables: str) -> str:
@@ -171,6 +153,4 @@ def engine_text(**tables: str) -> str:
 
 def alone(engine: Engine, number: int) -> Engine:
     """The engine with the masses of one cylinder alone, and without devices."""
-    from balcli.forces.spectrum import with_only
-
     return with_only(engine, [n == number for n in engine.numbers])

@@ -4,55 +4,23 @@ import numpy as np
 
 from balcli.engine.engine import Engine
 
-from .engines import build_text
+from .engines import build_text, changed
 
-FOUR = """\
-[crank]
-stroke = 90
-throws = [0, 180, 180, 0]
-spacing = 100
-[rod]
-length = 150
-mass = 0.6
-cg = 45
-inertia = 2600
-[piston]
-bore = 86
-mass = 0.5
-[layout]
-firing_order = [1, 3, 4, 2]
-[operation]
-speed = 3000
-"""
+FOUR = changed(
+    *(('name = "in-line four"\n', ""), ("throw_mass = 0.8\n", "")),
+    *(("length = 160", "length = 150"), ("cg = 45", "cg = 45\ninertia = 2600")),
+)
 WIEBE = """\
 [gas]
 cycle = "wiebe"
 compression_ratio = 10
 imep = 9
 """
-PETROL_FOUR = """\
-name = "four"
-[crank]
-stroke = 86
-throws = [0, 180, 180, 0]
-spacing = 95
-[rod]
-length = 150
-mass = 0.6
-cg = 45
-[piston]
-bore = 86
-mass = 0.5
-offset = 0.8
-[layout]
-firing_order = [1, 3, 4, 2]
-[operation]
-speed = 4000
-[gas]
-cycle = "wiebe"
-compression_ratio = 10
-imep = 12
-"""
+PETROL_FOUR = changed(
+    *(("in-line four", "four"), ("stroke = 90", "stroke = 86"), ("spacing = 100\nthrow_mass = 0.8", "spacing = 95")),
+    *(("length = 160", "length = 150"), ("mass = 0.5", "mass = 0.5\noffset = 0.8"), ("speed = 3000", "speed = 4000")),
+    more=WIEBE.replace("imep = 9", "imep = 12"),
+)
 
 
 def draw_engine(seed: int, strokes: int = 4, more: str = "") -> Engine:

@@ -2,26 +2,13 @@
 
 import numpy as np
 
-ENGINE = """
-name = "four"
-[crank]
-stroke = 90
-throws = [0, 180, 180, 0]
-spacing = 100
-throw_mass = 0.7
-[rod]
-length = 150
-mass = 0.6
-cg = 42
-inertia = 2500
-[piston]
-bore = 80
-mass = 0.5
-[cylinder.2]
-piston_mass = 0.55
-[operation]
-speed = 3000
-"""
+from .engines import changed
+
+ENGINE = changed(
+    *(("in-line four", "four"), ("throw_mass = 0.8", "throw_mass = 0.7"), ("length = 160", "length = 150")),
+    *(("cg = 45", "cg = 42\ninertia = 2500"), ("bore = 86", "bore = 80")),
+    ("[layout]\nfiring_order = [1, 3, 4, 2]", "[cylinder.2]\npiston_mass = 0.55"),
+)
 BLOCK = """
 [body]
 mass = 200

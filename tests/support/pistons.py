@@ -8,20 +8,9 @@ from balcli.core.cylinders import Cylinders
 
 def slider_crank_piston(radius: float, rod: float, bore: float, offset: float = 0.0) -> GasPiston:
     """The piston on a crank and a rod of these lengths, m, its axis this far off the shaft's."""
-    nothing = np.zeros(1)
-    single = Cylinders(
-        axis_deg=nothing,
-        pin_deg=nothing,
-        starts=np.array([0]),
-        first=0,
-        z=nothing,
-        radius=np.array([radius]),
-        offset=np.array([offset]),
-        lam=np.array([radius / rod]),
-        eps=np.array([offset / rod]),
-        reciprocating=nothing,
-        rotating=nothing,
-        couple=nothing,
-    )
+    nothing = ("axis_deg", "pin_deg", "z", "reciprocating", "rotating", "couple")
+    lengths = {"radius": radius, "offset": offset, "lam": radius / rod, "eps": offset / rod}
+    arrays = {name: np.array([value]) for name, value in (dict.fromkeys(nothing, 0.0) | lengths).items()}
+    single = Cylinders(starts=np.array([0]), first=0, **arrays)
     (piston,) = pistons(single, np.pi / 4 * bore**2)
     return piston

@@ -22,8 +22,9 @@ def figures(remedy: Remedy, group: str = "") -> dict[str, Any]:
 
 
 def size_scheme(engine: Engine, scheme: str = "auto", **options: Any) -> Remedy:
-    """The devices of a scheme."""
-    return size(engine, scheme, SchemeOptions(**options))
+    """The devices of a scheme; lists of a table of cases are tuples."""
+    given = {name: tuple(value) if isinstance(value, list) else value for name, value in options.items()}
+    return size(engine, scheme, SchemeOptions(**given))
 
 
 def fit_scheme(engine: Engine, scheme: str = "auto", **options: Any) -> Engine:
@@ -39,6 +40,11 @@ def find_orders(engine: Engine, kind: str = "force") -> Phasors:
 def write_engine(*throws: float, **tables: str) -> str:
     """The text of an engine with throws of 1 kg at these angles, 100 mm apart."""
     return engine_text(crank=f"stroke = 100\nthrows = {list(throws)}\nspacing = 100\nthrow_mass = 1", **tables)
+
+
+def weigh(unbalance: float, angle: float = 180, position: float | str = 0) -> str:
+    """A counterweight as a table of an engine file, g mm, degrees and mm."""
+    return f"[[counterweight]]\nunbalance = {unbalance!r}\nangle = {angle!r}\nposition = {position}\n"
 
 
 SMALL = {  # engine files by what they are

@@ -25,15 +25,7 @@ def test_pieces_that_hang_together():
     pieces = find_pieces(chain)
     assert pieces.first.tolist() == [0, 1, 0, 1]
     assert pieces.pace.tolist() == [1, 1, 0.25, 1]
-    assert not pieces.locked.any()
     assert find_pieces(chain, np.array([False, True])).first.tolist() == [0, 1, 2, 1]
-
-
-def test_contradicting_ratios_of_a_loop_lock_its_piece():
-    loop = [ChainShaft(0, 1, 5), ChainShaft(1, 2, 5), ChainShaft(0, 2, 5, 2.0)]
-    chain = join_chain([1, 1, 1, 1], loop)
-    assert find_pieces(chain).locked.tolist() == [True, True, True, False]
-    assert rigid_motions(chain).tolist() == [[0, 0, 0, 1]]
 
 
 def test_rigid_motions_turn_at_the_ratios_and_angles_follow_gears():

@@ -377,7 +377,7 @@ def test_units_of_a_damper_are_those_of_its_size(times, ring, heat):
     told = run_here("torsion", "-", *asked, stdin=single(times=times)).out
     assert re.search(rf"^ring +{ring}$", told, re.MULTILINE)
     assert re.search(rf"^heat +up to [\d.]+ {heat}, at", told, re.MULTILINE)
-    assert re.search(rf"turns\s+up\s+to\s+[\d.]+\s+{heat}\s+to\s+heat", told)
+    assert re.search(rf"turns\s+up\s+to\s+[\d.]+\s+{heat}\s+into\s+heat", told)
 
 
 def test_of_several_stiffnesses_that_are_best_nearby_the_best_of_all_is_taken():

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from support.chains import KINDS, balance_power, chain_of, exact_response, no_damping, random_chain, random_damping
 
-from balcli.core.vibration import UndampedResonanceError, find_resonances, frequencies
+from balcli.core.vibration import UndampedResonanceError, find_resonances
 from balcli.torsion.chain import ChainShaft, Damping, join_chain
 from balcli.torsion.modes import chain_loss, find_chain_modes
 from balcli.torsion.motion import respond_chain
@@ -37,12 +37,12 @@ def random_load(chain, seed, *shape):
 @pytest.mark.parametrize("seed", range(3))
 def test_response_against_50_digits(kind, seed):
     chain = random_chain(kind, seed)
-    damping, w = random_damping(chain, seed), frequencies([0.5, 3, 9], [60.0, 250])
+    damping, w = random_damping(chain, seed), np.multiply.outer([0.5, 3, 9], [60.0, 250])
     compared(chain, damping, w, random_load(chain, seed, 3, 2))
 
 
 def test_response_with_complex_inertias():
-    chain, w = random_chain("branched", 5), frequencies([0.5, 3], [60.0, 250])
+    chain, w = random_chain("branched", 5), np.multiply.outer([0.5, 3], [60.0, 250])
     attached = np.random.default_rng(3).uniform(0, 0.3, (2, 2, len(chain.inertia))) * (1 - 0.4j)
     compared(chain, random_damping(chain, 1), w, random_load(chain, 1, 2, 2), attached)
 
@@ -83,7 +83,7 @@ def test_one_speed_is_a_thousand():
     chain = random_chain("plain", 1)
     damping, orders, speeds = random_damping(chain, 1), np.arange(1, 25) / 2, np.linspace(50, 300, 40)
     load, nodes = random_load(chain, 1, 24, 1), len(chain.inertia)
-    many = respond_chain(chain, damping, frequencies(orders, speeds), load)
+    many = respond_chain(chain, damping, np.multiply.outer(orders, speeds), load)
     assert (many.angle.shape, many.torque.shape) == ((24, 40, nodes), (24, 40, nodes - 1))
     one = respond_chain(chain, damping, orders[4] * speeds[7], load[4, 0])
     assert one.angle == pytest.approx(many.angle[4, 7], rel=1e-14)
@@ -94,7 +94,7 @@ def test_one_speed_is_a_thousand():
 def test_power_fed_is_power_lost_and_torques_are_reciprocal(kind):
     """What a torque at one node does at another is what it does the other way round."""
     chain = random_chain(kind, 7)
-    damping, w, load = random_damping(chain, 7), frequencies([1, 4], [80.0, 170]), random_load(chain, 7, 2, 2)
+    damping, w, load = random_damping(chain, 7), np.multiply.outer([1, 4], [80.0, 170]), random_load(chain, 7, 2, 2)
     attached = np.zeros(len(chain.inertia), complex)
     attached[-1] = 0.2 - 0.1j
     angle = respond_chain(chain, damping, w, load, attached).angle

@@ -30,10 +30,7 @@ def test_six_frequencies_in_closed_form():
     kx, ky, kz = 4 * STIFFNESS
     squares = [kz / MASS, (kx * Y**2 + ky * X**2) / INERTIA[2]]
     squares += pair(kx, kz * X**2, INERTIA[1]) + pair(ky, kz * Y**2, INERTIA[0])
-    omega = find_body_modes(BODY, MOUNTS).omega
-    assert omega == pytest.approx(np.sqrt(np.sort(squares)), rel=1e-14)
-    recomputed = [50.13149728, 58.99302875, 89.4427191, 109.5445115, 146.5838769, 156.5880665]
-    assert omega == pytest.approx(recomputed, rel=1e-9)
+    assert find_body_modes(BODY, MOUNTS).omega == pytest.approx(np.sqrt(np.sort(squares)), rel=1e-14)
 
 
 def test_elastic_centre_lies_in_the_plane_of_the_mounts():

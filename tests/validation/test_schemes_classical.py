@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 import pytest
+from support.cases import cases
 from support.engines import build_text, engine_text
 from support.remedies import figures, fit_scheme, size_scheme
 
@@ -13,7 +14,6 @@ from balcli.core.mechanisms import closed_form
 from balcli.engine.engine import Engine
 from balcli.errors import BalcliError
 from balcli.forces.spectrum import compute_spectra
-from balcli.sizing.options import SchemeOptions
 from balcli.sizing.remedy import fit_devices
 from balcli.sizing.sizing import size
 
@@ -29,6 +29,9 @@ def engine(throws: list[float], spacing: float = 100, throw_mass: float = 1, mor
 INLINE_4 = engine([0, 180, 180, 0])
 INLINE_3 = engine([0, 240, 120])
 CROSS_V8 = engine([0, 90, 270, 180], layout="bank_angle = 90")
+SPLIT_V6 = build_text(
+    engine_text(crank="stroke = 100\nthrows = [0, 240, 120]\nspacing = 100\nsplay = -60", layout="bank_angle = 60")
+)
 
 
 def left(e: Engine, orders=(1, 2), quantities=("force", "moment", "roll")):
@@ -85,41 +88,10 @@ def test_a_single_plane_does_what_it_can():
 
 
 # ------------------------------------------------------------------ factor and bobweight
-def test_factor_leaves_what_it_does_not_take():
-    """Half balance leaves half, turning against the crank, and exactly nothing with it (Wang, (36))."""
-    e = engine([0])
-    for share in (0, 0.4, 0.5, 0.66, 1):
-        after = left(fit_scheme(e, "factor", factor=(share,)), [1]).force
-        unit = M * R * e.omega**2
-        assert after.forward[0].real == pytest.approx((0.5 - share) * unit, rel=0, abs=1e-13 * unit * (share != 0.5))
-        assert after.backward[0] == pytest.approx(unit / 2, rel=1e-14)
-
-
-def test_bobweight_card_of_a_cross_plane_v8():
-    """Rotating 2 x (big end + bearing + oil), reciprocating 2 x (piston + small end); bobweight = rotating + half."""
-    rod = "length = 150\nsmall_end = 0.17\nbig_end = 0.43"
-    e = engine(
-        [0, 90, 270, 180],
-        layout="bank_angle = 90",
-        rod=rod,
-        piston="mass = 0.7",
-        bobweight="rod_bearing = 0.047\noil = 0.004",
-    )
-    card = size(e, "factor").card
-    assert [entry.cylinders for entry in card] == [(1, 5), (2, 6), (3, 7), (4, 8)]
-    assert [entry.rotating_g for entry in card] == pytest.approx([2 * (430 + 47 + 4)] * 4)
-    assert [entry.reciprocating_g for entry in card] == pytest.approx([2 * (700 + 170)] * 4)
-    assert [entry.bobweight_g for entry in card] == pytest.approx([962 + 870] * 4)
-    assert left(fit_scheme(e, "factor"), [1]).moment.balanced.all()
-
-
 def test_split_pins_have_a_card_each():
     e = engine([0, 240, 120], layout="bank_angle = 60")
-    split = build_text(
-        engine_text(crank="stroke = 100\nthrows = [0, 240, 120]\nspacing = 100\nsplay = -60", layout="bank_angle = 60")
-    )
     assert [len(entry.cylinders) for entry in size(e, "factor").card] == [2, 2, 2]
-    assert [len(entry.cylinders) for entry in size(split, "factor").card] == [1] * 6
+    assert [len(entry.cylinders) for entry in size(SPLIT_V6, "factor").card] == [1] * 6
 
 
 def test_factor_sweep_trades_along_for_across():
@@ -189,10 +161,7 @@ def test_inline_three_needs_couples():
 
 
 def test_even_firing_v6_at_60_degrees_has_a_backward_second_order_couple_alone():
-    e = build_text(
-        engine_text(crank="stroke = 100\nthrows = [0, 240, 120]\nspacing = 100\nsplay = -60", layout="bank_angle = 60")
-    )
-    assert {s.ratio for s in size(e).shafts} <= {-2}
+    assert {s.ratio for s in size(SPLIT_V6).shafts} <= {-2}
 
 
 def test_single_shaft_on_an_inline_four_says_what_stays():
@@ -220,35 +189,10 @@ def test_eccentric_stands_where_the_force_acts():
 
 
 # ------------------------------------------------------------------ refusals
-@pytest.mark.parametrize(
-    ("scheme", "options", "reason"),
-    [
-        ("counterweights", SchemeOptions(order=2), "order 2: counterweights turn at order 1; use shafts"),
-        ("counterweights", SchemeOptions(planes=(0.1, 0.1)), "planes at the same z, cannot take a moment"),
-        ("couple-shaft", SchemeOptions(planes=(0.1, 0.1)), "planes at the same z, cannot take a moment"),
-        ("couple-shaft", SchemeOptions(planes="throws"), "two places along z, for opposite eccentrics"),
-        ("counterweights", SchemeOptions(planes=(0.1, 0.1 + 1e-10)), "would work against each other"),
-        ("two-shaft", SchemeOptions(order=0), "give 1 to 1000"),
-        ("auto", SchemeOptions(order=2), "scheme auto has no --order; choose --scheme "),
-        (
-            "magic",
-            SchemeOptions(),
-            "there is no scheme 'magic': choose from auto, complete, step, counterweights, factor, minimax, ellipse, "
-            "single-shaft, two-shaft, four-shaft, "
-            "couple-shaft, compensator, slider, eccentric-slider, oldham, knuckles",
-        ),
-        ("knuckle", SchemeOptions(), "there is no scheme 'knuckle': did you mean knuckles\\? choose from"),
-        ("knuckles", SchemeOptions(), "only `balcli balance --scheme knuckles` runs the scheme knuckles"),
-        ("mini-max", SchemeOptions(), "did you mean minimax"),
-        ("two-shaft", SchemeOptions(order=6, roll="nought"), "choose from zero"),
-        ("two-shaft", SchemeOptions(order=3, roll="zero"), "order 3 has no free force.*leave out --roll"),
-        ("two-shaft", SchemeOptions(order=6, roll="zero", at=(0.1j, 0.2j)), "places the second shaft"),
-        ("factor", SchemeOptions(factor=(math.nan,)), "give shares such as"),
-    ],
-)
+@cases("sizing/schemes", "infeasible_options")
 def test_infeasible_options_are_told_why(scheme, options, reason):
     with pytest.raises(BalcliError, match=reason):
-        size(INLINE_3, scheme, options)
+        size_scheme(INLINE_3, scheme, **options)
 
 
 def test_sizing_is_for_steady_speed():

@@ -12,7 +12,7 @@ import pytest
 from support.cases import cases
 from support.commands import ask_json
 from support.engines import build_text, engine_text
-from support.remedies import figures, fit_scheme, size_scheme
+from support.remedies import figures, fit_scheme, size_scheme, weigh
 
 from balcli.analysis.answer import analyze
 from balcli.core.mechanisms import closed_form, slidercrank
@@ -31,33 +31,13 @@ def single(lam: float = 0.25, more: str = "", **tables: str) -> Engine:
     return build_text(engine_text(rod=f"ratio = {lam}", crank="stroke = 100\nthrow_mass = 0.7", **tables) + more)
 
 
-# lambda, design, criterion, force, k, mu, largest/J, mean/J to the digits of the independent search
-OPTIMA = [
-    (0.20, "a", "largest", "orders 1+2", 10.012695, 0.500635, 0.011257, 0.007166),
-    (0.25, "a", "largest", "orders 1+2", 8.016007, 0.501000, 0.017595, 0.011201),
-    (0.25, "b", "largest", "orders 1+2", 8.285753, 0.502807, 0.050683, 0.032259),
-    (0.30, "a", "largest", "orders 1+2", 6.686077, 0.501456, 0.025346, 0.016136),
-    (0.30, "b", "largest", "orders 1+2", 7.004259, 0.503968, 0.071818, 0.045704),
-    (0.40, "b", "largest", "orders 1+2", 5.433787, 0.506744, 0.122920, 0.078192),
-    (0.25, "a", "largest", "all orders", 8.009058, 0.501313, 0.018629, 0.011766),
-    (0.30, "b", "largest", "all orders", 7.030025, 0.506131, 0.075841, 0.047888),
-]
-MEANS = [
-    (0.25, "a", "orders 1+2", 8.174519, 0.501350, 0.010985),
-    (0.25, "b", "orders 1+2", 8.971435, 0.505130, 0.030838),
-    (0.30, "a", "orders 1+2", 6.876166, 0.502149, 0.015693),
-    (0.30, "b", "orders 1+2", 7.783519, 0.508136, 0.043048),
-    (0.30, "a", "all orders", 6.573698, 0.501245, 0.017197),
-]
-
-
-@pytest.mark.parametrize(("lam", "design", "criterion", "force", "k", "mu", "largest", "mean"), OPTIMA)
+@cases("validation/schemes_wang", "smallest_peaks")
 def test_eccentric_slider_smallest_peak(lam, design, criterion, force, k, mu, largest, mean):
     found = find_optimum(design, criterion, force, lam)
     assert (found.k, found.mu, found.largest, found.mean) == pytest.approx((k, mu, largest, mean), abs=1.1e-6)
 
 
-@pytest.mark.parametrize(("lam", "design", "force", "k", "mu", "mean"), MEANS)
+@cases("validation/schemes_wang", "smallest_means")
 def test_eccentric_slider_smallest_mean(lam, design, force, k, mu, mean):
     """k is flat here: the search gives it to three digits, and the mean to all six."""
     found = find_optimum(design, "mean", force, lam)
@@ -74,32 +54,6 @@ def test_eccentric_slider_leading_order(design, residual):
     assert found.k * lam / 2 == pytest.approx(1, abs=1e-5)
     assert found.mu == pytest.approx(0.5, abs=1e-6)
     assert found.largest / lam**2 == pytest.approx(residual, rel=1e-4)
-
-
-@pytest.mark.parametrize("design", DESIGNS)
-def test_eccentric_slider_beats_its_neighbours(design):
-    """Direct evaluation of the corrected (24) on a fine grid, with the angle of the linkage differentiated numerically."""
-    lam, theta = 0.25, np.linspace(0, 2 * np.pi, 4001)
-
-    def largest(k, mu):
-        h = 1e-4
-
-        def phi(t):
-            if design == "b":
-                return t + np.arctan2(np.sin(t), k - np.cos(t))  # the angle of k e^{it} - 1, without a cut
-            return t + np.arcsin(np.sin(t) / k)  # triangle of disc centre, shaft and pin
-
-        rate = (phi(theta + h) - phi(theta - h)) / (2 * h)
-        bend = (phi(theta + h) - 2 * phi(theta) + phi(theta - h)) / h**2
-        weights = 2 * mu * (rate**2 * np.cos(phi(theta)) + bend * np.sin(phi(theta)))
-        return np.abs(np.cos(theta) + lam * np.cos(2 * theta) - weights).max()
-
-    best = find_optimum(design, "largest", "orders 1+2", lam)
-    assert largest(best.k, best.mu) == pytest.approx(best.largest, abs=2e-5)
-    assert all(
-        largest(best.k * (1 + dk), best.mu * (1 + dm)) > best.largest
-        for dk, dm in ((0.01, 0), (-0.01, 0), (0, 0.002), (0, -0.002))
-    )
 
 
 @pytest.mark.parametrize(("design", "lam"), [("a", 0.99), ("b", 0.9)])
@@ -126,18 +80,6 @@ def test_eccentric_slider_says_the_largest_of_what_remains(design, criterion, la
     rest = slidercrank.acceleration(theta, lam) - 2 * best.mu * np.fft.irfft(order**2 * waves)
     assert np.abs(rest).max() == pytest.approx(best.largest, rel=1e-5)
     assert np.abs(rest).mean() == pytest.approx(best.mean, rel=1e-4)
-
-
-def test_eccentric_slider_leaves_its_residual():
-    """The devices as analysed give what the optimum promises, but for the orders of the engine beyond 1 and 2."""
-    engine = single(0.25)
-    remedy = size(engine, "eccentric-slider")
-    left = compute_spectra(fit_devices(engine, remedy), np.arange(1.0, 12), ("force",)).force
-    theta = np.linspace(0, 2 * np.pi, 3601)
-    force = left.values(theta).real / (M * R * engine.omega**2)
-    exact = closed_form.piston(np.arange(1.0, 12), 0.25)
-    two_terms = sum((a - (1 if n == 1 else 0.25 if n == 2 else 0)) * np.cos(n * theta) for n, a in enumerate(exact, 1))
-    assert np.abs(force - two_terms).max() == pytest.approx(0.017595, abs=1e-6)
 
 
 @pytest.mark.parametrize("design", DESIGNS)
@@ -331,11 +273,8 @@ def test_engines_that_they_do_not_suit(scheme, tables, told):
 def test_overbalance_figures_are_those_of_the_ellipse():
     """(31)-(32) for order 1: P_max = [1 + sqrt(1 - 4k cos a + 4k^2)] J/2, at any overbalance."""
     for k, alpha in ((0.3, 20), (0.6, 0), (0.8, 35), (0.3, 12), (0.62, -23), (0.9, 63)):
-        weight = (
-            f"[[counterweight]]\nunbalance = {1e6 * (0.7 * R)}\nangle = 180\n"
-            f"[[counterweight]]\nunbalance = {1e6 * k * R}\nangle = {180 + alpha}\n"
-        )
-        force = compute_spectra(single(more=weight), [1], ("force",)).force
+        weights = weigh(0.7e6 * R) + weigh(1e6 * k * R, 180 + alpha)
+        force = compute_spectra(single(more=weights), [1], ("force",)).force
         wanted = (1 + math.sqrt(1 - 4 * k * math.cos(math.radians(alpha)) + 4 * k * k)) / 2
         assert force.major[0] / (M * R * single().omega ** 2) == pytest.approx(wanted, rel=1e-13)
 
@@ -344,7 +283,7 @@ def test_a_slider_leaves_the_same_force_whatever_the_counterweights_of_the_file(
     """One that balances more than the rotating mass would break the symmetry of the shafts."""
     text = "crank.stroke = 84\nrod.length = 140\npiston.mass = 0.5\n"
     left = []
-    for weight in ("", "[[counterweight]]\nunbalance = 20000\nangle = 180\n"):
+    for weight in ("", weigh(20000)):
         document = ask_json("balance", "-", "--scheme", "eccentric-slider", stdin=text + weight)
         left.append(document["after"]["peak"]["force_N"])
     assert left[1] == pytest.approx(left[0], rel=1e-9)

@@ -38,8 +38,9 @@ INLINE = {
 }
 
 
-def of(throws: list[float], **layout: Any) -> Spectra:
-    return compute_spectra(engine(crank={"throws": throws, "spacing": 100}, layout=layout), list(ORDERS))
+def of(throws: list[float], splay: float = 0, **layout: Any) -> Spectra:
+    crank = {"throws": throws, "spacing": 100, "splay": splay}
+    return compute_spectra(engine(crank=crank, layout=layout), list(ORDERS))
 
 
 def units(found: Spectra, quantity: str, order: int, part: str) -> float:
@@ -55,78 +56,92 @@ def free(found: Spectra, quantity: str) -> list[int]:
     return [n for n, balanced in zip(ORDERS, getattr(found, quantity).balanced, strict=True) if not balanced]
 
 
-# ------------------------------------------------------------------ in line
+# ------------------------------------------------------------------ vectors of every order
+def line(size: float) -> tuple[float, float]:
+    """Vectors with and against the crank of a force along a line."""
+    return size / 2, size / 2
+
+
+V90 = {"bank_angle": 90}
+BOXER = {"banks": [-90, 90], "rods": "alternating"}
+CROSS_PLANE, FLAT_PLANE, V6 = [0, 90, 270, 180], [0, 180, 180, 0], [0, 120, 240]
+SIX_PINS, SPLIT = {"bank_angle": 60, "splay": -60}, {"bank_angle": 90, "splay": -30}
+
+
 @pytest.mark.parametrize(
-    ("name", "orders"),
+    ("throws", "layout", "vectors"),
     [
-        ("single", dict.fromkeys([1, 2, 4, 6, 8, 10, 12], 1)),
-        ("twin 180", dict.fromkeys([2, 4, 6, 8, 10, 12], 2)),
-        ("twin 360", dict.fromkeys([1, 2, 4, 6, 8, 10, 12], 2)),
-        ("twin 270", {1: sqrt(2), 4: 2, 8: 2, 12: 2}),
-        ("three", {6: 3, 12: 3}),
-        ("four", dict.fromkeys([2, 4, 6, 8, 10, 12], 4)),
-        ("four, cross-plane", {4: 4, 8: 4, 12: 4}),
-        ("five", {10: 5}),
-        ("six", {6: 6, 12: 6}),
-        ("eight", {4: 8, 8: 8, 12: 8}),
+        ("single", {}, dict.fromkeys([1, 2, 4, 6, 8, 10, 12], line(1))),
+        ("twin 180", {}, dict.fromkeys([2, 4, 6, 8, 10, 12], line(2))),
+        ("twin 360", {}, dict.fromkeys([1, 2, 4, 6, 8, 10, 12], line(2))),
+        ("twin 270", {}, {1: line(sqrt(2)), 4: line(2), 8: line(2), 12: line(2)}),
+        ("three", {}, {6: line(3), 12: line(3)}),
+        ("four", {}, dict.fromkeys([2, 4, 6, 8, 10, 12], line(4))),
+        ("four, cross-plane", {}, dict.fromkeys([4, 8, 12], line(4))),
+        ("five", {}, {10: line(5)}),
+        ("six", {}, {6: line(6), 12: line(6)}),
+        ("eight", {}, dict.fromkeys([4, 8, 12], line(8))),
+        # a counterweight balances order 1 of a 90-degree V-twin; order 2 is across
+        ([0], V90, {1: (1, 0)} | dict.fromkeys([2, 4, 6, 8, 10, 12], line(sqrt(2)))),
+        (CROSS_PLANE, V90, dict.fromkeys([4, 8, 12], line(4 * sqrt(2)))),
+        (FLAT_PLANE, V90, dict.fromkeys([2, 4, 6, 8, 10, 12], line(4 * sqrt(2)))),
+        (V6, SIX_PINS, {6: line(3 * sqrt(3)), 12: line(3 * sqrt(3))}),
+        (V6, V90, {6: line(3 * sqrt(2)), 12: line(3 * sqrt(2))}),
+        (V6, SPLIT, {6: line(3 * sqrt(2)), 12: line(3 * sqrt(2))}),
+        ([0, 180], BOXER, {}),
+        (FLAT_PLANE, BOXER, {}),
+        ([0, 180, 120, 300, 240, 60], BOXER, {}),
     ],
 )
-def test_forces_in_line(name, orders):
+def test_forces(throws, layout, vectors):
     """Order n adds up where all n phi_i agree; everything else is balanced, and said to be so."""
-    found = of(INLINE[name])
-    assert free(found, "force") == list(orders)
-    for n, factor in orders.items():
-        assert units(found, "force", n, "major") == pytest.approx(factor, rel=RELATIVE)
-        assert units(found, "force", n, "minor") == 0
+    found = of(INLINE.get(str(throws), throws), **layout)
+    assert free(found, "force") == list(vectors)
+    for n, (forward, backward) in vectors.items():
+        assert units(found, "force", n, "forward") == pytest.approx(forward, rel=RELATIVE)
+        assert units(found, "force", n, "backward") == pytest.approx(backward, rel=RELATIVE)
+        if layout == V90 and n > 1:  # across the bisector or along it
+            assert found.force.axis_deg[n - 1] == pytest.approx(90 if n % 4 else 0, abs=1e-10), n
+
+
+def five(order: int) -> float:
+    """|sum z e^(i n phi)|: 0.449 and 4.980 in every book."""
+    return abs(sum(z * exp(1j * order * radians(phi)) for z, phi in zip(range(-2, 3), INLINE["five"], strict=True)))
 
 
 @pytest.mark.parametrize(
-    ("name", "first", "second"),
+    ("throws", "layout", "first", "second"),
     [
-        ("twin 180", 1, 0),
-        ("twin 360", 0, 0),
-        ("twin 270", 1 / sqrt(2), 1),
-        ("three", sqrt(3), sqrt(3)),
-        ("four", 0, 0),
-        ("four, cross-plane", sqrt(10), 0),
-        ("six", 0, 0),
-        ("eight", 0, 0),
+        ("twin 180", {}, line(1), (0, 0)),
+        ("twin 360", {}, (0, 0), (0, 0)),
+        ("twin 270", {}, line(1 / sqrt(2)), line(1)),
+        ("three", {}, line(sqrt(3)), line(sqrt(3))),  # counterweights alone can take half of it
+        ("four", {}, (0, 0), (0, 0)),
+        ("four, cross-plane", {}, line(sqrt(10)), (0, 0)),
+        ("five", {}, line(five(1)), line(five(2))),
+        ("six", {}, (0, 0), (0, 0)),
+        ("eight", {}, (0, 0), (0, 0)),
+        (CROSS_PLANE, V90, (sqrt(10), 0), (0, 0)),
+        (FLAT_PLANE, V90, (0, 0), (0, 0)),
+        # six pins: counterweights, and one shaft at -2
+        (V6, SIX_PINS, (1.5, 0), (0, 1.5)),
+        (V6, V90, (sqrt(3), 0), line(sqrt(6))),
+        (V6, SPLIT, (sqrt(3) * cos(pi / 12), sqrt(3) * sin(pi / 12)), (sqrt(3) * sin(pi / 12), sqrt(3) * cos(pi / 12))),
+        # pins stand at half the spacing of a bank's cylinders: the textbook's a is the distance of neighbouring pins
+        ([0, 180], BOXER, line(1), line(1)),
+        (FLAT_PLANE, BOXER, (0, 0), line(2)),
+        ([0, 180, 120, 300, 240, 60], BOXER, (0, 0), (0, 0)),
     ],
 )
-def test_moments_in_line(name, first, second):
-    found = of(INLINE[name])
-    for order, factor in ((1, first), (2, second)):
-        assert units(found, "moment", order, "major") == pytest.approx(factor, rel=RELATIVE, abs=1e-14), order
-        assert (order in free(found, "moment")) is (factor != 0), order
+def test_moments(throws, layout, first, second):
+    found = of(INLINE.get(str(throws), throws), **layout)
+    for order, vectors in ((1, first), (2, second)):
+        parts = [units(found, "moment", order, part) for part in ("forward", "backward")]
+        assert parts == pytest.approx(vectors, rel=RELATIVE, abs=1e-14), order
+        assert (order in free(found, "moment")) is any(vectors), order
 
 
-@pytest.mark.parametrize(("order", "printed"), [(1, 0.449), (2, 4.980)])
-def test_moments_of_the_five(order, printed):
-    """Firing 1-2-4-5-3; the printed figures are those of every book, |sum z e^(i n phi)| makes them exact."""
-    exact = abs(sum(z * exp(1j * order * radians(phi)) for z, phi in zip(range(-2, 3), INLINE["five"], strict=True)))
-    assert exact == pytest.approx(printed, abs=5e-4)
-    assert units(of(INLINE["five"]), "moment", order, "major") == pytest.approx(exact, rel=RELATIVE)
-
-
-def test_in_line_moments_turn_half_with_and_half_against_the_crank():
-    """So that counterweights alone can take half of it."""
-    found = of(INLINE["three"])
-    assert units(found, "moment", 1, "forward") == pytest.approx(sqrt(3) / 2, rel=RELATIVE)
-    assert units(found, "moment", 1, "backward") == pytest.approx(sqrt(3) / 2, rel=RELATIVE)
-    assert units(found, "moment", 1, "minor") < 1e-14
-
-
-# ------------------------------------------------------------------ vees
-def test_90_degree_v_twin():
-    """First order: a vector of F1 turning with the crank, which a counterweight balances; second: sqrt 2 F2, across."""
-    found = of([0], bank_angle=90)
-    assert units(found, "force", 1, "forward") == pytest.approx(1, rel=RELATIVE)
-    assert found.force.backward[0] == 0
-    assert units(found, "force", 2, "major") == pytest.approx(sqrt(2), rel=RELATIVE)
-    assert found.force.axis_deg[1] == pytest.approx(90)
-    assert units(found, "force", 2, "minor") < 1e-14
-
-
+# ------------------------------------------------------------------ other vees
 @pytest.mark.parametrize("gamma", [15, 45, 60, 75.5, 120, 170])
 def test_v_twins_of_any_angle(gamma):
     """Along the bisector 2 cos^2(g/2) F1 and 2 cos(g/2) cos g F2, across it 2 sin^2(g/2) F1 and 2 sin(g/2) sin g F2."""
@@ -134,27 +149,6 @@ def test_v_twins_of_any_angle(gamma):
     along, across = abs(found.force.x) / F1, abs(found.force.y) / F1
     assert along[:2] == pytest.approx([2 * cos(half) ** 2, A[2] * abs(2 * cos(half) * cos(2 * half))], rel=RELATIVE)
     assert across[:2] == pytest.approx([2 * sin(half) ** 2, A[2] * 2 * sin(half) * sin(2 * half)], rel=RELATIVE)
-
-
-def test_cross_plane_v8():
-    """sqrt 10 F1 a turning with the crank, no second order; the eighth is small, but there: 4 sqrt 2 F8."""
-    found = of([0, 90, 270, 180], bank_angle=90)
-    assert free(found, "force") == [4, 8, 12]
-    assert units(found, "moment", 1, "forward") == pytest.approx(sqrt(10), rel=RELATIVE)
-    assert found.moment.backward[0] == 0
-    assert 2 not in free(found, "moment")
-    assert units(found, "force", 4, "major") == pytest.approx(4 * sqrt(2), rel=RELATIVE)
-    assert units(found, "force", 8, "major") == pytest.approx(4 * sqrt(2), rel=RELATIVE)
-    assert found.force.axis_deg[[3, 7]] == pytest.approx([0, 0], abs=1e-10)
-
-
-def test_flat_plane_v8():
-    """4 sqrt 2 F2 across the bisector, no moments."""
-    found = of([0, 180, 180, 0], bank_angle=90)
-    assert 1 not in free(found, "force")
-    assert units(found, "force", 2, "major") == pytest.approx(4 * sqrt(2), rel=RELATIVE)
-    assert found.force.axis_deg[1] == pytest.approx(90)
-    assert free(found, "moment") == []
 
 
 @pytest.mark.parametrize("gamma", [45, 60, 90, 180])
@@ -166,49 +160,6 @@ def test_v12(gamma):
     sixth = F1 * abs(A[6])
     assert abs(found.force.x[5]) / sixth == pytest.approx(abs(12 * cos(half) * cos(6 * half)), abs=1e-12)
     assert abs(found.force.y[5]) / sixth == pytest.approx(abs(12 * sin(half) * sin(6 * half)), abs=1e-12)
-
-
-def v6(gamma: float, splay: float) -> Spectra:
-    crank = {"throws": [0, 120, 240], "spacing": 100, "splay": splay}
-    return compute_spectra(engine(crank=crank, layout={"bank_angle": gamma}), list(ORDERS))
-
-
-def test_v6_of_60_degrees_on_six_pins():
-    """3/2 F1 a turning with the crank, 3/2 F2 a against it: counterweights, and one shaft at -2."""
-    found = v6(60, -60)
-    assert {1, 2, 3, 4, 5} & set(free(found, "force")) == set()
-    assert units(found, "moment", 1, "forward") == pytest.approx(1.5, rel=RELATIVE)
-    assert units(found, "moment", 2, "backward") == pytest.approx(1.5, rel=RELATIVE)
-    assert found.moment.backward[0] == found.moment.forward[1] == 0
-
-
-@pytest.mark.parametrize("splay", [0, -30])
-def test_v6_of_90_degrees(splay):
-    """sqrt 3 F1 a turning with the crank; with pins split by s cos(s/2) of it, and sin(s/2) against the crank."""
-    found = v6(90, splay)
-    assert {1, 2, 3, 4, 5} & set(free(found, "force")) == set()
-    half = radians(abs(splay) / 2)
-    assert units(found, "moment", 1, "forward") == pytest.approx(sqrt(3) * cos(half), rel=RELATIVE)
-    assert units(found, "moment", 1, "backward") == pytest.approx(sqrt(3) * sin(half), rel=RELATIVE)
-
-
-# ------------------------------------------------------------------ boxers: opposed pistons on pins of their own
-@pytest.mark.parametrize(
-    ("pins", "first", "second"),
-    [([0, 180], 1, 1), ([0, 180, 180, 0], 0, 2), ([0, 180, 120, 300, 240, 60], 0, 0)],
-    ids=["twin", "four", "six"],
-)
-def test_boxers(pins, first, second):
-    """No forces, and moments F1 a and F2 a about x. Pins stand at half the spacing of a bank's cylinders: the
-    textbook's a is the distance of neighbouring pins.
-    """
-    found = of(pins, banks=[-90, 90], rods="alternating")
-    assert free(found, "force") == []
-    for order, factor in ((1, first), (2, second)):
-        assert (order in free(found, "moment")) is (factor != 0)
-        assert units(found, "moment", order, "major") == pytest.approx(factor, rel=RELATIVE)
-    if len(pins) == 2:
-        assert found.moment.axis_deg[:2] == pytest.approx([0, 0])
 
 
 # ------------------------------------------------------------------ radials

@@ -13,7 +13,6 @@ from support.diesel import DIAGRAM, INERTIAS, NATURAL_HZ, STIFFNESSES
 from support.paths import ROOT
 
 from balcli.core.peaks import find_swing, sum_amplitudes
-from balcli.core.vibration import frequencies
 from balcli.torsion.chain import ChainShaft, Damping, join_chain
 from balcli.torsion.modes import find_chain_modes, locate_nodes
 from balcli.torsion.motion import respond_chain
@@ -97,7 +96,7 @@ def test_sums_of_amplitudes_as_the_example_makes_them(rpm):
 def test_exact_orders_synthesised_in_time(rpm):
     """Like in size and shape, and 1.2 to 2.5 times less than the sum of amplitudes."""
     orders, load = exact_loads(rpm)
-    w = frequencies(orders, rpm * np.pi / 30)
+    w = np.multiply.outer(orders, rpm * np.pi / 30)
     twist = respond_chain(CHAIN, DAMPING, w, load)
     sums, half = sum_amplitudes(twist.torque), find_swing(orders, twist.torque).half
     assert sums == pytest.approx(SUMS_OF_AMPLITUDES[rpm], rel=0.06)
@@ -113,7 +112,7 @@ def test_exact_orders_synthesised_in_time(rpm):
 def test_figures_of_the_document():
     """docs/torsion.md shows both at 2000 rpm."""
     orders, load = exact_loads(2000)
-    twist = respond_chain(CHAIN, DAMPING, frequencies(orders, 2000 * np.pi / 30), load)
+    twist = respond_chain(CHAIN, DAMPING, np.multiply.outer(orders, 2000 * np.pi / 30), load)
     shown = [
         [float(cell) for cell in line.split("|")[2:5]]
         for line in DOCUMENT.read_text(encoding="utf-8").partition("torques at 2000 rpm")[2].splitlines()[4:12]

@@ -24,7 +24,7 @@ from ..forces.spectrum import (
     merge_orders,
 )
 from ..forces.stars import Star, find_stars
-from ..forces.symmetry import Symmetry, Textbook, explain_symmetry, find_textbook
+from ..forces.symmetry import Symmetry, explain_symmetry
 from ..limits import HIGHEST_GUIDE_M, HIGHEST_ORDER_UNASKED, MOST_RESULTS_BY_CYLINDER, SMALL
 from ..show.figures import (
     EngineState,
@@ -147,18 +147,6 @@ class Analysis(OrdersAndPeaks, Result):
         return self.engine.places_known
 
     @property
-    def has_higher_orders(self) -> bool:
-        """Whether the engine has orders above those that are shown by default."""
-        return bool(find_relevant_orders(self.engine)[-1] > HIGHEST_ORDER_UNASKED)
-
-    @property
-    def textbook(self) -> Textbook:
-        """Force and moment as textbooks state them, if they were computed and are known."""
-        asked = [kind.name for kind, _ in self.spectra.vectors()]
-        known = [name for name in asked if name != "moment" or self.moments_known]
-        return find_textbook(self.engine, self.orders, known)
-
-    @property
     def of_one_cylinder(self) -> dict[str, float]:
         """Largest force and moment of one cylinder, by kind, with which values are compared."""
         scales = self.scales
@@ -240,16 +228,11 @@ def analyze(
     of_gas = () if engine.gas is None else list_gas_orders(engine)
     due = DEFAULT_ORDERS if asked is None else asked
     every = merge_orders(find_relevant_orders(engine), of_gas, due)
-    computed = every if asked is None or "peak" in wanted else asked
-    peaked = {kind.name for kind in VECTORS} if "peak" in wanted else set()
-    if engine.gas is None or computed.max() <= HIGHEST_ORDER_UNASKED:
-        everything = compute_spectra(engine, computed, shown | peaked)
-        visible = everything.only(shown)
-    else:  # an engine close to locking has tens of thousands of orders, which only peaks need
-        few = every[every <= HIGHEST_ORDER_UNASKED] if asked is None else asked
-        visible = compute_spectra(engine, few, shown)
-        everything = compute_spectra(engine, computed, peaked) if peaked else visible
+    # An engine close to locking has tens of thousands of orders, which only peaks need.
+    few = every[every <= HIGHEST_ORDER_UNASKED] if asked is None else asked
+    visible = compute_spectra(engine, few, shown)
     visible = visible.select_orders(choose_orders(visible, of_gas) if asked is None else asked)
+    free = {kind.name for kind in VECTORS}
     has_linkage = engine.cylinders.linkage is not None and not engine.placed
     model = take_model(engine) if "parts" in wanted else None
     provable = shown if engine.places_known else shown - {"moment"}
@@ -259,7 +242,7 @@ def analyze(
         state=describe_state(engine),
         spectra=visible,
         assumed=engine.list_assumed("gas", without=list_idle_defaults(engine, wanted)),
-        peak=find_peaks(everything) if peaked else None,
+        peak=find_peaks(compute_spectra(engine, every, free)) if "peak" in wanted else None,
         sizing=_size(engine, ladder, asked, wanted) if ladder and "sizing" in wanted else None,
         ladder=ladder if "ladder" in wanted else None,
         cylinders=_analyze_cylinders(engine, visible.orders, shown) if by_cylinder else None,

@@ -10,6 +10,7 @@ from typing import Annotated
 import typer
 
 from ..errors import BalcliError
+from ..file.units import ANGLE
 from ..shell.file_names import (
     SERIES,
     format_of,
@@ -41,7 +42,7 @@ from ..shell.options import (
     parse_speed,
 )
 from ..shell.output import emit, refuse_overwriting, show, write_file
-from ..shell.values import optional, parse_cylinder, read_angle, read_lengths
+from ..shell.values import optional, parse_cylinder, read_figure, read_lengths
 from ..show.formats import Format, Units, csv_text, json_text
 from . import options as analysis_options
 
@@ -71,19 +72,15 @@ def analyze(
     """
     refuse_overwriting(reads=paths, writes={"--output": output})
     chosen, marine = analysis_options.choose_analysis_format(output, form)
-    speeds_rpm = analysis_options.parse_analysed_speeds(speed)
-    shown = parse_orders(orders)
-    height_m = parse_guide_height(guide_height, units)
-    words, misfires = parse_parts(only), tuple(misfire or ())
     asked = analysis_options.Request(
-        speeds_rpm,
-        shown,
-        *words,
+        analysis_options.parse_analysed_speeds(speed),
+        parse_orders(orders),
+        *parse_parts(only),
         whole,
         by is not None,
         why,
-        height_m,
-        misfires,
+        parse_guide_height(guide_height, units),
+        tuple(misfire or ()),
         marine,
         parse_small(small),
     ).check()
@@ -172,7 +169,7 @@ def curves(
     form = format_of(output, form, SERIES, Format.CSV)
     from . import curves as chapter
 
-    asked, step_deg = parse_orders(orders), read_angle("--step", step)
+    asked, step_deg = parse_orders(orders), read_figure("--step", step, ANGLE)
     engine = read_engine(path, parse_speed(speed), None if cylinder is None else ()).engine
     number = None if cylinder is None else parse_cylinder(cylinder)
     found = chapter.compute_curves_by_step(engine, number, step_deg, asked)
@@ -259,7 +256,7 @@ def sum(  # noqa: A001 (the command's name)
 
     rpm, asked = parse_speed(speed), parse_orders(orders)
     x, y, z = read_lengths("--at", at, "three numbers, X,Y,Z in mm, such as 0,300,0", 3, units)
-    lead, turned = read_angle("--phase", phase), read_angle("--turn", turn)
+    lead, turned = read_figure("--phase", phase, ANGLE), read_figure("--turn", turn, ANGLE)
     arrangement = Arrangement(lead, (x, y, z), turned, reverse, load)
     engines = [named_by_file(read_engine(path, rpm).engine, path) for path in paths]
     result = combine_engines(engines[0], engines[1], arrangement, asked)

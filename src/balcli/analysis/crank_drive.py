@@ -70,14 +70,13 @@ def find_journals(engine: Engine) -> tuple[Journal, ...]:
     places = engine.joined_throws_m
     kinds = {"pin": places, "main": place_bearings(places)}
     torques, found = CrankTorques.of(engine), []
-    for place, weights in weigh_cylinders(engine).items():
-        kind, _, number_ = place.partition(" ")
-        at = kinds[kind] if engine.places_known else None
+    for (kind, place), weights in weigh_cylinders(engine).items():
         inertia, total = torques.measure(weights), torques.measure_total(weights)
+        at = kinds[kind] if engine.places_known else None
         found.append(
             Journal(
-                place=place,
-                position_mm=None if at is None else 1e3 * float(at[int(number_) - 1]),
+                place=f"{kind} {place}",
+                position_mm=None if at is None else 1e3 * float(at[place - 1]),
                 inertia=inertia,
                 total=total,
                 stress=_find_stress(engine, total or inertia, kind),
@@ -86,18 +85,19 @@ def find_journals(engine: Engine) -> tuple[Journal, ...]:
     return tuple(found)
 
 
-def weigh_cylinders(engine: Engine) -> dict[str, Array]:
+def weigh_cylinders(engine: Engine) -> dict[tuple[str, int], Array]:
     """Return the share of each cylinder's torque, shape (cylinders,), in every main journal and
-    crank pin from the free end: `main 1`, `pin 1`, `main 2`, ...; errors as for `find_journals`.
+    crank pin from the free end: ("main", 1), ("pin", 1), ("main", 2), ...; errors as for
+    `find_journals`.
     """
     if engine.rotary:
         raise BalcliError("journals: the crank of a rotary engine stands still")
     throws = np.array(engine.joined_throw_of_rows) + 1
-    last, found = int(throws.max()), dict[str, Array]()
+    last, found = int(throws.max()), dict[tuple[str, int], Array]()
     for k in range(1, last + 2):
-        found[f"main {k}"] = np.where(throws < k, 1.0, 0.0)
+        found["main", k] = np.where(throws < k, 1.0, 0.0)
         if k <= last:
-            found[f"pin {k}"] = np.where(throws < k, 1.0, 0.5 * (throws == k))
+            found["pin", k] = np.where(throws < k, 1.0, 0.5 * (throws == k))
     return found
 
 
@@ -161,14 +161,8 @@ class CrankTorques(NamedTuple):
 
 def _write(high: CyclePeak | Extreme, low: CyclePeak | Extreme, mean: float = 0.0) -> JournalTorque:
     highest, lowest = float(high.value), float(low.value)
-    return JournalTorque(
-        max_Nm=highest,
-        max_deg=math.degrees(float(high.angle)),
-        min_Nm=lowest,
-        min_deg=math.degrees(float(low.angle)),
-        range_Nm=highest - lowest,
-        mean_Nm=mean,
-    )
+    angles = (math.degrees(float(each.angle)) for each in (high, low))
+    return JournalTorque(highest, lowest, highest - lowest, mean, *angles)
 
 
 def _find_stress(engine: Engine, torque: JournalTorque, kind: str) -> ShearStress | None:
@@ -200,23 +194,21 @@ def list_names(model: EngineFile) -> Iterator[str]:
 def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> None:
     """Raise BalcliError if a quantity names a journal or pin that the crankshaft lacks."""
     refuse_geared(model)
-    places = [place.split() for place in weigh_cylinders(build(model))]
+    places = weigh_cylinders(build(model))
     for q in quantities:
-        refuse_stranger(q, [number_ for kind, number_ in places if kind == _KINDS[q.kind]])
+        refuse_stranger(q, [str(place) for kind, place in places if kind == _KINDS[q.kind]])
 
 
 def evaluate_engine(engine: Engine, quantities: Sequence[TargetQuantity]) -> list[float]:
     """Return the value of each quantity of one engine, N m."""
-    torques, places = CrankTorques.of(engine), weigh_cylinders(engine)
-    found = dict[str, JournalTorque]()
-    for place in dict.fromkeys(map(_name_place, quantities)):
-        weights = places[place]
-        found[place] = torques.measure_total(weights) or torques.measure(weights)
-    return [float(getattr(found[_name_place(q)], f"{q.part}_Nm")) for q in quantities]
-
-
-def _name_place(q: TargetQuantity) -> str:
-    return f"{_KINDS[q.kind]} {q.target}"
+    torques, weights = CrankTorques.of(engine), weigh_cylinders(engine)
+    places = [(_KINDS[q.kind], int(q.target)) for q in quantities]
+    found = {
+        place: torques.measure_total(weights[place]) or torques.measure(weights[place])
+        for place in dict.fromkeys(places)
+    }
+    pairs = zip(quantities, places, strict=True)
+    return [float(getattr(found[place], f"{q.part}_Nm")) for q, place in pairs]
 
 
 Variants = partial(FiguresOfVariants, evaluate_engine)
@@ -283,14 +275,8 @@ def list_masses(engine: Engine) -> tuple[Masses, ...]:
     found: dict[tuple[Masses, float], list[int]] = {}
     for number_, weighed, radius, length, couple in sorted(each, key=lambda row: row[0]):
         small, big = float(weighed.small_end), float(weighed.big_end)
-        one = Masses(
-            cylinders=(),
-            piston_kg=float(weighed.piston),
-            crosshead_kg=float(weighed.crosshead),
-            reciprocating_kg=float(weighed.reciprocating),
-            rotating_kg=float(weighed.rotating),
-            throw_kg=float(weighed.share),
-        )
+        moving = weighed.piston, weighed.crosshead, weighed.reciprocating
+        one = Masses((), *map(float, (*moving, weighed.rotating, weighed.share)))
         if (mass := small + big) > 0:
             one = one._replace(rod_kg=mass, rod_small_end_kg=small, rod_big_end_kg=big)
         if mass > 0 and math.isfinite(length):
@@ -389,11 +375,9 @@ def lay_out_related(related: PowerRelatedUnbalance, system: System) -> Grid:
     kind = "" if related.power_kind == "file" else f"{related.power_kind} "
     title = f"Power related unbalance ({kind}power {size_text(related.power_W, system.power)})"
     unit = system.moment.fit(max(each.moment_Nm for each in related.orders))
-    rows = []
-    for each in related.orders:
-        cells = (UNKNOWN, UNKNOWN, UNKNOWN)
-        if each.need is not None:
-            cells = (size_cell(each.moment_Nm, unit), number(each.Nm_per_kW), each.need)
-        rows.append((order_name(each.order), *cells))
+    rows = tuple(
+        (order_name(order), size_cell(moment, unit), number(ratio), need or UNKNOWN)
+        for order, moment, ratio, need in related.orders
+    )
     heads = ("order", f"M, {unit.name}", "PRU, N·m/kW", "compensator")
-    return Grid(title, heads, tuple(rows), "At the speed of the file.", words=(3,))
+    return Grid(title, heads, rows, "At the speed of the file.", words=(3,))

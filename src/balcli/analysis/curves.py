@@ -5,7 +5,7 @@ engine has some; and define the result `Curves` and its output formats.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 from typing import Literal
 
@@ -76,7 +76,7 @@ class Curves(Result):
         return f"of {self.engine or 'an engine'}: {len(self.crank_deg)} crank angles"
 
 
-def compute_engine_curves(engine: Engine, crank_deg: Array) -> Curves:
+def compute_engine_curves(engine: Engine, crank_deg: Array) -> dict[str, Array]:
     """Return free force (N), moment, couple, inertia torque and roll (N m) of an engine with its
     devices; force and moment also as vertical and horizontal components, if `frame.up` is given.
 
@@ -84,11 +84,13 @@ def compute_engine_curves(engine: Engine, crank_deg: Array) -> Curves:
         engine: Engine without trailing axes.
         crank_deg: Crank angles, shape (angles,).
     """
-    found = _sum_parts(engine, crank_deg, lambda angles: _compute_engine_parts(engine, angles))
-    return _add_upright(engine, found)
+    curves = _sum_parts(engine, crank_deg, lambda angles: _compute_engine_parts(engine, angles))
+    return curves | _find_upright(engine, curves)
 
 
-def compute_order_curves(engine: Engine, orders: Iterable[float], crank_deg: Array) -> Curves:
+def compute_order_curves(
+    engine: Engine, orders: Iterable[float], crank_deg: Array
+) -> dict[str, Array]:
     """Return the curves of `compute_engine_curves`, with gas if the engine has some, but as sums of
     only the given orders.
 
@@ -108,31 +110,28 @@ def compute_order_curves(engine: Engine, orders: Iterable[float], crank_deg: Arr
         curves[kind.key_along("x") if kind.vector else kind.key] = _settle(values.real, most)
         if kind.vector:
             curves[kind.key_along("y")] = _settle(values.imag, most)
-    found = Curves(
-        engine=engine.name,
-        speed_rpm=float(engine.speed_rpm),
-        crank_deg=crank_deg,
-        curves=curves,
-    )
-    return _add_upright(engine, found)
+    return curves | _find_upright(engine, curves)
 
 
-def _add_upright(engine: Engine, found: Curves) -> Curves:
-    """Return the curves of an engine; if `frame.up` is given, with vertical and horizontal
-    components of force and moment.
+def _find_upright(engine: Engine, curves: Mapping[str, Array]) -> dict[str, Array]:
+    """Return the vertical and horizontal components of the curves of force and moment; empty if the
+    file does not give `frame.up`.
     """
-    curves = dict(found.curves)
-    if engine.up_deg is not None:
-        for kind in VECTORS:
-            x, y = (curves[kind.key_along(axis)] for axis in "xy")
-            turned = unit(-engine.up_deg) * compose(x, y)
-            most = float(np.abs(turned).max(initial=0))
-            for word, part in zip(kind.upright, (turned.real, turned.imag), strict=True):
-                curves[kind.key_along(word)] = _settle(part, most)
-    return replace(found, curves=curves, assumed=engine.list_assumed())
+    found: dict[str, Array] = {}
+    if engine.up_deg is None:
+        return found
+    for kind in VECTORS:
+        x, y = (curves[kind.key_along(axis)] for axis in "xy")
+        turned = unit(-engine.up_deg) * compose(x, y)
+        most = float(np.abs(turned).max(initial=0))
+        for word, part in zip(kind.upright, (turned.real, turned.imag), strict=True):
+            found[kind.key_along(word)] = _settle(part, most)
+    return found
 
 
-def compute_cylinder_curves(engine: Engine, number: CylinderNumber, crank_deg: Array) -> Curves:
+def compute_cylinder_curves(
+    engine: Engine, number: CylinderNumber, crank_deg: Array
+) -> dict[str, Array]:
     """Return piston travel from top dead centre (m), velocity and acceleration away from it (m/s,
     m/s2) and rod angle (deg) of one cylinder.
 
@@ -154,7 +153,7 @@ def compute_cylinder_curves(engine: Engine, number: CylinderNumber, crank_deg: A
 
 def _sum_parts(
     engine: Engine, crank_deg: Array, compute: Callable[[Array], dict[str, Array]]
-) -> Curves:
+) -> dict[str, Array]:
     """Return the sum of the terms of each curve; a sum within the rounding error of its terms is 0.
 
     Args:
@@ -172,14 +171,9 @@ def _sum_parts(
         crank_deg,
         lambda angles: {name: parts.sum(axis=0) for name, parts in compute(angles).items()},
     )
-    return Curves(
-        engine=engine.name,
-        speed_rpm=float(engine.speed_rpm),
-        crank_deg=crank_deg,
-        curves={
-            name: np.where(np.abs(curve) <= noise[name], 0.0, curve) for name, curve in sums.items()
-        },
-    )
+    return {
+        name: np.where(np.abs(curve) <= noise[name], 0.0, curve) for name, curve in sums.items()
+    }
 
 
 def _compute_engine_parts(engine: Engine, crank_deg: Array) -> dict[str, Array]:
@@ -262,7 +256,6 @@ def _couple_of_cylinders(motion: EngineMotion) -> Array:
 
 
 _ROUNDING = 1e-14
-_BORNE = "borne"  # name of the curve of gas torque that the frame bears
 
 
 def _find_gas_torque(engine: Engine, crank_deg: Array) -> dict[str, Array]:
@@ -271,7 +264,7 @@ def _find_gas_torque(engine: Engine, crank_deg: Array) -> dict[str, Array]:
     each = [c.share * c.torque.curve.at(at - c.fires) for c in take_gas(engine).cylinders]
     senses = [one.load_sense for one in engine.cranks for _ in one.engine.numbers]
     borne = (sense * torque for sense, torque in zip(senses, each, strict=True))
-    return {GAS.key: sum(each, np.zeros(at.shape)), _BORNE: sum(borne, np.zeros(at.shape))}
+    return {GAS.key: sum(each, np.zeros(at.shape)), "borne": sum(borne, np.zeros(at.shape))}
 
 
 def _find_cylinder_gas(engine: Engine, row: int, crank_deg: Array) -> dict[str, Array]:
@@ -368,25 +361,29 @@ def compute_curves_by_step(
     if orders is not None:
         if cylinder is not None:
             raise BalcliError("--orders needs the whole engine; leave --cylinder out")
-        return compute_order_curves(engine, orders, crank_deg)
-    if cylinder is None:
-        found = compute_engine_curves(engine, crank_deg)
-    else:
+        found = compute_order_curves(engine, orders, crank_deg)
+    elif cylinder is not None:
         found = compute_cylinder_curves(engine, cylinder, crank_deg)
-    if engine.gas is None:
-        return found
-    compute, own_deg = partial(_find_gas_torque, engine), crank_deg
-    if cylinder is not None:
         one, row = find_crank(engine, cylinder)
-        if one.engine.gas is None:
-            return found
-        compute, own_deg = partial(_find_cylinder_gas, one.engine, row), crank_deg + one.phase_deg
-    every = dict(found.curves)
-    every |= {k: _settle(y) for k, y in compute_piecemeal(engine, own_deg, compute).items()}
-    if cylinder is None:
-        every[TORQUE_TOTAL.key] = every[TORQUE.key] + every[GAS.key]
-        every[ROLL_TOTAL.key] = every[ROLL.key] - every.pop(_BORNE)
-    return replace(found, curves=every)
+        if one.engine.gas is not None:
+            of_gas = partial(_find_cylinder_gas, one.engine, row)
+            curves = compute_piecemeal(engine, crank_deg + one.phase_deg, of_gas)
+            found |= {name: _settle(curve) for name, curve in curves.items()}
+    else:
+        found = compute_engine_curves(engine, crank_deg)
+        if engine.gas is not None:
+            curves = compute_piecemeal(engine, crank_deg, partial(_find_gas_torque, engine))
+            torque, borne = map(_settle, curves.values())
+            found[GAS.key] = torque
+            found[TORQUE_TOTAL.key] = found[TORQUE.key] + torque
+            found[ROLL_TOTAL.key] = found[ROLL.key] - borne
+    return Curves(
+        engine=engine.name,
+        speed_rpm=float(engine.speed_rpm),
+        crank_deg=crank_deg,
+        curves=found,
+        assumed=engine.list_assumed() if cylinder is None else None,
+    )
 
 
 def columns(curves: Curves) -> Columns:

@@ -37,6 +37,7 @@ if TYPE_CHECKING:
     from ..forces.spectrum import Spectra
     from ..forces.symmetry import Textbook
     from ..show.figures import OrdersAndPeaks
+    from ..show.sheet import View
     from ..show.units import ShownUnit, System
 
 
@@ -292,9 +293,7 @@ def _peak(peak: Peak, unit: ShownUnit, least: float) -> str:
 _SHOWN = ("torque", "gas", "torque_total", "roll_total")  # names of kinds, in the order of columns
 
 
-def gas_grid(
-    spectra: Spectra, system: System, pivot: str, *, every_order: bool, hints: bool
-) -> Iterator[Grid]:
+def gas_grid(spectra: Spectra, system: System, pivot: str, view: View) -> Iterator[Grid]:
     """Yield a table by order of inertia torque, gas torque, their sum and the roll of the frame, if
     all are known. Negligible orders are omitted by default.
 
@@ -302,8 +301,7 @@ def gas_grid(
         spectra: Spectra to show.
         system: System of units.
         pivot: Axis of the roll, in words.
-        every_order: Whether to show negligible orders as well.
-        hints: Whether to name the command that shows more.
+        view: Whether to show negligible orders as well, and to name the command that shows more.
     """
     found = [phasors for kind, phasors in spectra.items() if kind.name in _SHOWN]
     if len(found) < len(_SHOWN):
@@ -321,13 +319,13 @@ def gas_grid(
     rows = tuple(
         tuple(row(k, order))
         for k, order in enumerate(spectra.orders.tolist())
-        if order in (1, 2) or every_order or max(p.major[k] for p in found) > least
+        if order in (1, 2) or view.every_order or max(p.major[k] for p in found) > least
     )
     yield Grid(
         f"About {pivot} with gas, {unit.name}",
         ("order", "inertia torque", "gas torque", "torque", "roll of the frame", "peak, deg"),
         rows,
-        "Torque = inertia + gas." + (" Mean torque, flywheel and more: balcli torque." * hints),
+        "Torque = inertia + gas." + " Mean torque, flywheel and more: balcli torque." * view.hints,
     )
 
 

@@ -13,8 +13,7 @@ import numpy as np
 
 from ..core.cylinders import Device, DeviceKind
 from ..core.phasors import Array, Complex, Phasors, wrap_degrees
-from ..file.fields import join_words
-from ..file.messages import ordinal
+from ..file.fields import join_words, ordinal
 from ..forces.kinds import COUPLE, FORCE, MOMENT, ROLL, ROLL_TOTAL, Kind
 from ..forces.spectrum import Spectra, compute_spectra
 from ..limits import SMALL
@@ -74,7 +73,7 @@ def vectors_grid(spectra: Spectra, shown: list[float], system: System, *, hints:
         columns.append((f"{kind.name}, {unit.name}", largest))
         columns += [("with crank", ahead), ("against", against)]
     title = "Largest by order, and its parts that turn with the crank and against it"
-    return Grid.of_columns(title, columns, tell_others([spectra], shown, system, hints=hints))
+    return Grid.of_columns(title, columns, tell_others(spectra, shown, system, hints=hints))
 
 
 def name_column(kind: Kind) -> str:
@@ -82,29 +81,25 @@ def name_column(kind: Kind) -> str:
     return "roll with gas" if kind is ROLL_TOTAL else kind.name
 
 
-def tell_others(
-    states: Sequence[Spectra], shown: list[float], system: System, *, hints: bool
-) -> str:
+def tell_others(spectra: Spectra, shown: list[float], system: System, *, hints: bool) -> str:
     """Return a line on the orders that are not shown; empty if there are none.
 
     Args:
-        states: Spectra of an engine, or of two states (before and after), with the same orders.
+        spectra: All orders that were computed.
         shown: Orders that are shown.
         system: System of units.
         hints: Whether to name the option that shows more.
     """
     others = [
         float(order)
-        for k, order in enumerate(states[0].orders)
-        if order not in shown and any(p.major[k] > 0 for one in states for _, p in one.items())
+        for k, order in enumerate(spectra.orders)
+        if order not in shown and any(p.major[k] > 0 for _, p in spectra.items())
     ]
     if not others:
         return ""
-    rest = [one.select_orders(others) for one in states]
     sizes = []
-    for kind, _ in rest[0].items():
-        largest = max(float(np.nan_to_num(one[kind.name].major).max()) for one in rest)
-        if largest:  # a value that is not known (nan) counts as 0
+    for kind, phasors in spectra.select_orders(others).items():
+        if largest := float(np.nan_to_num(phasors.major).max()):  # not known (nan): counts as 0
             sizes.append(f"{name_column(kind)} {size_text(largest, system.unit(kind))}")
     names = ", ".join(map(order_name, others[:6]))
     more = ", …" if len(others) > 6 else ""
@@ -274,10 +269,7 @@ def verdict(
     scales: Scales | None = None,
     *,
     small: float = SMALL,
-    steady: bool = True,
-    devices: Sequence[Device] = (),
-    omega: float = 0.0,
-    turning: Collection[int] = (1,),
+    engine: Engine | None = None,
 ) -> tuple[str, ...]:
     """Return a sentence for every order up to 2 that is not small, one sentence on the higher
     orders that are not small, and one on the small orders; empty if the spectra have neither forces
@@ -288,14 +280,15 @@ def verdict(
         system: System of units.
         scales: Force and moment of one cylinder; None: not known, so that no order is small.
         small: Share of one cylinder's force or moment below which a part is small.
-        steady: Whether the speed is steady. At uneven speed no cure is named, because most of an
-            order may come from another order, and would vanish with that order.
-        devices: Devices of the file; a cure that turns like one of them is called a further one.
-        omega: Crank speed, rad/s, for the force of compensators among the devices.
-        turning: Senses in which the cranks turn (1: like the first crank, -1: against it);
-            counterweights can cancel a part that turns like a crank.
+        engine: Engine with these spectra; None: one crank without devices at steady speed. A cure
+            that turns like one of the engine's devices is called a further one. At uneven speed no
+            cure is named, because most of an order may come from another order, and would vanish
+            with that order.
     """
     of_one = {} if scales is None else scales._asdict()
+    steady = engine is None or not engine.ripple
+    devices = () if engine is None else engine.every_device
+    turning = {1} if engine is None else {one.ratio for one in engine.cranks}
     vectors = [
         _Vector(kind, phasors, system.unit(kind), of_one.get(kind.name, 0.0), spectra.up_deg)
         for kind, phasors in spectra.vectors()
@@ -324,8 +317,8 @@ def verdict(
     high = [one for one in matter if one.order > 2]
     told = [one.tell() for one in matter if len(high) < 2 or one not in high]
     for one in every:
-        if one.order in compensated:
-            told.append(_tell_compensated(one, devices, system, omega))
+        if engine is not None and one.order in compensated:
+            told.append(_tell_compensated(one, engine, system))
     if len(high) > 1:
         told.append(_tell_higher(high))
     if not steady and matter:
@@ -340,18 +333,19 @@ def verdict(
         balanced = usual or [order for order in balanced if order < 2 and not told]
     if all(one.couple for one in every if one.order in balanced):
         names.append(COUPLE.name)
-    rest = (_tell_balanced(balanced, names), small_ones and f"small: {small_ones}")
-    last = "; ".join(filter(None, rest))
-    return (*told, sentence(last)) if last else tuple(told)
+    rest = [f"{name_orders(balanced)}: {join_words(names)} balanced"] if balanced else []
+    rest += [f"small: {small_ones}"] if small_ones else []
+    return (*told, sentence("; ".join(rest))) if rest else tuple(told)
 
 
-def _tell_compensated(one: _Order, devices: Sequence[Device], system: System, omega: float) -> str:
+def _tell_compensated(one: _Order, engine: Engine, system: System) -> str:
     """Return sentences on an order with moment compensators: the vertical moment (about y, of
     forces along x), the force that the compensators introduce, and the engine's own force.
     """
+    devices = engine.every_device
     pairs = [device for device in devices if device.compensates and device.order == one.order]
     places = sorted({float(device.z) for device in pairs})
-    square, unit = (one.order * omega) ** 2, system.length
+    square, unit = (one.order * float(engine.omega)) ** 2, system.length
     where = join_words([f"z = {number(unit.of(z))} {unit.name}" for z in places])
     named = "compensators" if len(places) > 1 else "compensator"
     forward = square * sum(complex(device.forward) for device in pairs)
@@ -473,11 +467,6 @@ def name_orders(orders: Sequence[float]) -> str:
     if len(orders) > _MOST_NAMED:
         return f"{len(orders)} orders up to {order_name(max(orders))}"
     return f"order{'s' * (len(orders) > 1)} {join_words([*map(order_name, orders)])}"
-
-
-def _tell_balanced(orders: Sequence[float], names: list[str]) -> str:
-    """Return in words what is balanced in these orders; empty without orders."""
-    return f"{name_orders(orders)}: {join_words(names)} balanced" if orders else ""
 
 
 def _tell_largest(found: Sequence[tuple[_Order, _Vector]]) -> str:

@@ -70,23 +70,17 @@ def _describe_shaft(name: str, entries: Sequence[Shaft], omega: float) -> Balanc
     devices = [build_device(entry, 0.0) for entry in entries]
     order = devices[0].order
     inertia = order * sum(abs(float(device.spin)) for device in devices)
-    shaft = BalancerShaft(name, entries[0].ratio, inertia)
+    shaft = name, entries[0].ratio, inertia
     bearings = next((entry.bearings for entry in entries if entry.bearings), None)
     if bearings is None:
-        return shaft
+        return BalancerShaft(*shaft)
     places, planes = np.array([float(d.z) for d in devices]), np.array(bearings) / 1e3
     vectors: Complex = np.array([d.forward + d.backward for d in devices], complex)
     loads: Complex = (order * omega) ** 2 * vectors
     turning = _share(loads, places, planes)
     gear, fixed = _describe_gear(entries, order * omega, planes)
-    pairs = zip(bearings, turning.tolist(), fixed.tolist(), strict=True)
-    bending, place = _find_bending(loads, places, turning, planes)
-    return shaft._replace(
-        bearings=tuple(_describe_bearing(*pair) for pair in pairs),
-        bending_Nm=bending,
-        bending_position_mm=place,
-        gear=gear,
-    )
+    borne = tuple(map(_describe_bearing, bearings, turning.tolist(), fixed.tolist()))
+    return BalancerShaft(*shaft, borne, *_find_bending(loads, places, turning, planes), gear)
 
 
 def _describe_gear(

@@ -249,7 +249,7 @@ def draw_piston(fig: Figure, engine: Engine, number: int, system: System) -> Non
     found = choose_cylinder(analyze_pistons(steady), number).mechanisms[0]
     own_deg = np.arange(0.0, 360 + _STEP / 2, _STEP)
     turned = own_deg - float(np.ravel(engine.cylinders.angle_deg)[row])
-    curves = compute_cylinder_curves(steady, number, turned).curves
+    curves = compute_cylinder_curves(steady, number, turned)
     outer, inner = found.outer_dead_center_own_deg % 360, found.inner_dead_center_own_deg
     v, a = found.velocity, found.acceleration
     extremes = (
@@ -316,8 +316,11 @@ def draw_journals(fig: Figure, engine: Engine, unit: ShownUnit) -> None:
     cycle_deg = 360.0 if engine.gas is None else engine.gas.cycle_deg
     degrees = np.arange(0.0, cycle_deg + _STEP / 2, _STEP)
     torques, angle = CrankTorques.of(engine), np.radians(degrees)
-    mains = [each for each in weigh_cylinders(engine).items() if each[0].startswith("main")]
-    curves = {place: torques.sample(angle, weights) for place, weights in mains}
+    curves = {
+        f"main {place}": torques.sample(angle, weights)
+        for (kind, place), weights in weigh_cylinders(engine).items()
+        if kind == "main"
+    }
     ax, s = fig.subplots(), unit.fit(max(float(np.abs(each).max()) for each in curves.values()))
     for (place, curve), (line, color) in zip(curves.items(), repeat(MANY_LOOKS), strict=False):
         ax.plot(degrees, curve / s.size, linestyle=line, color=color, label=place)

@@ -283,7 +283,6 @@ def list_symmetry(why: Symmetry) -> Iterator[FigureRow]:
         if reason.reciprocating is not None:
             yield FigureRow(*about, "why_reciprocating", clean(reason.reciprocating), reason.unit)
             yield FigureRow(*about, "why_built", reason.built, reason.unit)
-    if why.scope:
-        yield FigureRow(0, "scope", None, "why", why.scope, "")
-    if why.firing:
-        yield FigureRow(0, "firing", None, "why", why.firing, "")
+    for name, told in (("scope", why.scope), ("firing", why.firing)):
+        if told:
+            yield FigureRow(0, name, None, "why", told, "")

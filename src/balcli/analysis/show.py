@@ -11,8 +11,9 @@ import numpy as np
 from ..core.phasors import Array
 from ..errors import MOMENTS_UNKNOWN
 from ..forces.curves import find_constant_inertia
-from ..forces.kinds import COUPLE, EVERY_KIND, GAS, GAS_KINDS, TORQUE, VECTORS
+from ..forces.kinds import COUPLE, EVERY_KIND, GAS, GAS_KINDS, MOMENT, TORQUE, VECTORS
 from ..forces.spectrum import Spectra
+from ..forces.symmetry import find_textbook
 from ..show.engine_facts import engine_facts, speed_facts, tell_pivot
 from ..show.figures import FigureRow, figure_rows, record_rows
 from ..show.formats import Columns, Renderer, Rows
@@ -74,8 +75,7 @@ def sheet(result: Analysis, system: System, view: View = IN_BRIEF) -> Sheet:
 
 def _parts(result: Analysis, system: System, view: View) -> Iterator[Part]:
     if not view.parts or view.whole:
-        higher = result.has_higher_orders
-        yield engine_facts(result.engine, system, higher=higher, whole=view.whole)
+        yield engine_facts(result.engine, system, whole=view.whole)
     else:
         if view.parts - TEXTS:
             yield speed_facts(result.engine, steady=view.parts <= {*STEADY})
@@ -126,7 +126,7 @@ def _chosen_order_parts(result: Analysis, system: System, view: View) -> Iterato
     others = ""
     if not (view.whole or every):
         shown = find_orders_that_matter(spectra, result.of_one_cylinder)
-        others = tell_others([spectra], shown, system, hints=view.hints)
+        others = tell_others(spectra, shown, system, hints=view.hints)
         spectra = spectra.select_orders(shown)
     tables: list[Grid] = []
     named = spectra.only({*parts, *(GAS_KINDS if GAS.name in parts else ())})
@@ -136,8 +136,9 @@ def _chosen_order_parts(result: Analysis, system: System, view: View) -> Iterato
     if "xy" in parts:
         tables += direction_tables(spectra, system, every=every)
     if "textbook" in parts and spectra.vectors():
-        shown_book = replace(result, spectra=spectra).textbook
-        tables += textbook_tables(shown_book, system, every=every)
+        known = [k.name for k, _ in spectra.vectors() if k is not MOMENT or result.moments_known]
+        book = find_textbook(result.engine, spectra.orders, known)
+        tables += textbook_tables(book, system, every=every)
     yield from tables
     if tables and others:
         yield Text("", (others,))
@@ -160,13 +161,7 @@ def _order_parts_in_brief(result: Analysis, system: System, view: View) -> Itera
     facts = roll_and_peaks(result, system, every_order=view.every_order)
     if facts.pairs:
         yield facts
-    yield from gas_grid(
-        result.spectra,
-        system,
-        tell_pivot(result.engine),
-        every_order=view.every_order,
-        hints=view.hints,
-    )
+    yield from gas_grid(result.spectra, system, tell_pivot(result.engine), view)
 
 
 def _tell_uncounted(result: Analysis) -> Iterator[Text]:
@@ -182,16 +177,7 @@ def _judge(result: Analysis, system: System) -> Iterator[Text]:
         return
     spectra, known = result.spectra, result.moments_known
     spectra = spectra if known else replace(spectra, moment=None)
-    told = verdict(
-        spectra,
-        system,
-        result.scales,
-        small=result.small,
-        steady=not result.engine.ripple,
-        devices=result.engine.every_device,
-        omega=float(result.engine.omega),
-        turning={one.ratio for one in result.engine.cranks},
-    )
+    told = verdict(spectra, system, result.scales, small=result.small, engine=result.engine)
     rocking = tell_rocking(spectra, system, tell_pivot(result.engine))
     unknown = "" if known else sentence(MOMENTS_UNKNOWN)
     couple = tell_couple(result, system)

@@ -292,8 +292,7 @@ def _parts(one: NamedResult[SpeedSeries], system: System) -> Iterator[Facts | Gr
     series, view, speeds = one.result, one.view, one.result.speeds_rpm
     first = series.analyses[0]
     if not view.parts or view.whole:
-        higher = first.has_higher_orders
-        yield engine_facts(first.engine, system, higher=higher, whole=view.whole, speeds_rpm=speeds)
+        yield engine_facts(first.engine, system, whole=view.whole, speeds_rpm=speeds)
     else:
         yield from assumed_facts(first.assumed)
     kinds = dict.fromkeys(line.kind for line in series.lines)
@@ -348,9 +347,7 @@ def lay_out_marine(one: NamedResult[MarineSheet], system: System) -> Sheet:
         system: System of units.
     """
     result = one.result
-    head = engine_facts(
-        result.engine, system, higher=False, whole=False, speeds_rpm=result.speeds_rpm
-    )
+    head = engine_facts(result.engine, system, whole=False, speeds_rpm=result.speeds_rpm)
     alone = "of inertia only, without gas"
     of_what = alone if result.engine.gas is None else "of inertia and gas"
     parts: list[Facts | Grid | Text] = [head]

@@ -19,7 +19,7 @@ from ..analysis.answer import Analysis, analyze, shorten
 from ..analysis.comparison import analyze_alike
 from ..analysis.parts import find_parts
 from ..analysis.records import BalanceParts, Devices, PeaksAndOrders, describe_devices
-from ..core.cylinders import Travel, find_travel
+from ..core.cylinders import find_travel
 from ..core.mechanisms.linkage import Articulated
 from ..core.phasors import Array, unit
 from ..core.records import HIDDEN, INLINE, Node, WrittenAs
@@ -95,9 +95,8 @@ def describe_remedy(remedy: Remedy) -> FittedRemedy:
 
 def list_details(remedy: Remedy) -> Node:
     """Return the further figures of a scheme, with its card, planes, range of factors and note."""
-    further: Node = {"card": remedy.card, "planes": remedy.needs, "sweep": remedy.sweep}
-    further["note"] = remedy.note
-    return {**remedy.details, **{key: value for key, value in further.items() if value}}
+    more = {"card": remedy.card, "planes": remedy.needs, "sweep": remedy.sweep, "note": remedy.note}
+    return {**remedy.details, **{key: value for key, value in more.items() if value}}
 
 
 def shorten_with_bearings(analysis: Analysis) -> PeaksAndOrders:
@@ -224,41 +223,41 @@ def _answer(
     engine: Engine,
     remedy: Remedy,
     orders: Iterable[float] | None,
-    tools: Tools | None,
-    ladder: Ladder,
+    tools: Tools | None = None,
+    ladder: Ladder | None = None,
     shapes: Shapes | None = None,
+    changed: Engine | None = None,
 ) -> Balance:
-    """Return a remedy with its analyses and its figures for the workshop."""
+    """Return a remedy with its figures for the workshop, and the analyses without and with it.
+
+    Args:
+        engine: Engine without the remedy.
+        remedy: Remedy.
+        orders: Orders of both analyses; None: 1, 2 and all that are not negligible before or after.
+        tools: Tools of the workshop.
+        ladder: Ladder of the engine.
+        shapes: Shapes of new devices.
+        changed: Engine with the remedy; None: with its devices.
+    """
     tools, shapes, parts = tools or Tools(), shapes or Shapes(), None
     remedy = shape_devices(engine, remedy, shapes)
     shafts = () if shapes.bearings is None else remedy.shafts
     if shafts or any(weight.sector for weight in remedy.counterweights):
         parts = find_parts(engine, shafts, remedy.counterweights)
-    practical = find_practical(engine, remedy, tools)
-    if engine.ripple:
-        remedy = remedy.add_details(speed=_UNEVEN)
-    return replace(
-        _analyze_both(engine, fit_devices(engine, remedy), remedy, orders),
-        practical=practical,
-        ladder=ladder,
-        parts=parts,
-        tools=tools,
-    )
-
-
-def _analyze_both(
-    engine: Engine, changed: Engine, remedy: Remedy, orders: Iterable[float] | None
-) -> Balance:
-    """Return a remedy, and the analyses of an engine without and with it for the same orders: the
-    given ones, by default 1, 2 and all that are not negligible before or after.
-    """
+    if changed is None:
+        changed = fit_devices(engine, remedy)
+        remedy = remedy.add_details(speed=_UNEVEN) if engine.ripple else remedy
     before, after = analyze_alike((engine, changed), orders, analyze)
     return Balance(
         remedy=remedy,
+        practical=find_practical(engine, remedy, tools),
         details=list_details(remedy),
         assumed=before.assumed,
         before=before,
         after=after,
+        ladder=ladder,
+        parts=parts,
+        tools=tools,
         every_order=orders is not None,
     )
 
@@ -302,44 +301,57 @@ balance.__module__ = __name__  # where pickle finds it
 _STEP_DEG = 1e-3  # step of the difference quotient in Newton's method
 _STAYS_DEG = 1e-9  # a smaller turn of a pin is rounding
 _FARTHEST_DEG = 30.0  # largest turn of a knuckle pin
-_CLOSE = {"dead-centres": 1e-9, "strokes": 1e-12}  # goals, and their tolerance in degrees or metres
+# What can be made even: its tolerance, degrees or metres, and the result in words.
+_GOALS = {
+    "dead-centres": (1e-9, "top dead centres at the same angle as the master's"),
+    "strokes": (1e-12, "strokes equal to the master's"),
+}
 
 
-@dataclass(frozen=True)
-class Knuckles:
-    """Knuckle angles that make dead centres or strokes of an engine even.
-
-    Attributes:
-        model: Engine file with the new `articulation.knuckle_angles`.
-        angles_deg: Angle of each bank's knuckle pin.
-        before: Strokes and dead centres of all cylinders with the old angles.
-        after: Strokes and dead centres of all cylinders with the new angles.
-        reasons: The changes, and the banks that cannot be made even.
-    """
-
-    model: EngineFile
-    angles_deg: tuple[float, ...]
-    before: Travel
-    after: Travel
-    reasons: tuple[str, ...]
-
-
-def even_knuckles(model: EngineFile, goal: str = "dead-centres") -> Knuckles:
+def balance_knuckles(
+    model: EngineFile,
+    goal: str = "dead-centres",
+    orders: Iterable[float] | None = None,
+    speed_rpm: float | None = None,
+) -> Balance:
     """Turn each knuckle pin about the crank pin, at the radius of the file, until its cylinders are
     even with the master's.
 
-    "dead-centres": at top dead centre of every piston, the crank pin has the same angle to the axis
-    of its bank. "strokes": every piston has the stroke of the master piston. (Both at once would
-    need a different radius for each pin.) In a bank with several rows, the first row counts. A bank
-    keeps its angle if no turn of up to 30 degrees makes it even.
+    Args:
+        model: Engine file.
+        goal: "dead-centres": at top dead centre of every piston, the crank pin has the same angle
+            to the axis of its bank. "strokes": every piston has the stroke of the master piston.
+            (Both at once would need a different radius for each pin.)
+        orders: Orders to show, as in `balance_engine`.
+        speed_rpm: Speed of the engine; None: that of the file.
 
     Raises:
         BalcliError: The engine has no articulated rods, or the goal is unknown.
         InputError: The engine cannot be built.
     """
-    if goal not in _CLOSE:
-        raise BalcliError(f'--even "{goal:.60}": choose from {", ".join(_CLOSE)}')
+    if goal not in _GOALS:
+        raise BalcliError(f'--even "{goal:.60}": choose from {", ".join(_GOALS)}')
     engine = build(model)
+    engine = engine if speed_rpm is None else engine.at_speed(speed_rpm)
+    angles_deg, reasons = _even_knuckles(engine, model, goal)
+    better = build(model.with_table("articulation", knuckle_angles=angles_deg))
+    after = find_travel(better.cylinders)
+    details = {
+        "even": goal,
+        "knuckle_angles_deg": list(angles_deg),
+        "stroke_mm": _find_range(1e3 * after.stroke),
+        "top_deg": _find_range(after.top_deg),
+    }
+    remedy = Remedy(KNUCKLES, reasons=reasons, details=details, knuckle_angles_deg=angles_deg)
+    return _answer(engine, remedy, orders, changed=better.at_speed(float(engine.speed_rpm)))
+
+
+def _even_knuckles(
+    engine: Engine, model: EngineFile, goal: str
+) -> tuple[tuple[float, ...], tuple[str, ...]]:
+    """Return the angle of each bank's knuckle pin, and the changes in words. In a bank with several
+    rows, the first row counts. A bank keeps its angle if no turn of up to 30 degrees makes it even.
+    """
     refuse_geared(engine)
     c, linkage = engine.cylinders, engine.cylinders.linkage
     if not isinstance(linkage, Articulated) or engine.rotary:
@@ -349,7 +361,7 @@ def even_knuckles(model: EngineFile, goal: str = "dead-centres") -> Knuckles:
             "knuckles: the master rods of all rows must be in the same bank, because the file has "
             "one list of knuckle angles for all rows"
         )
-    masters, close = linkage.master, _CLOSE[goal]
+    masters = linkage.master
     hung = masters != np.arange(c.count)
 
     def find_error(turn_deg: Array) -> Array:
@@ -360,42 +372,13 @@ def even_knuckles(model: EngineFile, goal: str = "dead-centres") -> Knuckles:
         return np.where(hung, values - values[masters], 0.0)
 
     turn_deg = _solve(find_error, c.count)
-    done = np.abs(find_error(turn_deg)) <= close
+    tolerance, result = _GOALS[goal]
+    done = np.abs(find_error(turn_deg)) <= tolerance
     rows = _find_first_rows(model, engine.numbers)
     old_deg = np.degrees(np.angle(linkage.knuckle[rows]))
     new_deg = (old_deg + np.where(done, turn_deg, 0.0)[rows]) % 360
     angles_deg = tuple(map(float, np.where(hung[rows], new_deg, 0.0)))
-    better = model.with_table("articulation", knuckle_angles=angles_deg)
-    after = find_travel(build(better).cylinders)
-    reasons = _explain(goal, hung[rows], done[rows], turn_deg[rows])
-    return Knuckles(better, angles_deg, find_travel(c), after, reasons)
-
-
-def balance_knuckles(
-    model: EngineFile,
-    goal: str = "dead-centres",
-    orders: Iterable[float] | None = None,
-    speed_rpm: float | None = None,
-) -> Balance:
-    """Return even knuckle angles as a remedy, with the engine before and after, at the given speed
-    or that of the file. Other arguments and errors are those of `even_knuckles`.
-    """
-    found = even_knuckles(model, goal)
-    remedy = Remedy(
-        KNUCKLES,
-        reasons=found.reasons,
-        details={
-            "even": goal,
-            "knuckle_angles_deg": list(found.angles_deg),
-            "stroke_mm": _find_range(1e3 * found.after.stroke),
-            "top_deg": _find_range(found.after.top_deg),
-        },
-        knuckle_angles_deg=found.angles_deg,
-    )
-    old, new = build(model), build(found.model)
-    if speed_rpm is not None:
-        old, new = old.at_speed(speed_rpm), new.at_speed(speed_rpm)
-    return _analyze_both(old, new, remedy, orders)
+    return angles_deg, _explain(result, hung[rows], done[rows], turn_deg[rows])
 
 
 def _find_range(values: Array) -> dict[str, float]:
@@ -425,14 +408,11 @@ def _find_first_rows(model: EngineFile, numbers: tuple[CylinderNumber, ...]) -> 
 
 
 def _explain(
-    goal: str, hung: NDArray[np.bool_], done: NDArray[np.bool_], turn_deg: Array
+    result: str, hung: NDArray[np.bool_], done: NDArray[np.bool_], turn_deg: Array
 ) -> tuple[str, ...]:
     """Return in words the changes, and the banks that cannot be made even; arrays have an element
     for each bank.
     """
-    result = "strokes equal to the master's"
-    if goal == "dead-centres":
-        result = "top dead centres at the same angle as the master's"
     largest = float(np.abs(np.where(hung & done, turn_deg, 0)).max(initial=0.0))
     turned = f"turned by up to {largest:.3g} deg" if largest > _STAYS_DEG else "stay where they are"
     reasons = [f"knuckle pins {turned}: {result}"] * bool(np.any(hung & done))

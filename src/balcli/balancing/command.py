@@ -15,8 +15,9 @@ from ..core.unbalance import SLUGS
 from ..errors import BalcliError, note
 from ..file.edit import set_speed
 from ..file.toml import name_file
+from ..file.units import ANGLE, MASS
 from ..shell import scheme_options
-from ..shell.file_names import TEXTS, format_of, format_option, require_ending, text_format
+from ..shell.file_names import TEXTS, format_of, format_option, require_ending
 from ..shell.inputs import read_engine, warn_each
 from ..shell.options import (
     EnginePath,
@@ -32,10 +33,9 @@ from ..shell.output import emit, refuse_leaving_files, refuse_overwriting, show,
 from ..shell.scheme_options import choose_scheme, complete_schemes, parse_scheme_options
 from ..shell.values import (
     optional,
-    read_angle,
+    read_figure,
     read_length,
     read_lengths,
-    read_mass,
     read_number,
     read_share,
 )
@@ -56,17 +56,14 @@ FormatOption = Annotated[
 ]
 Scheme = Annotated[
     str | None,
-    typer.Option(
+    optional(
+        "NAME",
+        "Scheme to fit (--schemes lists them); default: auto, or factor with --factor.",
         "--scheme",
         "--with",
-        metavar="NAME",
         autocompletion=complete_schemes,
-        show_default=False,
-        help="Scheme to fit (--schemes lists them); default: auto, or factor with --factor.",
     ),
 ]
-
-
 Step = Annotated[str | None, optional("STEP", "Fit this step of the ladder (name or number).")]
 
 
@@ -126,13 +123,6 @@ Mass = Annotated[str | None, optional("KG", "Mass of the crankshaft, for --grade
 Write = Annotated[Path | None, optional("OUT.toml", "Write the engine with these devices.")]
 
 
-def choose_balance_format(output: Path | None, asked: Format | None) -> Format:
-    """Return the format of the balance; errors as for `file_names.format_of`."""
-    if asked is Format.CARD:
-        return format_of(output, asked, {".txt": asked}, asked)
-    return text_format(output, asked)
-
-
 def show_balance(result: Balance, form: Format, output: Path | None, units: Units) -> None:
     """Print or write the balance, or its bobweight card, in this format."""
     for reason in dict.fromkeys(result.remedy.reasons):
@@ -183,16 +173,14 @@ def parse_shapes(
     Raises:
         BalcliError: A text cannot be read.
     """
-    places = None
-    if bearings is not None:
-        wanted = "the places of two bearings along z in mm, such as -130,130"
-        places = read_lengths("--bearings", bearings, wanted, 2, units)
+    wanted = "the places of two bearings along z in mm, such as -130,130"
+    places = None if bearings is None else read_lengths("--bearings", bearings, wanted, 2, units)
     if sector is None:
         return places, None
     wanted = "inner and outer radius in mm and opening in deg, such as 30,75,140"
     radii, _, opening = sector.rpartition(",")
     lengths = read_lengths("--sector", radii, wanted, 2, units)
-    return places, (*lengths, read_angle("--sector", opening))
+    return places, (*lengths, read_figure("--sector", opening, ANGLE))
 
 
 def parse_grade(text: str | None) -> float | None:
@@ -228,18 +216,16 @@ def _check_fit(name: str, scheme: str, options: SchemeOptions, open_devices: Seq
         )
 
 
-def _check_even(scheme: str, options: SchemeOptions) -> None:
-    """Raise BalcliError for --even with another scheme or further options."""
-    if scheme != KNUCKLES:
+def _check_scheme(scheme: str, options: SchemeOptions, even: str | None, shapes: Shapes) -> None:
+    """Raise BalcliError for --even with another scheme, for options that knuckles does not take,
+    and for shapes if the scheme adds no devices.
+    """
+    if even is not None and scheme != KNUCKLES:
         raise BalcliError(
             f"--even belongs to --scheme knuckles; scheme {scheme} has no such option"
         )
-    if options != SchemeOptions():
+    if scheme == KNUCKLES and options != SchemeOptions():
         raise BalcliError("scheme knuckles takes no option but --even")
-
-
-def _refuse_shapes(shapes: Shapes, scheme: str) -> None:
-    """Raise BalcliError if shapes are given for a scheme that adds no devices."""
     if any(shapes) and scheme in (FIT, KNUCKLES):
         raise BalcliError(f"--bearings and --sector are for new devices; scheme {scheme} adds none")
 
@@ -292,7 +278,8 @@ def balance(
       balcli balance twin.toml --measured "812 g"
     """
     refuse_overwriting(reads=[path], writes={"--output": output, "--write": write})
-    form = choose_balance_format(output, form)
+    endings = {**TEXTS, ".txt": Format.CARD} if form is Format.CARD else TEXTS
+    form = format_of(output, form, endings, Format.TABLE)
     require_ending(write, ".toml", "--write")
     from ..sizing.fit import list_to_fit, remove_to_fit
     from ..sizing.workshop import HolesDoNotFitError, Shapes
@@ -303,7 +290,7 @@ def balance(
     )
     options = options._replace(
         step=step,
-        direction=None if direction is None else read_angle("--direction", direction),
+        direction=None if direction is None else read_figure("--direction", direction, ANGLE),
         ratio=None if ratio is None else read_share("--ratio", ratio, "a share such as 50%"),
         design=design,
         criterion=criterion,
@@ -312,26 +299,23 @@ def balance(
     tools = parse_tools(units, slug, **lengths, max_depth=max_depth, width=width)
     shapes = Shapes(*parse_shapes(units, bearings, sector))
     grade_mm_s = parse_grade(grade)
-    mass_kg = None if mass is None else read_mass("--mass", mass, units)
+    mass_kg = None if mass is None else read_figure("--mass", mass, MASS, units)
     asked, rpm = parse_orders(orders), parse_speed(speed)
     text, model, engine = read_engine(path, rpm, prepare=remove_to_fit)
     open_devices = [name for name, _ in list_to_fit(model)]
     usual = "factor" if form is Format.CARD else FIT if open_devices else "auto"
     usual = usual if step is None else "step"
     scheme = choose_scheme(scheme, options, usual)
-    if even is not None and open_devices:
-        raise BalcliError(f"--even belongs to the scheme {KNUCKLES}, which fits no devices")
     fits = open_devices or target is not None or scheme == FIT
     if fits:
         _check_fit(name_file(path), scheme, options, open_devices)
-    _refuse_shapes(shapes, scheme)
+    _check_scheme(scheme, options, even, shapes)
     wanted = None if target is None else [each.strip() for each in target.split(",")]
 
     def find(tools: Tools) -> Balance:
         if fits:
             return answer.balance_fit(engine, model, wanted, asked, tools, options.read_small())
-        if scheme == KNUCKLES or even is not None:
-            _check_even(scheme, options)
+        if scheme == KNUCKLES:
             goal = even or "dead-centres"
             return answer.balance_knuckles(model, goal, asked, float(engine.speed_rpm))
         return answer.balance_engine(engine, scheme, options, asked, tools, shapes)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
+from itertools import chain
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -252,32 +253,22 @@ def _orders(result: Balance, system: System) -> Iterator[Grid]:
     small = (sizes < np.reshape(least, (-1, 1, 1))) & (not every)  # kind, state, order
     changed = (_find_changes(*sizes.swapaxes(0, 1)) & ~small.all(axis=1)) | every
     left = np.where(changed | small.any(axis=1), 0.0, sizes[:, 1])
-    columns = [
-        (k, kind, fit_largest(system.unit(kind), *(state[kind.name] for state in states)))
-        for k, kind in enumerate(kinds)
-        if changed[k].any()
-    ]
-    rows = []
-    for n in np.flatnonzero(changed.any(axis=0)):
-        cells = (
-            size_cell(float(sizes[k, s, n]), unit, negligible=bool(small[k, s, n]))
-            for k, _, unit in columns
-            for s in (0, 1)
-        )
-        rows.append((order_name(result.before.orders[n]), *cells))
+    shown = np.flatnonzero(changed.any(axis=0))
+    columns = [("order", [order_name(order) for order in result.before.orders[shown]])]
     unchanged = []
-    for kind, after in zip(kinds, left, strict=True):
+    for kind, changes, size, faint, after in zip(kinds, changed, sizes, small, left, strict=True):
+        unit = fit_largest(system.unit(kind), *(state[kind.name] for state in states))
+        if changes.any():
+            heads = f"{name_column(kind)}, {unit.name}", "after"
+            for head, values, tiny in zip(heads, size, faint, strict=True):
+                cells = (size_cell(float(values[n]), unit, negligible=tiny[n]) for n in shown)
+                columns.append((head, [*cells]))
         if orders := result.before.orders[after > 0].tolist():
-            most = size_text(float(after[after > 0].max()), system.unit(kind))
+            most = size_text(float(after.max()), system.unit(kind))
             unchanged.append(f"{name_column(kind)} of {name_orders(orders)} (at most {most})")
-    if rows:
-        heads = [(f"{name_column(kind)}, {unit.name}", "after") for _, kind, unit in columns]
-        yield Grid(
-            "Largest value by order, before and after",
-            ("order", *(head for pair in heads for head in pair)),
-            tuple(rows),
-            _tell_unchanged(unchanged),
-        )
+    if len(shown):
+        title = "Largest value by order, before and after"
+        yield Grid.of_columns(title, columns, _tell_unchanged(unchanged))
 
 
 def _peaks(result: Balance, system: System) -> Iterator[Grid]:
@@ -310,13 +301,14 @@ def _crank_loads(states: Sequence[CrankLoads | None], system: System) -> Iterato
         ("largest main bearing load", FORCE, "main_N", "main_mm"),
         ("largest inner moment", MOMENT, "inner_moment_Nm", "inner_mm"),
     ):
-        sizes = [size for state in states if (size := getattr(state, key, None)) is not None]
-        if len(sizes) < len(states) or not _find_changes(*sizes):  # not known, or unchanged
+        found = [getattr(state, key, None) for state in states]
+        sizes = [np.nan if size is None else size for size in found]  # nan: not known
+        if not _find_changes(*sizes):
             continue
         unit = system.unit(kind).fit(max(sizes))
-        places = [number(system.length.of(getattr(state, place) / 1e3)) for state in states]
-        cells = [(number(unit.of(size)), at) for size, at in zip(sizes, places, strict=True)]
-        rows.append((f"{name}, {unit.name}", *cells[0], *cells[1]))
+        loads = map(number, map(unit.of, sizes))
+        places = (number(system.length.of(getattr(state, place) / 1e3)) for state in states)
+        rows.append((f"{name}, {unit.name}", *chain(*zip(loads, places, strict=True))))
     if rows:
         at = f"at z, {system.length.name}"
         note = (
@@ -389,14 +381,10 @@ def _rows_of(part: str, record: object) -> Iterator[tuple[object, ...]]:
 
 def _with_paths(value: object, path: str = "") -> Iterator[tuple[str, object]]:
     """Yield the members of tables and lists with their paths: `card.1.bobweight_g`."""
-    if isinstance(value, dict):
-        members: Iterable[tuple[object, object]] = value.items()
-    elif isinstance(value, list):
-        members = enumerate(value, 1)
-    else:
+    if not isinstance(value, (dict, list)):
         yield path, value
         return
-    for key, part in members:
+    for key, part in value.items() if isinstance(value, dict) else enumerate(value, 1):
         yield from _with_paths(part, f"{path}.{key}".lstrip("."))
 
 

@@ -77,8 +77,7 @@ def tables(
         show([errors], pages.ERRATA, form, output)
     elif name:
         own = {"layouts": pages.LAYOUTS, "published": pages.PUBLISHED}
-        renderer = own.get(name, pages.RENDERER)
-        show(chosen, renderer, form, output)
+        show(chosen, own.get(name, pages.RENDERER), form, output)
     else:
         show([chosen], pages.TABLE_LIST, form, output)
 

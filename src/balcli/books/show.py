@@ -202,18 +202,16 @@ def lay_out_published(table: Table, _system: System) -> Sheet:
     """Return a table for each chapter with a line for each problem, and the verdicts on its
     figures.
     """
-    heads = ("chapter", "source", "title", "verdict")
-    places = [table.columns.index(name) for name in heads]
+    places = [table.columns.index(name) for name in ("chapter", "source", "title", "verdict")]
     chapters: dict[str, dict[str, Counter[str]]] = {}
     for chapter, source, title, verdict in ([str(row[k]) for k in places] for row in table.exact):
         problems = chapters.setdefault(chapter, {})
         problems.setdefault(f"{source}: {title}", Counter()).update([verdict])
     grids = []
     for chapter, problems in chapters.items():
-        rows = tuple(map(_tell_verdicts, problems.items()))
+        rows = tuple((name, _tell_verdicts(verdicts)) for name, verdicts in problems.items())
         grids.append(Grid(chapter, ("problem", "figures"), rows, words=(0, 1)))
-    every = Counter(str(row[places[-1]]) for row in table.exact)
-    told = _tell_verdicts(("", every))[1]
+    told = _tell_verdicts(Counter(str(row[places[-1]]) for row in table.exact))
     note = (
         f"{sum(map(len, chapters.values()))} problems, {len(table.exact)} figures: {told} "
         "(--errata). Every figure: --format csv."
@@ -229,10 +227,9 @@ _VERDICTS = {
 }
 
 
-def _tell_verdicts(problem: tuple[str, Counter[str]]) -> tuple[str, str]:
-    name, verdicts = problem
+def _tell_verdicts(verdicts: Counter[str]) -> str:
     told = (f"{verdicts[key]} {words}" for key, words in _VERDICTS.items() if verdicts[key])
-    return name, ", ".join(told)
+    return ", ".join(told)
 
 
 PUBLISHED = Renderer(sheet=lay_out_published, rows=rows)

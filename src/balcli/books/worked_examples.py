@@ -75,5 +75,4 @@ def tabulate_published(printed: Print, ranges: Ranges) -> Table:
             label, category = f"{source}: {name}", cast("ErratumClass", kind)
             errata.append(Erratum(i, ANSWER, text, own[i], remark, label, category))
     words = tuple((*line[:-1], None) for line in printed.rows)
-    shape = printed.columns, tuple(rows), words
-    return Table(*printed[:3], *shape, tuple(errata), stub=len(printed.columns) - 1)
+    return Table(*printed[:4], tuple(rows), words, tuple(errata), len(printed.columns) - 1)

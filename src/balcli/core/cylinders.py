@@ -213,17 +213,10 @@ def _find_dead_centres(c: Cylinders) -> tuple[Array, Array, Array, Array]:
         return low, stroke, np.degrees(np.arcsin(top)), np.degrees(np.arcsin(bottom))
     psi = revolution(_STEPS)
     place = c.linkage.sample(lambda motion: motion.place, psi, c.lam, c.eps)
-    top = _refine(c, c.linkage, psi[place.argmax(axis=-1)])
-    bottom = _refine(c, c.linkage, psi[place.argmin(axis=-1)])
-    high = c.linkage.motion(top[..., None], c.lam, c.eps).place[..., 0]
-    low = c.linkage.motion(bottom[..., None], c.lam, c.eps).place[..., 0]
-    top_deg = np.remainder(np.degrees(top) + 180, 360) - 180
-    return low, high - low, top_deg, np.degrees(bottom) - 180
-
-
-def _refine(c: Cylinders, linkage: Linkage, psi: Array) -> Array:
-    """Return the zeros of the pistons' velocities near these angles (rad), by Newton's method."""
-    for _ in range(6):
-        motion = linkage.motion(psi[..., None], c.lam, c.eps)
-        psi = psi - (motion.velocity / motion.acceleration)[..., 0]
-    return psi
+    ends = psi[np.array([place.argmax(axis=-1), place.argmin(axis=-1)])]
+    for _ in range(6):  # Newton's method for the zeros of the pistons' velocities
+        motion = c.linkage.motion(ends[..., None], c.lam, c.eps)
+        ends = ends - (motion.velocity / motion.acceleration)[..., 0]
+    high, low = c.linkage.motion(ends[..., None], c.lam, c.eps).place[..., 0]
+    top_deg = np.remainder(np.degrees(ends[0]) + 180, 360) - 180
+    return low, high - low, top_deg, np.degrees(ends[1]) - 180

@@ -226,6 +226,19 @@ def share_by_lever(places: Array, planes: Array) -> Array:
     return shares
 
 
+def sum_weighted(loads: Phasors, weights: Array, sizes: Array | None = None) -> Phasors:
+    """Return weighted sums over loads; 0 below rounding.
+
+    Args:
+        loads: Phasors of shape (orders, loads).
+        weights: Weights, shape (sums, loads), or (loads,) for a single sum.
+        sizes: Sizes of the terms of which the weights are differences, in the same shape; they
+            bound the rounding errors. None: the weights are no differences.
+    """
+    noise = loads.noise @ np.abs(weights if sizes is None else sizes).T
+    return Phasors(loads.orders, loads.vectors @ weights.T, noise).drop_noise()
+
+
 def find_ahead(z: Array, sections: Array) -> Array:
     """Return 1 for places on the free-end side of each section, else 0, shape (sections, places).
 

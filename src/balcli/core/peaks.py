@@ -133,9 +133,9 @@ def find_swing(orders: ArrayLike, phasors: Complex) -> Swing:
     Raises:
         ValueError: An order is no multiple of 1/2, is negative or comes twice.
     """
-    top, at_top = _search(orders, phasors[..., None], squared=False)
-    bottom, at_bottom = _search(orders, -phasors[..., None], squared=False)
-    return Swing(CyclePeak(top, at_top), CyclePeak(-bottom, at_bottom))
+    sides = (phasors[..., None], -phasors[..., None])
+    top, bottom = (_search(orders, side, squared=False) for side in sides)
+    return Swing(top, CyclePeak(-bottom.value, bottom.angle))
 
 
 def find_longest(orders: ArrayLike, phasors: Complex) -> CyclePeak:
@@ -148,7 +148,7 @@ def find_longest(orders: ArrayLike, phasors: Complex) -> CyclePeak:
     Raises:
         ValueError: An order is no multiple of 1/2, is negative or comes twice.
     """
-    return CyclePeak(*_search(orders, phasors, squared=True))
+    return _search(orders, phasors, squared=True)
 
 
 def sum_amplitudes(phasors: Complex) -> Real:
@@ -166,10 +166,8 @@ def largest_of_ellipse(phasors: Complex) -> Real:
     return np.sqrt((power + np.abs(np.sum(phasors**2, axis=-1))) / 2)
 
 
-def _search(orders: ArrayLike, phasors: Complex, *, squared: bool) -> tuple[Real, Real]:
-    """Return the highest values (or, `squared`, lengths) and their first angles, shape
-    (*curves).
-    """
+def _search(orders: ArrayLike, phasors: Complex, *, squared: bool) -> CyclePeak:
+    """Return the highest values (or, `squared`, lengths) and their first angles."""
     halves = 2 * np.asarray(orders, float)
     there = np.any(phasors != 0, axis=tuple(range(1, phasors.ndim)))
     there |= not np.any(there)
@@ -194,7 +192,7 @@ def _search(orders: ArrayLike, phasors: Complex, *, squared: bool) -> tuple[Real
         first[at_zero >= top - _EQUAL] = 0.0
         found.append(np.stack([(np.sqrt(top) if squared else top) * size, first * 2 / common]))
     value, angle = np.concatenate(found, axis=1)
-    return value.reshape(shape), angle.reshape(shape)
+    return CyclePeak(value.reshape(shape), angle.reshape(shape))
 
 
 def _find_tops(

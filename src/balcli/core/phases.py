@@ -118,36 +118,27 @@ class Phases:
 
         Returns: shape (sides, orders, *trailing).
         """
+        arms = self._ones if arms is None else arms
         if sides.shape[2] == 1:
-            return np.asarray(
-                sides[:, :, 0] * self._add_turned(turns, None if arms is None else arms[None])
-            )
-        each = (side if arms is None else arms * side for side in sides)
-        own = [self._add_turned(turns[k : k + 1], factors) for k, factors in enumerate(each)]
+            return np.asarray(sides[:, :, 0] * self._add_turned(turns, arms[None]))
+        own = [self._add_turned(turns[k : k + 1], arms * side) for k, side in enumerate(sides)]
         return np.concatenate(own)
 
-    def _add_turned(self, turns: Complex, factors: Array | Complex | None) -> Complex:
+    def _add_turned(self, turns: Complex, factors: Array | Complex) -> Complex:
         """Return the turned sum of the phases times factors, shape (1 or orders, cylinders,
-        *trailing); None: all are 1.
+        *trailing).
         """
-        of_banks = self._of_banks if factors is None else self._sum_banks(factors * self._still)
+        of_banks = np.add.reduceat(factors * self._still, self._starts, axis=1)
         total: Complex = np.add.reduce(turns * of_banks, axis=2)
         for bank, rows in groupby(self._moving, self._bank):
-            phases = ((k, self._moving[k]) for k in rows)
-            moving = sum(phase if factors is None else factors[:, k] * phase for k, phase in phases)
+            moving = sum(factors[:, k] * self._moving[k] for k in rows)
             total = total + turns[:, :, bank] * moving
         return total
 
     @cached_property
-    def _of_banks(self) -> Complex:
-        """Sum of the phases that do not vary, over the cylinders of each bank."""
-        return self._sum_banks(self._still)
-
-    def _sum_banks(self, each: Complex) -> Complex:
-        """Return sums over the cylinders of each bank, shape (orders, banks, *trailing), of an
-        array of shape (orders, cylinders, *trailing).
-        """
-        return np.add.reduceat(each, self._starts, axis=1)
+    def _ones(self) -> Array:
+        """A 1 for each cylinder, shape (cylinders, *1)."""
+        return np.ones((self.count, *self.n.shape[2:]))
 
     def _bank(self, cylinder: int) -> int:
         return int(np.searchsorted(self._starts, cylinder, "right")) - 1
@@ -181,11 +172,6 @@ class SeparatePhases(Phases):
         counts = np.diff([*self._starts, self.count])
         arms = self._ones if arms is None else arms
         return np.asarray(np.repeat(turns, counts, axis=2) * (arms * sides * self._still))
-
-    @cached_property
-    def _ones(self) -> Array:
-        """A 1 for each cylinder, shape (cylinders,)."""
-        return np.ones(self.count)
 
 
 RPM = math.pi / 30  # 1 rpm in rad/s

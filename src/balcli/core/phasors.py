@@ -22,16 +22,9 @@ Numbers: TypeAlias = NDArray[Any]  # real or complex
 Figure: TypeAlias = float | Array  # a number, or an array of variants
 
 EPS = float(np.finfo(float).eps)
-_COSINES = (1, (6**0.5 + 2**0.5) / 4, 0.75**0.5, 0.5**0.5, 0.5, (6**0.5 - 2**0.5) / 4, 0)
-
-
-def _cosine(k: int) -> float:
-    """Return cos of k times 15 degrees."""
-    k = min(k % 24, -k % 24)
-    return _COSINES[k] if k <= 6 else -_COSINES[12 - k]
-
-
-_UNITS = np.array([complex(_cosine(k), _cosine(k - 6)) for k in range(24)])
+# e^{i x} for x = 0, 15 .. 345 degrees, from the cosines of the first quarter turn
+_COSINES = np.array([1, (6**0.5 + 2**0.5) / 4, 0.75**0.5, 0.5**0.5, 0.5, (6**0.5 - 2**0.5) / 4, 0])
+_UNITS = np.outer([1, 1j, -1, -1j], _COSINES[:6] + 1j * _COSINES[:0:-1]).ravel()
 
 
 def unit(degrees: ArrayLike) -> Complex:

@@ -40,11 +40,6 @@ class RippleLine(NamedTuple):
     angle_deg: Figure
 
 
-def find_step(orders: Iterable[float]) -> float:
-    """Return the step of orders: 1, or 1/2 if an order is no whole number."""
-    return 0.5 if any(order % 1 for order in orders) else 1.0
-
-
 def find_speed(lines: Iterable[RippleLine], step: float = 1.0) -> Complex:
     """Return the Fourier coefficients of W, from k steps of the order below 0 to k steps above it,
     shape (2 k + 1, *trailing).
@@ -70,9 +65,8 @@ def find_slowest(lines: Sequence[RippleLine]) -> Peak:
     """Return the least W over a cycle, and the first crank angle (rad) at which it is reached. The
     lines must have no trailing axes.
     """
-    step = find_step(order for order, _, _ in lines)
-    w = find_speed(lines, step)
-    orders = np.arange(len(w) // 2 + 1.0) * step
+    w = find_speed(lines, 0.5)
+    orders = np.arange(len(w) // 2 + 1.0) / 2
     lowest = find_swing(orders, np.where(orders, 2, 1) * w[len(w) // 2 :]).lowest
     return Peak(float(lowest.value), float(lowest.angle))
 
@@ -106,13 +100,11 @@ def find_timetable(w: Complex, step: float, samples: int) -> Timetable:
     speed = np.zeros(samples, complex)
     speed[np.arange(-reach, reach + 1)] = w
     slow = 1 / np.fft.ifft(speed, norm="forward").real
-    mean = slow.mean()
-    waves = np.where(k, np.fft.fft(slow / mean, norm="forward"), 0) / (
-        1j * step * np.where(k, k, 1)
-    )
+    stay = slow / slow.mean()
+    waves = np.fft.fft(stay - 1, norm="forward") / (1j * step * np.where(k, k, 1))
     angle = np.arange(samples) * (2 * np.pi / (step * samples))
     clock = angle + np.fft.ifft(waves, norm="forward").real
-    return Timetable(clock, slow / mean, step, float(1 / mean))
+    return Timetable(clock, stay, step, float(1 / slow.mean()))
 
 
 def find_reach(timetable: Timetable, order: float) -> float:
@@ -140,25 +132,24 @@ def count_in_time(curve: Phasors, timetable: Timetable, orders: Array) -> Phasor
     np.add.at(series, rows, curve.forward)
     np.add.at(series, -rows, curve.backward)
     felt = np.fft.ifft(series, norm="forward") * timetable.stay
-    found = np.zeros((2, len(orders)), complex)
-    for k, order in enumerate(orders):
-        wave = np.exp(1j * order * timetable.clock)
-        found[0, k] = np.mean(felt * wave.conj())
-        found[1, k] = np.mean(felt * wave) if order else 0
+    waves = (np.exp(1j * order * timetable.clock) for order in orders)
+    both = [(np.mean(felt * wave.conj()), np.mean(felt * wave)) for wave in waves]
+    found = np.array(both, complex).reshape(-1, 2).T
+    found[1, orders == 0] = 0
     noise = np.full(orders.shape, 8 * EPS * np.sum(np.abs(curve.vectors)))
     return Phasors(orders, found, noise).drop_noise()
 
 
-def apply_to_force(
+def apply_speed(
     steady: Phasors, w: Complex, mean: Figure = 0.0, *, rate_last: bool = False
 ) -> Phasors:
-    """Return the force, moment or couple at the uneven speed W.
+    """Return the force, moment, couple or inertia torque at the uneven speed W.
 
     Args:
         steady: Force at a steady speed, for all orders 0, 1 .. n (or 0, 1/2 .. n).
         w: Coefficients from `find_speed` with the same step, up to order k.
-        mean: Mean momentum; for the couple, mean moment of momentum. At a steady speed, it has no
-            effect.
+        mean: Mean momentum; for the couple, mean moment of momentum; for the torque, half the mean
+            inertia times the square of the mean speed, N m. At a steady speed, it has no effect.
         rate_last: Whether W multiplies twice before the derivative, as for a torque.
 
     Returns: The force for the same orders, correct up to order n - 2k.
@@ -186,17 +177,6 @@ def apply_to_force(
     backward = np.where(order[n:] > 0, result[n::-1], 0)
     # The bound of the error of order -n is that of order n.
     return Phasors.of(steady.orders, result[n:], backward, error[n:])
-
-
-def apply_to_torque(steady: Phasors, w: Complex, mean: Figure) -> Phasors:
-    """Return the inertia torque at the uneven speed W.
-
-    Args:
-        steady: Torque at the mean speed, N m.
-        w: Coefficients from `find_speed`.
-        mean: Mean inertia times the square of the mean speed, N m.
-    """
-    return apply_to_force(steady, w, mean / 2, rate_last=True)
 
 
 def _convolved(series: Complex, w: Complex) -> Complex:

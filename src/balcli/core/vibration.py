@@ -2,8 +2,8 @@
 loads.
 
 Every motion and load of an order is a complex number c; its value in time is `Re(c e^{i w t})`.
-Frequencies w are in rad/s and have any shape, commonly (orders, speeds) from `frequencies`. Arrays
-with a value for each degree of freedom have these as their last axis: (orders, speeds, dof).
+Frequencies w are in rad/s and have any shape, commonly (orders, speeds). Arrays with a value for
+each degree of freedom have these as their last axis: (orders, speeds, dof).
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 Real = NDArray[np.floating]
 Complex = NDArray[np.complexfloating]
@@ -56,16 +56,6 @@ class UndampedResonanceError(ValueError):
     def __init__(self, frequency: float) -> None:
         self.frequency = frequency
         super().__init__(f"undamped resonance at {frequency:.6g} rad/s")
-
-
-def frequencies(orders: ArrayLike, speeds: ArrayLike) -> Real:
-    """Return the angular frequency of each order at each speed, shape (orders, *speeds).
-
-    Args:
-        orders: Orders, shape (orders,).
-        speeds: Speeds, rad/s, any shape.
-    """
-    return np.multiply.outer(np.asarray(orders, float), np.asarray(speeds, float))
 
 
 def find_modes(springs: Real, stiffness: Real, mass: Real, rigid: Real | None = None) -> Modes:

@@ -217,19 +217,16 @@ def check_rods(parts: Parts) -> Iterator[Problem]:
     """
     model, harmonic = parts.model, parts.model.rod.motion == "harmonic"
     fixed = model.articulation is None and not model.layout.rotary
-    checked = set()
-    for number in parts.plan.numbers:
-        place = parts.find_rod(number, number in parts.masters)
-        if (rod := parts.kind_of_rod(place)) in checked:
-            continue
-        checked.add(rod)
+    each = (parts.find_rod(number, number in parts.masters) for number in parts.plan.numbers)
+    # Rods with equal figures are checked once.
+    for place in {parts.kind_of_rod(place): place for place in each}.values():
         gear, one_end = parts.weigh_gear(place), list(check_ends(place))
         if harmonic:
             yield from one_end or check_harmonic(place, fixed=fixed)
             continue
         yield from one_end or check_rod_inertia(place, gear)
         if not place.articulated:
-            yield from check_turning(place, gear, parts.find_radius(number))
+            yield from check_turning(place, gear, parts.find_radius(place.number))
 
 
 def check_carriers(parts: Parts) -> Iterator[Problem]:

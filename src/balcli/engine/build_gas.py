@@ -228,10 +228,10 @@ def _build_steady(
                 torques[row] = _read_harmonics(name, read(name, _HARMONICS), piston, strokes)
             else:
                 columns = read(name, HEADS)
-                pressure, left = build_diagram(gas, source.path, name, columns, strokes)
+                pressure, notes = build_diagram(gas, source.path, name, columns, strokes)
                 torques[row] = press(piston, pressure, pressure.breaks, gas.crankcase * BAR)
                 imep = torques[row].imep
-                doubts += (*left, *list_doubts(gas, source.path, columns, pressure, imep))
+                doubts += (*notes, *list_doubts(gas, source.path, columns, pressure, imep))
         except InputError as error:
             problems += error.problems
         except BalcliError as error:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from ..core.cylinders import Device, DeviceKind
-from ..core.phasors import Complex, Figure, unit
+from ..core.phasors import Figure, unit
 from ..errors import InputError, Problem
 from ..file.fields import shorten
 from ..file.model import Counterweight, Sector, Shaft, Slider
@@ -48,8 +48,9 @@ def _build_coupling_pins(parts: Parts, first_axis_deg: Figure) -> Iterator[Devic
         path = f"axle.{label_table(axle, k)}.coupling_mass"
         masses = figures.take_for_each(path, axle.coupling_mass, 2)
         for mass, z, angle in zip(masses, planes, angles, strict=True):
-            turning, kind = _turn(mass * radius, angle + first_axis_deg), DeviceKind.COUNTERWEIGHT
+            turning = mass * radius * unit(angle + first_axis_deg)
             if np.any(mass):
+                kind = DeviceKind.COUNTERWEIGHT
                 yield Device(1, turning, 0j, 0j, z / 1e3, kind, axle=axle.name)
 
 
@@ -67,15 +68,23 @@ def build_device(
             counterweights count from it, angles of other devices from x.
         figures: Figures of the file.
         path: Dotted name of the table.
+
+    Raises:
+        InputError: The unbalance is "fit".
     """
-    take = figures.take
+    if table.to_fit:
+        command = "run balcli balance FILE --write OUT, which puts a figure in its place"
+        raise InputError([Problem("", f'{path}.unbalance is "fit": {command}')])
+    take, sector = figures.take, None
+    unbalance = find_given_unbalance(table, figures, path)
+    if isinstance(table, Counterweight) and table.sector is not None:
+        sector = find_sector(table, table.sector, figures, path)
+        unbalance = sector.unbalance
     start = first_axis_deg if isinstance(table, Counterweight) else 0.0
-    turning = _turn(_unbalance(figures, path, table), take(f"{path}.angle", table.angle) + start)
+    turning = or_zero(unbalance) * unit(take(f"{path}.angle", table.angle) + start)
     z = take(f"{path}.position", table.position) / 1e3
     if isinstance(table, Counterweight):
-        spin = take(f"{path}.inertia", table.inertia) / 1e6
-        if table.sector is not None:
-            spin = find_sector(table, table.sector, figures, path).inertia
+        spin = take(f"{path}.inertia", table.inertia) / 1e6 if sector is None else sector.inertia
         return Device(
             1, turning, 0j, 0j, z, DeviceKind.COUNTERWEIGHT, spin=spin, axle=table.axle or ""
         )
@@ -89,28 +98,9 @@ def build_device(
         return Device(order, forward, backward, place, z, kind, compensates, spin)
     # The displacement `U cos(n theta + angle)` is the sum of two vectors of half the size, which
     # turn in opposite directions.
-    half = _turn(0.5, take(f"{path}.direction", table.direction))
+    half = 0.5 * unit(take(f"{path}.direction", table.direction))
     forward, backward = half * turning, half * np.conj(turning)
     return Device(table.order, forward, backward, place, z, DeviceKind.SLIDER)
-
-
-def _turn(size: Figure, angle_deg: Figure) -> Complex:
-    """Return the vector of a size and a direction at crank angle 0, deg."""
-    return size * unit(angle_deg)
-
-
-def _unbalance(figures: FileFigures, path: str, device: Counterweight | Shaft | Slider) -> Figure:
-    """Return the unbalance of a device (mass x radius), kg m.
-
-    Raises:
-        InputError: The unbalance is "fit".
-    """
-    if device.to_fit:
-        command = "run balcli balance FILE --write OUT, which puts a figure in its place"
-        raise InputError([Problem("", f'{path}.unbalance is "fit": {command}')])
-    if isinstance(device, Counterweight) and device.sector is not None:
-        return find_sector(device, device.sector, figures, path).unbalance
-    return or_zero(find_given_unbalance(device, figures, path))
 
 
 def find_given_unbalance(
@@ -176,7 +166,7 @@ def find_sector(
     thickness = figures.take_optional(f"{path}.sector.thickness", sector.thickness)
     unbalance = find_given_unbalance(table, figures, path)
     is_double = thickness is not None and unbalance is not None
-    if is_double or figures.is_displaced(f"{path}.sector"):
+    if is_double or f"{path}.sector" in figures.displaced:
         told = "the file gives thickness or unbalance of the sector; vary the one that it gives"
         raise InputError([Problem(path, told)])
     inner, outer, angle = inner / 1e3, outer / 1e3, opening * (math.pi / 180)
@@ -191,9 +181,6 @@ def find_sector(
 
 
 # ------------------------------------------------------------------ rules between entries
-_OF_SHAFT = ("inertia", "bearings", "gear", "drag")  # keys of a whole shaft
-
-
 def group_eccentrics(shafts: Iterable[Shaft]) -> list[tuple[str, dict[int, Shaft]]]:
     """Return the entries of each balancer shaft, with their numbers in the file, from 1.
 
@@ -220,7 +207,7 @@ def check_shafts(parts: Parts) -> Iterator[Problem]:
             if value != wanted:
                 told = f'is {value}, but shaft.{first} of the name "{name}" has {wanted}: '
                 yield Problem(f"shaft.{number}.{key}", f"{told}give both the same {key}")
-        for key in _OF_SHAFT:
+        for key in ("inertia", "bearings", "gear", "drag"):
             for number in [k for k, one in entries.items() if one.has(key)][1:]:
                 told = f'is given twice for the shaft "{name}"; give it once'
                 yield Problem(f"shaft.{number}.{key}", told)

@@ -120,9 +120,7 @@ class Placed(NamedTuple):
 
     def turn(self, vector: complex | Complex) -> Complex:
         """Return a vector, given in its own axes, in the axes of the whole."""
-        seen = vector if self.ratio > 0 else np.conj(vector)
-        turned: Complex = unit(self.turn_deg) * seen
-        return turned
+        return unit(self.turn_deg) * (vector if self.ratio > 0 else np.conj(vector))
 
     def find_own_unbalance(self, seen: complex) -> complex:
         """Return an unbalance on its crank, given in the axes of the whole when the first crank is
@@ -258,8 +256,7 @@ class Engine:
             >>> engine.vary({"layout.bank_angle": 60, "rod.length": "6 in"})
         """
         check_type("vary", changes, Mapping, 'give a dict, such as {"rod.length": 150}')
-        varied: Engine = import_name(VARY)(self, {**changes, **named})
-        return varied
+        return import_name(VARY)(self, {**changes, **named})
 
     def at_speed(self, speed_rpm: Figure) -> Engine:
         """Return the engine at another speed (rpm), with the gas of that speed."""
@@ -365,8 +362,6 @@ class Engine:
     @property
     def every_device(self) -> tuple[Device, ...]:
         """Devices of all engines and of the whole, in the axes of the whole."""
-        if not self.placed:
-            return self.devices
         return tuple(one.find_device(own) for one in self.cranks for own in one.engine.devices)
 
     # -------------------------------------------------------------- motion
@@ -526,8 +521,6 @@ class Engine:
         gives firing intervals.
         """
         if self.model is None or self.model.layout.firing_intervals or len(self.throws_m) == 1:
-            return None
-        if self.model.articulation is not None:
             return None
         return find_fitting_splay(self.model)
 

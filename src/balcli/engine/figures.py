@@ -29,6 +29,9 @@ class FileFigures:
             figure in another way (`rod.length` for `rod.ratio`) count as not given ("displaced").
         model: Engine file; needed if something varies.
 
+    Attributes:
+        displaced: Names of figures, lists and tables of the file that count as not given.
+
     Raises:
         BalcliError: Two figures vary that exclude each other; or a varied figure lacks another one
             that belongs to it (a mass without a radius, because the file gives an unbalance).
@@ -38,7 +41,7 @@ class FileFigures:
         self, varied: Mapping[str, Figure] = MappingProxyType({}), model: EngineFile | None = None
     ) -> None:
         self._varied = varied
-        self._displaced = set(self._find_displaced(model)) if varied and model else set[str]()
+        self.displaced = set(self._find_displaced(model)) if varied and model else set[str]()
 
     def take(self, path: str, given: float) -> Figure:
         """Return a figure that the file always has.
@@ -56,7 +59,7 @@ class FileFigures:
             path: Dotted name of its key.
             given: Value in the file; None if it has none.
         """
-        return None if path in self._displaced else self._varied.get(path, given)
+        return None if path in self.displaced else self._varied.get(path, given)
 
     def take_each(self, path: str, given: Sequence[float]) -> tuple[Figure, ...]:
         """Return all members of a list, each of which may vary (`crank.throws.2`).
@@ -88,10 +91,6 @@ class FileFigures:
             for path, value in self._varied.items()
             if path.rpartition(".")[0] == start
         }
-
-    def is_displaced(self, path: str) -> bool:
-        """Return whether a figure, list or table of the file counts as not given."""
-        return path in self._displaced
 
     def cylinder_tables(self, model: EngineFile) -> dict[int, Override]:
         """Return the tables of single cylinders. Cylinders whose figures vary, but that have no
@@ -242,7 +241,7 @@ def rod_figures(
 
     found = [divide(take(key), _SI.get(key, 1.0)) for key in RodFigures._fields[:-1]]
     pendulum = getattr(table, f"{prefix}pendulum")
-    if pendulum is not None and not figures.is_displaced(f"{path}.{prefix}pendulum"):
+    if pendulum is not None and f"{path}.{prefix}pendulum" not in figures.displaced:
         period = figures.take(f"{path}.{prefix}pendulum.period", pendulum.period)
         return RodFigures._make((*found, PendulumTest(pendulum.pivot, period)))
     return RodFigures._make((*found, None))
@@ -268,10 +267,7 @@ def column(values: Sequence[Figure], rank: int) -> Array:
         values: Numbers or arrays, which broadcast against each other.
         rank: Number of trailing axes (of length 1) if all values are plain numbers.
     """
-    if any(isinstance(value, np.ndarray) for value in values):
-        rows: Array = np.stack(np.broadcast_arrays(*values)) + 0.0  # in place: -0.0 becomes 0.0
-    else:
-        rows = np.array(values) + 0.0
+    rows: Array = np.stack(np.broadcast_arrays(*values)) + 0.0  # -0.0 becomes 0.0
     return rows.reshape(len(values), *rows.shape[1:] or (1,) * rank)
 
 

@@ -124,8 +124,7 @@ def _check_rows(model: EngineFile, throws: int) -> Iterator[Problem]:
             told = f"layout.firing_order has cylinders for {throws}"
         yield Problem("layout.rows", f"{counted(layout.rows or 0, 'row')}, but {told}")
     elif throws > len(OPPOSED) and crank.throws is None and layout.firing_order is None:
-        told = f"{throws} rows need the angle of every throw"
-        yield Problem.of_missing("crank.throws", told)
+        yield Problem.of_missing("crank.throws", f"{throws} rows need the angle of every throw")
 
 
 def _check_throws(crank: Crank, throws: int) -> Iterator[Problem]:
@@ -304,14 +303,14 @@ def find_first(fires: Mapping[int, Figure]) -> int:
 
 def find_intervals(order: Sequence[int], ready: Mapping[int, float], cycle: float) -> list[float]:
     """Return the intervals from each firing to the next of a firing order on a given crank: the
-    shortest that the dead centres (`find_dead_centres`) allow.
+    shortest that the dead centres allow.
 
     If they take less than a cycle, the missing turns are added to the shortest intervals, among
     equal ones to the last: an even parallel twin fires every 360 degrees, but its pins give 0.
 
     Args:
         order: Firing order, numbers of cylinders.
-        ready: Dead centre of each cylinder, deg.
+        ready: Crank angle at which each cylinder is at top dead centre, deg, from any zero.
         cycle: Length of a cycle, deg.
 
     Raises:
@@ -323,16 +322,12 @@ def find_intervals(order: Sequence[int], ready: Mapping[int, float], cycle: floa
     intervals = [angle if angle > TOLERANCE_DEG else angle + 360 for angle in turned]
     total = round(sum(intervals) / 360) * 360
     if total > cycle:
-        each = cycle / len(order)
-        gaps = [ready[i] - ready[order[0]] - k * each for k, i in enumerate(order)]
-        off = (
-            i
-            for i, gap in zip(order, gaps, strict=True)
-            if abs((gap + 180) % 360 - 180) > TOLERANCE_DEG
-        )
+        first, even = ready[order[0]], find_instants(order, None, cycle)
+        gaps = {i: ready[i] - first - fires for i, fires in even.items()}
+        off = (i for i, gap in gaps.items() if np.abs((gap + 180) % 360 - 180) > TOLERANCE_DEG)
         told = (
             f"{'-'.join(map(str, order))} would take {total:g} deg with these crank.throws, but a "
-            f"cycle has {cycle:g}; with even firing every {each:g} deg, cylinder "
+            f"cycle has {cycle:g}; with even firing every {cycle / len(order):g} deg, cylinder "
             f"{next(off, order[-1])} is the first that is not at top dead centre when it fires: "
             "change firing_order or crank.throws, or leave crank.throws out"
         )
@@ -341,23 +336,6 @@ def find_intervals(order: Sequence[int], ready: Mapping[int, float], cycle: floa
         shortest = min(reversed(range(len(intervals))), key=lambda k: round(intervals[k], 6))
         intervals[shortest] += 360.0
     return intervals
-
-
-def find_dead_centres(
-    pins: Mapping[int, float], tops: Mapping[int, float], sense: int = 1
-) -> dict[int, float]:
-    """Return the crank angle at which each cylinder is at top dead centre, deg in [0, 360), from
-    that of cylinder 1.
-
-    Args:
-        pins: Crank pin angle of each cylinder, deg, from cylinder 1's.
-        tops: Angle of each cylinder's axis at top dead centre, deg.
-        sense: 1, or -1 for cylinders that turn about a crank at rest.
-    """
-    return {
-        i: float(np.remainder(sense * ((tops[i] - tops[1]) - pin), 360.0))
-        for i, pin in pins.items()
-    }
 
 
 def check_firing(

@@ -126,9 +126,8 @@ class Candidate:
         """Return whether every cylinder is at its dead centre when it fires, and no firing follows
         the one before it by less than `least_interval` deg.
         """
-        if find_missed(self.parts):
-            return False
-        return min(_list_gaps(self.parts)) >= least_interval - TOLERANCE_DEG
+        least = least_interval - TOLERANCE_DEG
+        return not find_missed(self.parts) and min(_list_gaps(self.parts)) >= least
 
     def is_same(self, other: Candidate) -> bool:
         """Return whether the firing angles of all places differ by the same shift between both
@@ -237,11 +236,11 @@ def find_missed(parts: Parts) -> list[Problem]:
 
 def find_fitting_splay(model: EngineFile) -> float | None:
     """Return the value of `crank.splay` (deg) with which the cylinders fire in the order and at the
-    intervals of the file (evenly if it gives none). Return None if there is no such splay, or no
-    firing order.
+    intervals of the file (evenly if it gives none). Return None if there is no such splay, no
+    firing order, or if rods are articulated.
     """
     parts = Parts(model)
-    if parts.order is None or parts.plan.rods_on_throw == 1:
+    if parts.order is None or parts.plan.rods_on_throw == 1 or model.articulation is not None:
         return None
     fires = find_instants(parts.order, model.layout.firing_intervals, cycle_deg(model.layout))
     wanted = find_pins(fires, parts.pins.tops_deg, parts.sense)

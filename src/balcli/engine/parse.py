@@ -61,16 +61,14 @@ def _refuse_mistakes(draft: Draft, name: str = "") -> EngineFile:
     draft = join_engines(draft)
     if not draft.problems:
         return draft.model if draft.model.engine else infer_numbering(draft.model)
-    problems = [*draft.problems, *list_contradictions(draft)]
-    raise refuse(problems, name)
+    raise refuse([*draft.problems, *list_contradictions(draft)], name)
 
 
 def join_engines(draft: Draft) -> Draft:
     """Return the readable part of a file, joined with the files that its [[engine]] tables name."""
     if not draft.model.engine:
         return draft
-    whole: Draft = import_name(READ_GEARED)(draft, _parse_one)
-    return whole
+    return import_name(READ_GEARED)(draft, _parse_one)
 
 
 def _parse_one(text: bytes, name: str) -> EngineFile:

@@ -38,7 +38,6 @@ from .layout import (
     Plan,
     bank_angles,
     cycle_deg,
-    find_dead_centres,
     find_instants,
     find_intervals,
     find_pins,
@@ -59,9 +58,9 @@ def find_masters(parts: Parts) -> dict[int, int]:
     if table is None:
         return {}
     places = parts.find_master_places()
-    on_throw = {c.throw: c.number for c in cells if c.bank == places[c.throw] - 1}
-    each = ((c.number, on_throw.get(c.throw, c.number)) for c in cells)
-    return {number: master for number, master in each if number != master}
+    masters = {c.throw: c.number for c in cells if c.bank == places[c.throw] - 1}
+    hung = (c for c in cells if c.bank != places[c.throw] - 1 and c.throw in masters)
+    return {c.number: masters[c.throw] for c in hung}
 
 
 def find_gears(parts: Parts) -> dict[int, RunningGear]:
@@ -151,11 +150,9 @@ def find_fires(parts: Parts) -> dict[int, Figure]:
         return {}
     intervals, cycle = layout.firing_intervals, cycle_deg(layout)
     if intervals is None and parts.throws_given:
-        leads = {number: float(lead) for number, lead in parts.pins.leads_deg.items()}
-        tops = {number: float(top) for number, top in parts.true_tops_deg.items()}
-        intervals = tuple(
-            find_intervals(parts.order, find_dead_centres(leads, tops, parts.sense), cycle)
-        )
+        leads, tops = parts.pins.leads_deg, parts.true_tops_deg
+        ready = {n: parts.sense * float(tops[n] - lead) for n, lead in leads.items()}
+        intervals = tuple(find_intervals(parts.order, ready, cycle))
     return find_instants(parts.order, intervals, cycle)
 
 
@@ -215,7 +212,7 @@ class Places(NamedTuple):
 def find_places(parts: Parts) -> Places:
     """Return the places of cylinders and throws."""
     model, figures, plan = parts.model, parts.figures, parts.plan
-    if model.crank.positions is None or figures.is_displaced("crank.positions"):
+    if model.crank.positions is None or "crank.positions" in figures.displaced:
         spacing = figures.take("crank.spacing", model.crank.spacing or 0.0)
         along = tuple((throw - (plan.throws - 1) / 2) * spacing for throw in range(plan.throws))
     else:
@@ -330,9 +327,7 @@ def _hang_rods(parts: Parts, table: Articulation) -> Articulated:
     of_master = [masters.get(n, n) for n in numbers]
     leads = [parts.sense * (axes[n] - axes[m]) for n, m in zip(numbers, of_master, strict=True)]
     masses = [parts.gears[n].big_end if n in masters else 0.0 for n in numbers]
-    ratios = column(
-        [radius_mm / (parts.strokes[n] / 2) if n in masters else 0.0 for n in numbers], rank
-    )
+    ratios = column([(n in masters) * radius_mm / (parts.strokes[n] / 2) for n in numbers], rank)
     return Articulated(
         mass=column(masses, rank),
         master=np.array([numbers.index(master) for master in of_master]),
@@ -407,14 +402,6 @@ class Parts:
         """Return the crank radius of a cylinder, m."""
         return self.strokes[number] / 2e3
 
-    @cached_property
-    def _general_rods(self) -> tuple[RodFigures, RodFigures]:
-        """General figures of rods on crank pins, and of articulated rods."""
-        rod, table = rod_figures(self.figures, self.model.rod), self.model.articulation
-        return rod, RodFigures() if table is None else rod_figures(
-            self.figures, table.rod, "articulation.rod"
-        )
-
     def override(self, number: int, key: str) -> Figure | None:
         """Return a figure of [cylinder.N] in the unit of the file; None if the file gives none.
 
@@ -434,7 +421,10 @@ class Parts:
             number: Number of the cylinder; 0 for the general figures.
             articulated: Whether the rod is articulated.
         """
-        general, own = self._general_rods[articulated], RodFigures()
+        hinged, own = self.model.articulation, RodFigures()
+        general = rod_figures(self.figures, self.model.rod)
+        if hinged is not None and articulated:
+            general = rod_figures(self.figures, hinged.rod, "articulation.rod")
         if (table := self.tables.get(number)) is not None:
             own = rod_figures(self.figures, table, f"cylinder.{number}", "rod_")
         return RodPlace(number, articulated, general.with_own(own), own, general)

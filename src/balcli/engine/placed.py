@@ -144,7 +144,7 @@ def build_geared(
     if model.flywheel is not None:
         wheels = [engines[0].flywheel_inertia, find_wheel(figures, model.flywheel)]
         engines[0] = replace(engines[0], flywheel_inertia=_add(wheels))
-    whole = gear_engines(_place_engines(model, figures, engines))
+    whole = gear_engines([*_place_engines(model, figures, engines)])
     given, power = model.frame.reference, model.operation.power
     if given is not None:
         x, y, z = (each / 1e3 for each in figures.take_each("frame.reference", given))
@@ -193,25 +193,20 @@ def gear_engines(placed: Sequence[Placed]) -> Engine:
     )
 
 
-_ANGLES = ("phase", "turn")
-
-
 def _place_engines(
     model: EngineFile, figures: FileFigures, engines: Sequence[Engine]
-) -> tuple[Placed, ...]:
+) -> Iterator[Placed]:
     tables = model.engine
     given = any(table.has("load") for table in tables)
     loads = [table.load if given else k == 0 for k, table in enumerate(tables)]
     driving = tables[loads.index(True)].ratio
-    found = []
     for k, (name, table, engine) in enumerate(zip(model.crank_names, tables, engines, strict=True)):
         path = f"engine.{k + 1}"
-        phase, turn = (figures.take(f"{path}.{key}", getattr(table, key)) for key in _ANGLES)
+        phase = figures.take(f"{path}.phase", table.phase)
+        turn = figures.take(f"{path}.turn", table.turn)
         at = tuple(each / 1e3 for each in figures.take_each(f"{path}.at", table.at))
         sense = table.ratio if all(loads) else driving
-        one = Placed(engine, name, table.file, table.ratio, phase, turn, at, loads[k], sense)
-        found.append(one)
-    return tuple(found)
+        yield Placed(engine, name, table.file, table.ratio, phase, turn, at, loads[k], sense)
 
 
 def _add(figures: Iterable[Figure | None]) -> Figure | None:
@@ -251,9 +246,7 @@ def _join_laws(placed: Sequence[Placed]) -> GasLaw | None:
 
     def solve(speed_rpm: float) -> EngineGas:
         there = [one._replace(engine=one.engine.at_speed(speed_rpm)) for one in placed]
-        gas = _join_gas(there)
-        assert gas is not None
-        return gas
+        return cast(EngineGas, _join_gas(there))
 
     powers = {law.power for law in laws}
     nodes = sorted({speed for law in laws for speed in law.nodes_rpm})

@@ -376,10 +376,7 @@ def find_corrections(
         phases=phases,
         weights=senses,
         minimise=minimise,
-        readings=tuple(
-            Sensor(sensor=sensor, speed_rpm=speed)
-            for sensor, speed in zip(cycle(sensors), runs.speeds_rpm, strict=False)
-        ),
+        readings=tuple(map(Sensor, cycle(sensors), runs.speeds_rpm)),
         influence=runs.coefficients,
         corrections=tuple(corrections),
         before=runs.latest,

@@ -89,19 +89,16 @@ class Influence(NamedTuple):
 
 def collect_series(file: RunsFile) -> list[Series]:
     """Return the runs as one series for each speed, in the order of the file."""
-    found: list[Series] = []
-    for speed in dict.fromkeys(run.speed for run in file.run):
+    found, speeds = list[Series](), dict.fromkeys(run.speed for run in file.run)
+    rows = file.influence and np.array(file.influence, complex)
+    known = [None] * len(speeds) if rows is None else np.split(rows, len(speeds))
+    for speed, given in zip(speeds, known, strict=True):
         numbers = [k for k, run in enumerate(file.run) if run.speed == speed]
         kept, states = np.zeros(len(file.planes), dtype=complex), []
         for run in (file.run[k] for k in numbers):
             states.append(kept + [run.weights.get(plane, 0j) for plane in file.planes])
             kept = states[-1] if run.keep_trial else kept
         readings = np.array([file.run[k].readings for k in numbers], dtype=complex)
-        given = None
-        if file.influence is not None:
-            sensors = readings.shape[1]
-            rows = file.influence[len(found) * sensors : (len(found) + 1) * sensors]
-            given = np.array(rows, dtype=complex)
         found.append(Series(speed, numbers, readings, file.turn(np.array(states)), given))
     return found
 

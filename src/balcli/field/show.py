@@ -110,8 +110,7 @@ def _show_corrections(result: FieldBalance, system: System) -> Grid:
         columns.append((f"radius, {system.length.name}", lengths))
         unbalances = [_show_g_mm(each.unbalance_g_mm, system) for each in every]
         columns.append((f"unbalance, {system.unbalance.name}", unbalances))
-    limits = (", at its limit" if each.at_limit else "" for each in every)
-    shares = [f"{each.own_effect:.0%}{limit}" for each, limit in zip(every, limits, strict=True)]
+    shares = [f"{each.own_effect:.0%}{', at its limit' * each.at_limit}" for each in every]
     columns.append(("own effect", shares))
     note = " ".join(_explain_corrections(result))
     marked = frozenset((k, 1) for k, each in enumerate(every) if each.at_limit)
@@ -174,30 +173,26 @@ def _show_pieces(result: FieldBalance, system: System) -> Grid:
 
 def _show_permitted(result: FieldBalance, found: Permitted, system: System) -> Grid:
     file, unit, mass, every = result.file, system.unbalance.name, system.mass, found.planes
-    figures: dict[str, list[float | None]] = {
-        "permitted": [each.permitted_g_mm for each in every],
-        "there now": [each.present_g_mm for each in every],
-        "scatter": [each.scatter_g_mm for each in every],
-        "after": [each.after_g_mm for each in every],
-    }
-    *columns, after = (
-        (f"{name}, {unit}", [_show_g_mm(value, system) for value in values])
-        for name, values in figures.items()
-    )
-    plane = ("plane", [each.plane for each in every])
-    verdict = ("", [each.verdict for each in every])
+    names = "permitted", "there now", "scatter"
+    heads = ("plane", *(f"{name}, {unit}" for name in names), "", f"after, {unit}")
+    rows = []
+    for each in every:
+        figures = each.permitted_g_mm, each.present_g_mm, each.scatter_g_mm, each.after_g_mm
+        *cells, after = (_show_g_mm(value, system) for value in figures)
+        rows.append((each.plane, *cells, each.verdict, after))
     spread = "largest error of 'there now' (95 %), estimated from the residuals of the fit"
     if every[0].scatter_g_mm is None:
         spread = "unknown, because the fit has as many unknowns as readings; add a run"
     state = f"in '{result.trimmed}'" if result.trimmed else "of the rotor as found"
-    return Grid.of_columns(
+    return Grid(
         f"Permitted residual unbalance, ISO 21940-11, G {file.grade:g}",
-        [plane, *columns, verdict, after],
+        heads,
+        tuple(rows),
         f"{mass.of(file.mass or 0.0):g} {mass.name} at {file.speed:g} rpm: "
         f"{number(1e3 * found.specific_mm)} µm. There now: unbalance {state}, from its readings; "
         f"after: unbalance after the corrections. Scatter: {spread}.",
-    )._replace(
-        marked=frozenset((k, 4) for k, each in enumerate(every) if not each.reached), words=(0, 4)
+        marked=frozenset((k, 4) for k, each in enumerate(every) if not each.reached),
+        words=(0, 4),
     )
 
 

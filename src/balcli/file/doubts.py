@@ -8,10 +8,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
-from typing import NamedTuple
+from typing import Any, NamedTuple
+
+import numpy as np
 
 from .fields import WrittenFigure, count_lambda_digits, printable
 from .model import PISTON_PARTS, EngineFile
+from .plain_tables import list_tables
 from .units import ask_unit
 
 # The mass of similar pistons grows with the cube of the bore. With pin and rings, aluminium pistons
@@ -96,31 +99,40 @@ def find_suspicious(model: EngineFile) -> list[str]:
         model: Engine file.
     """
     figures = [*_list_pistons(model), *_list_rods(model), *_list_cranks(model)]
-    question = ask_unit("bar", "130 psi", "0.9 MPa")
     if model.locomotive is not None and model.locomotive.wheel_load is not None:
         load, hint = model.locomotive.wheel_load, ask_unit("N", "40 kN", "9.5 t")
         figures.append(Figure("locomotive.wheel_load is", load, WHEEL_LOAD, math.inf, " N", hint))
-    points = () if model.gas is None else model.gas.at
-    tables = {"gas": model.gas} | {f"gas.at.{k}": point for k, point in enumerate(points, 1)}
-    for path, table in tables.items():
-        for key, usual in PRESSURES.items():
-            if (value := getattr(table, key, None)) is not None:
-                figures.append(Figure(f"{path}.{key} is", value, *usual, question))
-    return [*_find_missing(model), *_doubt(figures), *doubt_losses(_list_losses(model))]
+    question = ask_unit("bar", "130 psi", "0.9 MPa")
+    for path, key, value in walk_figures("gas", list_tables(model.gas)):
+        if key in PRESSURES:
+            figures.append(Figure(f"{path} is", value, *PRESSURES[key], question))
+    return [*_find_missing(model), *_doubt(figures), *doubt_losses("torsion", model.torsion)]
 
 
-def doubt_losses(losses: Iterable[tuple[str, float | None]]) -> Iterator[str]:
+def doubt_losses(path: str, tables: object) -> Iterator[str]:
     """Yield warnings for impossibly large loss factors, which are probably given in percent.
 
     Args:
-        losses: Paths in the file and loss factors; None if not given.
+        path: Path of the tables; empty: they are a whole file.
+        tables: Table or tables, in which each key `loss` counts.
     """
     hint = "{0:g} % is {1:g}, and a relative damping psi is a loss factor of psi/(2 pi)"
     yield from _doubt(
-        Figure(f"{path} is", loss, 0, LOSS, "", hint.format(loss, loss / 100))
-        for path, loss in losses
-        if loss is not None
+        Figure(f"{place} is", loss, 0, LOSS, "", hint.format(loss, loss / 100))
+        for place, key, loss in walk_figures(path, list_tables(tables))
+        if key == "loss"
     )
+
+
+def walk_figures(path: str, tables: Any) -> Iterator[tuple[str, Any, Any]]:
+    """Yield path, key and value of the keys in a table, and in the tables and lists within it."""
+    parts = tables.items() if isinstance(tables, dict) else enumerate(tables or (), 1)
+    for key, value in parts:
+        place = f"{path}.{key}".removeprefix(".")
+        if isinstance(value, (dict, list)):
+            yield from walk_figures(place, value)
+        else:
+            yield place, key, value
 
 
 def _doubt(figures: Iterable[Figure]) -> Iterator[str]:
@@ -149,12 +161,9 @@ def _find_missing(model: EngineFile) -> Iterator[str]:
     if model.rod.mass and model.rod.cg is None:
         yield "rod.cg is not given, and 0 is taken; measure it from the big-end centre"
     crank, (throws, rods) = model.crank, _count_throws_and_rods(model)
-    masses, strokes = (
-        values * throws if len(values) == 1 else values
-        for values in (crank.throw_masses, crank.strokes)
-    )
-    pairs = zip(masses, strokes, strict=False)  # lists of a wrong length are rejected elsewhere
-    of_throws = sum(mass * (stroke / 2) ** 2 for mass, stroke in pairs)
+    # One figure for all throws is repeated; lists of a wrong length are rejected elsewhere.
+    masses, strokes = (np.resize(each, throws) for each in (crank.throw_masses, crank.strokes))
+    of_throws = float(masses @ (strokes / 2) ** 2)
     if crank.inertia is not None and crank.inertia < of_throws and not model.layout.rotary:
         yield (
             f"crank.inertia is {crank.inertia:.4g} kg mm^2, less than the {of_throws:.4g} kg mm^2 "
@@ -265,20 +274,6 @@ def _list_cranks(model: EngineFile) -> Iterator[Figure]:
         if inertia:
             question = ask_unit("kg mm^2", f"{inertia:.4g} kg m^2")
             yield Figure(f"{name}.inertia is", inertia, least, math.inf, " kg mm^2", question)
-
-
-def _list_losses(model: EngineFile) -> Iterator[tuple[str, float | None]]:
-    """Yield the paths and loss factors of all shafts and dampers."""
-    if model.torsion is None:
-        return
-    yield "torsion.loss", model.torsion.loss
-    for end, parts in (("front", model.torsion.front), ("rear", model.torsion.rear)):
-        for number, part in enumerate(parts, 1):
-            yield f"torsion.{end}.{number}.loss", part.loss
-            if part.damper is not None:
-                yield f"torsion.{end}.{number}.damper.loss", part.damper.loss
-    for number, on_throw in enumerate(model.torsion.throw, 1):
-        yield f"torsion.throw.{number}.damper.loss", on_throw.damper.loss
 
 
 def _has_crosshead(model: EngineFile) -> bool:

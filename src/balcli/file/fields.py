@@ -93,6 +93,14 @@ def counted(count: int, what: str) -> str:
     return f"{count} {what}{'s' * (count != 1)}"
 
 
+def ordinal(number: int) -> str:
+    """Return an ordinal number: 1st, 2nd, 3rd, 4th ..."""
+    if number % 100 in (11, 12, 13):
+        return f"{number}th"
+    suffix = {1: "st", 2: "nd", 3: "rd"}.get(number % 10, "th")
+    return f"{number}{suffix}"
+
+
 def count_lambda_digits(ratio: float, usual: int = 4) -> int:
     """Return the number of digits of crank radius / rod length to show: more near 1, where the
     crank locks.

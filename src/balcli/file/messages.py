@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple, get_args
 from ..errors import OtherKindError, Problem
 from ..names import CHAPTER_LISTS, CHAPTERS, import_name
 from . import model
-from .fields import OneOrEach, counted, nearest, printable, shorten
+from .fields import counted, nearest, printable, shorten
 from .table import FileTable, KeyDocument, document_keys
 from .units import read_rows
 
@@ -21,13 +21,8 @@ if TYPE_CHECKING:
 TEXTS = ("name", "source")
 
 
-def _find_classes(keys: str) -> dict[str, type[FileTable]]:
-    """Return the classes of tables by their keys; a class has the name of its key."""
-    return {key: getattr(model, key.capitalize()) for key in keys.split()}
-
-
-TABLES = _find_classes("crank rod piston crosshead layout bobweight operation frame")
-DEVICES = _find_classes("counterweight shaft slider")
+TABLES = ("crank", "rod", "piston", "crosshead", "layout", "bobweight", "operation", "frame")
+DEVICES = ("counterweight", "shaft", "slider")
 KNOWN = (*TEXTS, *TABLES, *CHAPTERS, "cylinder", *DEVICES, *CHAPTER_LISTS)
 # Keys allowed in a file with [[engine]]; all other keys stand in the files of its engines
 _OF_WHOLE = ("operation", "frame", "flywheel", "body", *DEVICES, "engine", "mount", "point")
@@ -36,15 +31,14 @@ BESIDE_ENGINES = (*TEXTS, *_OF_WHOLE)
 
 def import_table(key: str) -> type[FileTable]:
     """Return the class of the table with this key; the module of its chapter is imported."""
-    if key in TABLES or key in DEVICES:
-        return (TABLES | DEVICES)[key]
-    table: type[FileTable] = import_name(f"{(CHAPTERS | CHAPTER_LISTS)[key]}:{key.capitalize()}")
+    place = (CHAPTERS | CHAPTER_LISTS).get(key)
+    table: type[FileTable] = getattr(import_name(place) if place else model, key.capitalize())
     return table
 
 
 def import_tables() -> dict[str, type[FileTable]]:
     """Return the classes of all tables that a file has only once, chapters included."""
-    return TABLES | {key: import_table(key) for key in CHAPTERS}
+    return {key: import_table(key) for key in (*TABLES, *CHAPTERS)}
 
 
 def join_path(start: str, parts: Iterable[int | str]) -> str:
@@ -60,7 +54,7 @@ def join_path(start: str, parts: Iterable[int | str]) -> str:
 
 
 def describe_finding(path: str, finding: ErrorDetails, table: type[FileTable]) -> Problem:
-    """Return the message for a finding of pydantic; a member of a list is called `the 2nd value`.
+    """Return the message for a finding of pydantic.
 
     Args:
         path: Path of the table.
@@ -93,12 +87,6 @@ def describe_finding(path: str, finding: ErrorDetails, table: type[FileTable]) -
         message = f"{shown} is not a list; write it in square brackets, such as {example}"
     else:
         message = f"{shown} is not a table; write it in braces with its keys"
-    listed = inner.keys().get(str(loc[-2])) if len(loc) > 1 else None
-    by_path = listed and any(
-        isinstance(mark, OneOrEach) and not (mark.count or mark.copies) for mark in listed.metadata
-    )
-    if loc and isinstance(loc[-1], int) and not (by_path or isinstance(value, Mapping)):
-        return Problem(join_path(path, loc[:-1]), f"the {ordinal(loc[-1] + 1)} value {message}")
     return Problem(place, message)
 
 
@@ -122,14 +110,6 @@ def find_table(annotation: object) -> type[FileTable] | None:
     if isinstance(annotation, type) and issubclass(annotation, FileTable):
         return annotation
     return next(filter(None, map(find_table, get_args(annotation))), None)
-
-
-def ordinal(number: int) -> str:
-    """Return an ordinal number: 1st, 2nd, 3rd, 4th ..."""
-    if number % 100 in (11, 12, 13):
-        return f"{number}th"
-    suffix = {1: "st", 2: "nd", 3: "rd"}.get(number % 10, "th")
-    return f"{number}{suffix}"
 
 
 SHARED = {"name", "source", "shaft"}  # keys of an engine file that other kinds may have

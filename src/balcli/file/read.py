@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Collection, Iterable, Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import NamedTuple, TypeVar
 
@@ -57,35 +58,29 @@ def refuse(problems: Iterable[Problem], name: str) -> InputError:
     return InputError(listed[:MOST_MISTAKES_SHOWN], name, more)
 
 
+@dataclass
 class TableReader:
     """Reader of tables that collects their mistakes.
 
-    Args:
+    Attributes:
         file_kind: Kind of the file, in words: "a chain file".
         describe: Function that returns the message for a finding of pydantic, from the table's
             path, the finding and the table's class.
         is_engine: Whether the file is an engine file, for which there are more hints.
-
-    Attributes:
         problems: Mistakes found so far.
     """
 
-    def __init__(
-        self,
-        file_kind: str,
-        describe: Callable[[str, ErrorDetails, type[FileTable]], Problem] = describe_finding,
-        *,
-        is_engine: bool = False,
-    ) -> None:
-        self._file_kind, self._describe, self._is_engine = file_kind, describe, is_engine
-        self._unknown = 0
-        self.problems: list[Problem] = []
+    file_kind: str
+    describe: Callable[[str, ErrorDetails, type[FileTable]], Problem] = describe_finding
+    is_engine: bool = False
+    problems: list[Problem] = field(default_factory=list)
+    _unknown: int = 0
 
     def read_list(
         self, key: str, value: object, table: type[T], most: int = MOST_PARTS
-    ) -> tuple[T | None, ...] | None:
-        """Return the tables of a list, with None for each table that has mistakes; None if the
-        value is not a list, or too long.
+    ) -> tuple[T, ...] | None:
+        """Return the tables of a list; None if a table has mistakes, or if the value is not a list,
+        or too long.
 
         Args:
             key: Key of the list.
@@ -100,7 +95,9 @@ class TableReader:
         if len(value) > most:
             self.add(key, f"is given {len(value)} times; at most {most} are read")
             return None
-        return tuple(self.read_table(f"{key}.{k}", item, table) for k, item in enumerate(value, 1))
+        tables = [self.read_table(f"{key}.{k}", item, table) for k, item in enumerate(value, 1)]
+        read = tuple(filter(None, tables))
+        return read if len(read) == len(tables) else None
 
     def read_table(self, path: str, value: object, table: type[T]) -> T | None:
         """Return a table; None if it has mistakes. Contradictions between its keys are reported
@@ -144,12 +141,12 @@ class TableReader:
         if self._unknown > MOST_MISTAKES_SHOWN:  # these are only counted
             self.problems.append(Problem(place, "unknown key", meant=""))
             return
-        hint, near = suggest(key, own or (), is_engine=self._is_engine)
+        hint, near = suggest(key, own or (), is_engine=self.is_engine)
         heading = f"[{path}]" if own is None else format_heading(path)
         table, meant = printable(heading), join_path(path, [near]) if near else ""
-        message = f"unknown key in {table if path else self._file_kind}"
+        message = f"unknown key in {table if path else self.file_kind}"
         is_table = isinstance(value, Mapping) and key in KNOWN and key not in TEXTS
-        if self._is_engine and path and is_table:
+        if self.is_engine and path and is_table:
             message, meant = f"{key} is a table of its own, not one within {table}", key
             hint = f"write {format_heading(key)} and its keys below it"
         elif own is None:
@@ -158,7 +155,7 @@ class TableReader:
 
     def refusal(self, name: str) -> InputError:
         """Return the error that lists the mistakes; `name` is the name of the file, or empty."""
-        return refuse(self.problems, name or self._file_kind.removeprefix("a "))
+        return refuse(self.problems, name or self.file_kind.removeprefix("a "))
 
     def add(self, path: str, message: str) -> None:
         """Add a mistake.
@@ -185,7 +182,7 @@ class TableReader:
                 finding["type"] == "too_short"
                 and len(finding["input"]) >= finding["ctx"]["min_length"]
             ):
-                self.problems.append(self._describe(path, finding, table))
+                self.problems.append(self.describe(path, finding, table))
 
 
 REQUIRED = {"crank": "stroke = 90", "rod": "length = 160", "piston": "mass = 0.5"}
@@ -264,10 +261,7 @@ def check_tables(
     parts = {key: _read_part(reader, key, data[key]) for key in there}
     broken = {key for key in REQUIRED if key not in parts}
     broken |= {problem.meant for problem in reader.problems if problem.meant}
-    for key, part in parts.items():
-        members = part.values() if isinstance(part, dict) else (part,)
-        if None in (part if isinstance(part, tuple) else members):
-            broken.add(key)
+    broken |= {key for key, part in parts.items() if part is None}
     read = {key: part for key, part in parts.items() if key not in broken}
     model = EngineFile.model_construct(set(read), **read)
     model._folder = folder
@@ -333,7 +327,7 @@ def _read_text(reader: TableReader, key: str, value: object) -> str | None:
     return value
 
 
-def _read_cylinders(reader: TableReader, value: object) -> dict[int, Override | None]:
+def _read_cylinders(reader: TableReader, value: object) -> dict[int, Override | None] | None:
     if isinstance(value, list):
         reader.add("cylinder", "write a table for each cylinder that differs, such as [cylinder.3]")
         return {}
@@ -345,4 +339,4 @@ def _read_cylinders(reader: TableReader, value: object) -> dict[int, Override | 
             hint = INSTEAD.get(key or "count") or suggest_place(key)
             hint = hint or "write [cylinder.3] for the keys that differ in cylinder 3"
             reader.add(join_path("cylinder", [key]), f"does not name a cylinder; {hint}")
-    return cylinders
+    return None if None in cylinders.values() else cylinders

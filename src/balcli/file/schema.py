@@ -21,12 +21,8 @@ def describe_engine_file() -> Node:
     bounds and an example.
     """
     chapters = {key.capitalize(): import_table(key) for key in (*CHAPTERS, *CHAPTER_LISTS)}
-    tables: list[type[FileTable]] = [
-        *TABLES.values(),
-        *chapters.values(),
-        *DEVICES.values(),
-        Override,
-    ]
+    parts = map(import_table, (*TABLES, *DEVICES))
+    tables: list[type[FileTable]] = [*parts, *chapters.values(), Override]
     EngineFile.model_rebuild(_types_namespace=chapters)
     document = describe_file(EngineFile, tables, "engine-file", "balcli engine file")
     for table in tables:

@@ -74,9 +74,9 @@ _SYMBOLS = "m g s rad N Pa bar J W Wh Hz Nm Ns Nms psi rpm"
 _WORDS = "metre meter gram gramme second radian newton pascal bar joule watt hertz"
 
 
-# "kPa" -> (3, "Pa"), "millimetre" -> (-3, "metre")
+# "kPa" -> "1e3 Pa", "millimetre" -> "1e-3 metre"
 PREFIXED = {
-    prefix + unit: (int(power), unit)
+    prefix + unit: f"1e{power} {unit}"
     for *prefixes, power in map(str.split, _PREFIXES.split(","))
     for prefix in prefixes
     for unit in (_SYMBOLS if len(prefix) < 3 else _WORDS).split()
@@ -395,19 +395,17 @@ def read_unit(names: str, dimension: Dimension) -> Unit:
     for joint, name, power, raised in re.findall(_PART, names, re.ASCII):
         if question := AMBIGUOUS.get(name) or AMBIGUOUS.get(name.removesuffix("s")):
             raise ValueError(f'has the unit "{name}": {question} {wanted(dimension)}')
-        part, before = _find(name), None
-        if part is None and (pair := _find_pair(name)):
-            before, part = pair
-        if part is None:
+        parts = (part,) if (part := _find(name)) else _find_pair(name)
+        if not parts:
             near = find_near_name(name)
             hint = f" did you mean {near}?" if near else ""
             raise ValueError(f'has the unknown unit "{name}";{hint} {wanted(dimension)}')
         sign = -1 if joint == "/" else 1
-        for unit, exponent in ((before, sign), (part, sign * int(power or raised or 1))):
-            if unit is not None:
-                scale *= unit.scale**exponent
-                each = zip(powers, unit.powers, strict=True)
-                powers = tuple(p + exponent * q for p, q in each)
+        exponents = (sign, sign * int(power or raised or 1))[-len(parts) :]  # ozin^2: oz in^2
+        for unit, exponent in zip(parts, exponents, strict=True):
+            scale *= unit.scale**exponent
+            each = zip(powers, unit.powers, strict=True)
+            powers = tuple(p + exponent * q for p, q in each)
     return Unit(scale, powers)
 
 
@@ -418,14 +416,10 @@ def _find(name: str) -> Unit | None:
     """
     if name in _BASE:
         return _BASE[name]
-    if name in DEFINITIONS:
-        number, names = _split(DEFINITIONS[name]) or (Fraction(), "")
+    if definition := DEFINITIONS.get(name) or PREFIXED.get(name):
+        number, names = _split(definition) or (Fraction(), "")
         unit = read_unit(names, PLAIN)
         return Unit(number * unit.scale, unit.powers)
-    if name in PREFIXED:
-        power, of_which = PREFIXED[name]
-        unit = read_unit(of_which, PLAIN)
-        return Unit(Fraction(10) ** power * unit.scale, unit.powers)
     one = name.removesuffix("s")
     if one != name and len(one) > 1 and name.islower():
         return _find(one)
@@ -448,9 +442,9 @@ def _by_lower_case() -> defaultdict[str, set[str]]:
 
 
 @cache
-def _find_pair(name: str) -> tuple[Unit, Unit] | None:
+def _find_pair(name: str) -> tuple[Unit, ...]:
     """Return the two units, a mass or force and a length, that are written as one word: ozin, gcm,
-    Ncm, lbft.
+    Ncm, lbft. Return () if there are no such units, or several.
     """
     length, loads = LENGTH.powers, ((0, 1, 0, 0), (1, 1, -2, 0))
     pairs = {
@@ -461,7 +455,7 @@ def _find_pair(name: str) -> tuple[Unit, Unit] | None:
         if (first.powers in loads and second.powers == length)
         or (first.powers == length and second.powers in loads)
     }
-    return pairs.pop() if len(pairs) == 1 else None
+    return pairs.pop() if len(pairs) == 1 else ()
 
 
 def ask_unit(unit: str, *others: str) -> str:

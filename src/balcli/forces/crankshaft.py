@@ -25,7 +25,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.cylinders import DeviceKind
-from ..core.loads import find_ahead, find_arms, share_by_lever
+from ..core.loads import find_ahead, find_arms, share_by_lever, sum_weighted
 from ..core.peaks import Peak, find_peaks
 from ..core.phasors import Array, Complex, Phasors, join_places, unit
 from ..core.piecewise import Vectors, cut, find_panels, merged_breaks, quadrature
@@ -135,8 +135,8 @@ def compute_inner_loads(engine: Engine, orders: Array | None = None) -> InnerLoa
     sections = list_places(z)
     ahead = find_ahead(z, sections)
     sizes = ahead * (np.abs(z) + np.abs(sections[:, None]))  # of the terms of the arms
-    shear = _sum_weighted(loads, ahead, ahead)
-    bending = 1j * _sum_weighted(loads, find_arms(z, sections), sizes)
+    shear = sum_weighted(loads, ahead)
+    bending = 1j * sum_weighted(loads, find_arms(z, sections), sizes)
     if orders is None:
         orders = every[mark_considerable(bending) | (every <= 2)]
     if len(orders) * len(z) > MOST_RESULTS_ALONG_CRANK:
@@ -187,17 +187,14 @@ def compute_bearing_forces(loads: Phasors, z: Array, bearings_m: Array) -> Phaso
         z: Positions of the forces, m, shape (loads,).
         bearings_m: Positions of the bearings, from `place_bearings`.
     """
-    shares = share_by_lever(z, bearings_m)
-    return _sum_weighted(loads, shares, shares)
+    return sum_weighted(loads, share_by_lever(z, bearings_m))
 
 
 def compute_loads(engine: Engine, orders: Array) -> tuple[Phasors, Array]:
     """Return the forces of each cylinder and counterweight, phasors of shape (orders, loads), and
     their positions, m, shape (loads,).
     """
-    counterweights = [
-        device for device in engine.devices if device.kind is DeviceKind.COUNTERWEIGHT
-    ]
+    counterweights = [d for d in engine.devices if d.kind is DeviceKind.COUNTERWEIGHT]
     refuse_too_many_loads(engine, len(orders), engine.cylinders.count + len(counterweights))
     each = compute_spectra(engine, orders, ["force"], each=True)["force"]
     more = [compute_device_force(engine, device, orders) for device in counterweights]
@@ -208,19 +205,6 @@ def compute_loads(engine: Engine, orders: Array) -> tuple[Phasors, Array]:
 def list_places(z: Array) -> Array:
     """Return the different positions, ascending (`numpy.unique` would load `numpy.ma`)."""
     return np.array(sorted(set(z.tolist())))
-
-
-def _sum_weighted(loads: Phasors, weights: Array, size: Array) -> Phasors:
-    """Return weighted sums over the loads.
-
-    Args:
-        loads: Phasors of shape (orders, loads).
-        weights: Weights, shape (places, loads).
-        size: Sizes of the terms of which the weights are differences, in the same shape; they bound
-            the rounding errors.
-    """
-    noise = loads.noise @ np.abs(size).T
-    return Phasors(loads.orders, loads.vectors @ weights.T, noise).drop_noise()
 
 
 def _with_peaks(places: Array, phasors: Phasors, orders: Array) -> AlongCrank:
@@ -338,8 +322,7 @@ def compute_loads_with_gas(engine: Engine, orders: Array | None = None) -> Loads
     )
     if orders is not None:
         return found
-    bent = found.bending.phasors, found.block_bending.phasors
-    due = np.any([mark_considerable(phasors) for phasors in bent], axis=0)
+    due = mark_considerable(found.bending.phasors) | mark_considerable(found.block_bending.phasors)
     return LoadsWithGas(*(along.select_orders(shown[due]) for along in found))
 
 

@@ -49,17 +49,6 @@ def divide_revolution(step: float = 1.0, revolutions: int = 1) -> Array:
     return np.round(steps * step, 12)  # 3 steps of 0.1 are 0.3
 
 
-def compute_inertia_torque(engine: Engine, crank_deg: Array) -> Array:
-    """Return the inertia torque of all cylinders on the crank, N m, shape (angles,).
-
-    Args:
-        engine: Engine without trailing axes.
-        crank_deg: Crank angles, deg, shape (angles,).
-    """
-    motions = (EngineMotion(one.engine, crank_deg + one.phase_deg) for one in engine.cranks)
-    return np.asarray(sum(torque_of_cylinders(motion).sum(axis=0) for motion in motions))
-
-
 def compute_piecemeal(
     engine: Engine, crank_deg: Array, compute: Callable[[Array], dict[str, NDArray[Number]]]
 ) -> dict[str, NDArray[Number]]:
@@ -81,7 +70,8 @@ class EngineMotion:
     """Positions and motion of all cylinders of an engine at crank angles.
 
     Attributes:
-        cylinders: Cylinders of the engine.
+        engine: The engine.
+        cylinders: Its cylinders.
         radius: Crank radii, m, shape (cylinders, 1) or (1, 1).
         crank_deg: Crank angles, shape (angles,).
         omega: Crank speed, rad/s, shape (angles,).
@@ -94,7 +84,8 @@ class EngineMotion:
     """
 
     def __init__(self, engine: Engine, crank_deg: Array) -> None:
-        self.cylinders = c = engine.cylinders
+        self.engine, self.cylinders = engine, engine.cylinders
+        c = engine.cylinders
         self.radius = as_rows(c.radius)
         self.crank_deg = crank_deg
         self.omega, self.xi = find_crank_speed(engine, crank_deg)
@@ -237,7 +228,7 @@ def find_inertia_torque(engine: Engine) -> Function:
     torque = compute_spectra(steady, find_relevant_orders(steady), ("torque",))["torque"]
     if torque.major.sum() <= torque.noise.sum():
         return np.zeros_like
-    return _at_radians(steady, compute_inertia_torque)
+    return _add_cylinders(steady, torque_of_cylinders)
 
 
 def find_moving_inertia(engine: Engine) -> Function:
@@ -245,18 +236,15 @@ def find_moving_inertia(engine: Engine) -> Function:
     function of crank angles (rad) of any shape. Throw masses are omitted if the file gives the
     crankshaft's inertia, which includes them, and in rotary engines, where they are at rest.
     """
-    if engine.placed:
-        cranks = [
-            (find_moving_inertia(one.engine), np.radians(one.phase_deg)) for one in engine.cranks
-        ]
-        return lambda angle: np.asarray(sum(moving(angle + lead) for moving, lead in cranks))
-    if engine.crank_inertia is not None and not engine.rotary:
-        c = engine.cylinders
-        throws = np.array([float(weighed.share) for weighed in engine.weighed])
-        engine = replace(engine, cylinders=replace(c, rotating=c.rotating - throws))
-    return _at_radians(
-        engine, lambda e, deg: _inertia_of_cylinders(EngineMotion(e, deg)).sum(axis=0)
-    )
+
+    def find(motion: EngineMotion) -> Array:
+        inertia, own = _inertia_of_cylinders(motion), motion.engine
+        if own.crank_inertia is None or own.rotary:
+            return inertia
+        throws = np.array([float(weighed.share) for weighed in own.weighed])
+        return inertia - motion.radius**2 * as_rows(throws)
+
+    return _add_cylinders(engine, find)
 
 
 def find_constant_inertia(engine: Engine) -> float | None:
@@ -299,12 +287,21 @@ def _silence_in_file(model: EngineFile, number: CylinderNumber) -> EngineFile:
     return model.model_copy(update={"cylinder": {**model.cylinder, number: silent}})
 
 
-def _at_radians(engine: Engine, compute: Callable[[Engine, Array], Array]) -> Function:
-    """Return a curve of an engine over degrees as a function of radians of any shape."""
+def _add_cylinders(engine: Engine, compute: Callable[[EngineMotion], Array]) -> Function:
+    """Return the sum of a figure over the cylinders of all cranks, as a function of crank angles
+    (rad) of any shape.
+
+    Args:
+        engine: Engine without trailing axes.
+        compute: Function that returns the figure for a motion, shape (cylinders, angles).
+    """
+
+    def add_up(crank_deg: Array) -> dict[str, Array]:
+        motions = (EngineMotion(one.engine, crank_deg + one.phase_deg) for one in engine.cranks)
+        return {"": np.asarray(sum(compute(motion).sum(axis=0) for motion in motions))}
 
     def at(angle: Array) -> Array:
-        degrees = np.degrees(angle.reshape(-1))
-        found = compute_piecemeal(engine, degrees, lambda some: {"": compute(engine, some)})
+        found = compute_piecemeal(engine, np.degrees(angle.reshape(-1)), add_up)
         return found[""].reshape(angle.shape)
 
     return at

@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..core.loads import sum_weighted
 from ..core.phasors import Array, Phasors
 from ..engine.build import build
 from ..engine.engine import Engine, refuse_geared
@@ -71,23 +72,17 @@ def compute_guide_moments(
         every = merge_orders(few, list_gas_orders(engine))
     rolls = compute_spectra(about_crank, every, [roll], each=True)[roll]
     c, z = engine.cylinders, np.ravel(engine.cylinders.z)
-    h = _sum_weighted(rolls, np.ones(c.count))
+    h = sum_weighted(rolls, np.ones(c.count))
     due = mark_considerable(h)
     height = np.broadcast_to(np.ravel(c.rod_length) if height_m is None else height_m, c.count)
     x = None
     if np.ptp(z) and engine.places_known and np.isfinite(height).all():
-        x = _sum_weighted(rolls, (z - z_ref) / height)
+        x = sum_weighted(rolls, (z - z_ref) / height)
         due |= mark_considerable(x)
     if orders is None:
         orders = every[due]
     h, x = h.select_orders(orders), x and x.select_orders(orders)
     return GuideMoments(h, x, height[np.argsort(engine.numbers)], engine.gas is not None)
-
-
-def _sum_weighted(rolls: Phasors, weights: Array) -> Phasors:
-    """Return the weighted sum over cylinders of phasors of shape (orders, cylinders)."""
-    total = [float(weight) * rolls.select_place(row) for row, weight in enumerate(weights)]
-    return sum(total[1:], total[0]).drop_noise()
 
 
 def list_names(model: EngineFile) -> Iterator[str]:

@@ -56,13 +56,6 @@ class RodForces(NamedTuple):
     lean: Complex
 
 
-class _Course(NamedTuple):
-    """Positions, m, and accelerations, m/s2, of points, each of shape (cylinders, angles)."""
-
-    at: Complex
-    acceleration: Complex
-
-
 def compute_rod_forces(engine: Engine, crank_deg: Array) -> RodForces:
     """Return the forces at crank angles; at a jump of the pressure, the forces after it.
 
@@ -82,10 +75,8 @@ def compute_rod_forces(engine: Engine, crank_deg: Array) -> RodForces:
         pressure[rows] = torque.pressure.at(angles[rows])
         gas[rows] = torque.force_under(pressure[rows])
     gas *= as_rows(source.shares)
-    masses = engine.weighed
-    heads = as_rows(np.array([w.piston for w in masses]))
-    small = as_rows(np.array([w.small_end for w in masses]))
-    big = as_rows(np.array([w.rotating for w in masses]))
+    masses = np.array([(w.piston, w.small_end, w.rotating) for w in engine.weighed], float)
+    heads, small, big = masses.T[..., None]
     # In a rotary engine, psi is the angle of a cylinder ahead of the crank pin (`linkage.Rotary`).
     turned = unit(np.degrees(motion.psi))
     axis = unit(motion.pin_deg) if engine.rotary else np.broadcast_to(motion.axis, turned.shape)
@@ -93,16 +84,16 @@ def compute_rod_forces(engine: Engine, crank_deg: Array) -> RodForces:
     m, c, side = motion.moved, engine.cylinders, 1 if engine.rotary else -1
     lean = np.broadcast_to(m.cosine + 1j * side * m.lean, turned.shape)
     span = as_rows(c.lam) / (motion.radius * lean.real)  # 1/Re d, 0 in harmonic motion
-    piston, foot = _follow_ends(engine, motion, throw)
+    piston, (foot, foot_rate) = _follow_ends(engine, motion, throw)
     up, aside = piston.real, piston.imag
     along = heads * up + gas
     spin_rate = m.spin_rate * motion.omega**2 + m.spin * motion.xi
     across = lean.imag / lean.real * (along + small * up) - small * aside
     across += as_rows(c.couple) * spin_rate * span
-    pin = -(small * piston + big * foot.acceleration + along + 1j * across)
+    pin = -(small * piston + big * foot_rate + along + 1j * across)
     for master, hung in list_hung_rows(engine).items():
         loads = axis[hung] * pin[hung]
-        arms = axis[hung] * foot.at[hung] - axis[master] * foot.at[master]
+        arms = axis[hung] * foot[hung] - axis[master] * foot[master]
         held = (np.conj(arms) * loads).imag.sum(axis=0) * span[master]
         across[master] += held
         pin[master] += np.conj(axis[master]) * loads.sum(axis=0) - 1j * held
@@ -124,22 +115,23 @@ def list_hung_rows(engine: Engine) -> dict[int, list[int]]:
     return found
 
 
-def _follow_ends(engine: Engine, motion: EngineMotion, throw: Complex) -> tuple[Complex, _Course]:
-    """Return accelerations of the piston pins, m/s2, and lower ends of the rods, in each cylinder's
-    frame.
+def _follow_ends(
+    engine: Engine, motion: EngineMotion, throw: Complex
+) -> tuple[Complex, tuple[Complex, Complex]]:
+    """Return accelerations of the piston pins, m/s2, and positions, m, and accelerations of the
+    lower ends of the rods, in each cylinder's frame, each of shape (cylinders, angles).
     """
     r, m = motion.radius, motion.moved
 
-    def follow(point: PointMass, turned: Complex | float = 1.0) -> _Course:
+    def follow(point: PointMass, turned: Complex | float = 1.0) -> tuple[Complex, Complex]:
         """Return position and acceleration of a point from its derivatives by the crank angle, in
         crank radii.
         """
         acceleration = r * turned * (point.z2 * motion.omega**2 + point.z1 * motion.xi)
-        return _Course(r * turned * point.z, np.asarray(acceleration, complex))
+        return r * turned * point.z, np.asarray(acceleration, complex)
 
     if engine.rotary:  # points of a rotary engine are relative to the direction of the pin
         piston, *knuckle = (follow(point, throw) for point in m.points)
-        still = _Course(r * throw, np.zeros_like(throw))
-        return piston.acceleration, (knuckle or [still])[0]
+        return piston[1], knuckle[0] if knuckle else (r * throw, np.zeros_like(throw))
     piston_rate = m.acceleration * motion.omega**2 + m.velocity * motion.xi
     return np.asarray(r * piston_rate, complex), follow(m.pin)

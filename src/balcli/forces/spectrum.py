@@ -16,6 +16,7 @@ order n = h/2.
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass, replace
@@ -29,9 +30,9 @@ from numpy.typing import ArrayLike, NDArray
 from ..core import speed_ripple as ripple
 from ..core.cylinders import Device
 from ..core.loads import Loads, find_device_force, find_needed_series
-from ..core.mechanisms.closed_form import select_cylinders, select_orders
+from ..core.mechanisms.closed_form import select_cylinders
 from ..core.phases import ANGLE, SUM, Phases, SeparatePhases
-from ..core.phasors import EPS, Array, Complex, Phasors, join_orders, join_places, unit
+from ..core.phasors import EPS, Array, Complex, Figure, Phasors, join_orders, join_places, unit
 from ..engine.engine import Engine, Placed
 from ..engine.figures import place_in_plane
 from ..errors import NO_GAS, BalcliError, check_number, list_values, wrong_type
@@ -252,7 +253,7 @@ def compute_device_force(engine: Engine, device: Device, orders: Array) -> Phaso
     force = find_device_force(device, dense, engine.omega**2).drop_noise()
     if not engine.ripple:
         return force
-    return ripple.apply_to_force(force, speed).select_orders(orders).drop_noise()
+    return ripple.apply_speed(force, speed).select_orders(orders).drop_noise()
 
 
 def add_parts(kind: Kind, parts: Mapping[str, Phasors]) -> Phasors:
@@ -300,28 +301,25 @@ def _compute_inertia(
 
     def make_loads(start: int) -> Loads:
         block = slice(start, start + most)
-        series = select_cylinders(select_orders(few, block), which)
+        series = select_cylinders(few, which, block)
         phases = (SeparatePhases if each else Phases)(c, dense[block])
         return Loads(c, engine.devices, place_in_plane(x, y), z, phases, series, engine.omega**2)
 
     starts = range(0, max(len(dense), 1), most)
     blocks = [[getattr(loads, name) for name in names] for loads in map(make_loads, starts)]
-    steady = {
-        name: join_orders(pieces) if len(pieces) > 1 else pieces[0]
-        for name, *pieces in zip(names, *blocks, strict=True)
-    }
+    steady = {name: join_orders(pieces) for name, *pieces in zip(names, *blocks, strict=True)}
     if not uneven:
         return steady
     scale = engine.omega**2 / (c.count if each else 1)
     momentum, energy = (scale * value for value in engine.find_turning_inertia(beyond_pins=True))
     found, lowest = {}, make_loads(0)
     for name, phasors in steady.items():
+        mean: Figure = 0.0
         if name == "torque":
-            inertia = lowest.mean_inertia + energy
-            mixed = ripple.apply_to_torque(phasors.drop_noise(), speed, inertia)
-        else:
-            spin = lowest.mean_momentum + momentum if name == "couple" else 0.0
-            mixed = ripple.apply_to_force(phasors.drop_noise(), speed, spin)
+            mean = (lowest.mean_inertia + energy) / 2
+        elif name == "couple":
+            mean = lowest.mean_momentum + momentum
+        mixed = ripple.apply_speed(phasors.drop_noise(), speed, mean, rate_last=name == "torque")
         found[name] = mixed.select_orders(orders)
     return found
 
@@ -346,7 +344,7 @@ def dense_orders(highest: float, mixed: Iterable[float]) -> Array:
         highest: Highest order.
         mixed: Orders of the uneven speed and of the engine.
     """
-    step = ripple.find_step(mixed)
+    step = 0.5 if any(order % 1 for order in mixed) else 1.0
     return np.arange(round(highest / step) + 1.0) * step
 
 
@@ -385,10 +383,7 @@ def check_orders(orders: Iterable[float], engines: Collection[Engine] = ()) -> A
 
 def parse_order(text: str) -> float | None:
     """Return the order that a text names, such as `2` or `1.5`; None if it names none."""
-    short = len(text) <= len(f"{HIGHEST_ORDER}.5") + 1
-    if not short or not re.fullmatch(r"[0-9]+(\.[05])?", text, re.ASCII):
-        return None
-    number = float(text) if "." in text else int(text)
+    number = float(text) if re.fullmatch(r"[0-9]+(\.[05])?", text) else math.nan
     return number if is_order(number) else None
 
 
@@ -451,12 +446,9 @@ def choose_orders(found: Spectra, listed: Iterable[float]) -> Array:
         listed: Orders of gas that may be shown.
     """
     due = (found.orders <= 2) & (found.orders % 1 == 0)
-    listed = set(merge_orders(listed).tolist())
+    of_gas = np.isin(found.orders, merge_orders(listed))
     for kind, phasors in found.items():
-        worth = mark_considerable(phasors)
-        if kind.name in GAS_KINDS:
-            worth &= [order in listed for order in found.orders.tolist()]
-        due |= worth
+        due |= mark_considerable(phasors) & (of_gas | (kind.name not in GAS_KINDS))
     return found.orders[due]
 
 

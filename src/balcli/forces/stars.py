@@ -17,9 +17,10 @@ from typing import Annotated, Literal, NamedTuple, TypeAlias
 
 import numpy as np
 
+from ..core.loads import sum_weighted
 from ..core.records import INLINE, Polar, angle_deg
 from ..engine.engine import CylinderNumber, Engine
-from .spectrum import Spectra, compute_spectra, with_only
+from .spectrum import Spectra, compute_spectra
 from .symmetry import without_devices
 
 Force = Annotated[complex, Polar("force_N", "force_deg"), INLINE]
@@ -105,10 +106,8 @@ def find_stars(
     banks, count = _list_banks(engine), len(engine.cylinders.starts)
     each = compute_spectra(alone, orders, kinds, each=True)
     total = compute_spectra(alone, orders, kinds)
-    sums = [
-        compute_spectra(with_only(alone, np.isin(engine.numbers, bank)), orders, kinds)
-        for bank in banks
-    ]
+    members = np.array([np.isin(engine.numbers, bank) for bank in banks], float)
+    sums = Spectra(orders, None, **{k.name: sum_weighted(p, members) for k, p in each.vectors()})
     for k, order in enumerate(orders.tolist()):
         for way, turns in enumerate(WAYS):
             if not each["force"].vectors[way, k].any():
@@ -117,9 +116,9 @@ def find_stars(
                 Bank(
                     axis_deg=float(axes[row_of(bank[0])]) if len(banks) == count else None,
                     cylinders=tuple(Ray(n, **_pick(each, way, k, row_of(n))) for n in bank),
-                    **_pick(own, way, k),
+                    **_pick(sums, way, k, row),
                 )
-                for bank, own in zip(banks, sums, strict=True)
+                for row, bank in enumerate(banks)
             )
             yield Star(order, turns, banks=found, **_pick(total, way, k))
 

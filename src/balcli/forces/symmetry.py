@@ -134,17 +134,13 @@ def find_textbook_units(engine: Engine, orders: Array) -> TextbookUnits:
     c, row = engine.cylinders, engine.numbers.index(1)
     if c.linkage is not None and not engine.rotary:
         row = int(cast("Articulated", c.linkage).master[row])
-
-    def of_this_one(values: Array) -> Array:
-        return values[row : row + 1] if len(values) > 1 else values
-
-    lam, eps = of_this_one(c.lam), of_this_one(c.eps)
+    figures = (c.lam, c.eps, c.reciprocating * c.radius)
+    lam, eps, moved = (np.broadcast_to(v, c.count)[row : row + 1] for v in figures)
     series = harmonics.find_harmonics(orders, lam, eps, {"piston"})["piston"]
-    mass = float(of_this_one(c.reciprocating)[0])
     gaps = np.diff(np.unique(np.round(engine.throws_m, 9)))
     return TextbookUnits(
         orders=orders,
-        force=mass * float(c.radius_of_each[row]) * float(engine.omega) ** 2,
+        force=float(moved[0]) * float(engine.omega) ** 2,
         arm=float(gaps.min()) if gaps.size else float("nan"),
         ratios=np.abs(series.c[:, 0]),
         cylinder=int(engine.numbers[row]),

@@ -303,4 +303,4 @@ def _find_doubts(model: EngineFile) -> Iterator[str]:
             f"mount.stiffness: under its weight the body would sink by about {sag:.2g} mm, where "
             f"{SAG_LEAST:g} to {SAG_MOST:g} mm is usual; {ask_unit('N/mm', '250 kN/m')}"
         )
-    yield from doubt_losses((f"mount.{k}.loss", mount.loss) for k, mount in enumerate(mounts, 1))
+    yield from doubt_losses("mount", mounts)

@@ -18,7 +18,7 @@ from ..core.phases import RPM
 from ..core.phasors import Array, Phasors
 from ..core.speed_ripple import count_in_time, find_reach, find_slowest, find_speed, find_timetable
 from ..core.vibration import Complex, Real
-from ..engine.engine import NONE_SILENT, Engine, SilentCylinders
+from ..engine.engine import Engine, SilentCylinders
 from ..errors import MOMENTS_UNKNOWN, BalcliError
 from ..forces.kinds import GAS_KINDS
 from ..forces.spectrum import (
@@ -171,7 +171,7 @@ def find_loads(
     pull = np.stack([force.x, force.y, 0 * force.x], axis=-1)
     turn = np.stack([moment.x, moment.y, roll.x], axis=-1)
     inertia = load_at_centre(pull, turn, list(map(float, engine.reference_m)), centre)
-    by_speed, mean, silent = None, 0.0, NONE_SILENT
+    by_speed, mean = None, 0.0
     if fired:
 
         def find_torque(own: Engine) -> NDArray[np.complex128]:
@@ -181,9 +181,9 @@ def find_loads(
         by_speed = follow_gas(engine, find_torque)
         still = compute_spectra(engine, [0.0], list_gas_kinds(engine))
         indicated = float(find_gas_reaction(still).x[0].real)
-        mean, silent = -(engine.mechanical_efficiency or 1.0) * indicated, engine.silent
+        mean = -(engine.mechanical_efficiency or 1.0) * indicated
     omega = turns * float(engine.omega)
-    loads = BodyLoads(found.orders, inertia, omega, turns, by_speed, mean, silent)
+    loads = BodyLoads(found.orders, inertia, omega, turns, by_speed, mean, engine.silent)
     kept = loads.there
     if orders is not None or not kept.any():
         return loads

@@ -19,7 +19,6 @@ from ..core.vibration import (
     Real,
     UndampedResonanceError,
     find_resonances,
-    frequencies,
     solve_response,
 )
 from ..engine.engine import Engine
@@ -138,7 +137,7 @@ class RunningBody(NamedTuple):
 
     def follow(self, orders: Real, omega: Real, load: Complex) -> Complex:
         """Return the motion of the body and its velocity under a load (orders, *speeds, 6)."""
-        w, own = frequencies(orders, omega), self.modes
+        w, own = np.multiply.outer(orders, omega), self.modes
         try:
             motion = solve_response(own.stiffness, own.damping, own.mass, w, load)
         except UndampedResonanceError as error:  # true resonances were rejected before
@@ -229,7 +228,7 @@ def _find_causes(
     resonance: the largest of the orders that meet a mode at this speed, or None.
     """
     own, orders, motion = running.modes, running.loads.orders, running.move(omega)
-    alone, w = largest_of_ellipse(running.read(motion)), frequencies(orders, omega)
+    alone, w = largest_of_ellipse(running.read(motion)), np.multiply.outer(orders, omega)
     shapes = own.modes.shapes
     amplitudes = motion[..., :6] @ (shapes @ own.mass).T  # (orders, curves, modes)
     shares = np.moveaxis(amplitudes[..., None] * shapes, 2, 0)

@@ -84,12 +84,10 @@ def report(
     asked = parse_orders(orders)
     text, model, engine = read_engine(path, parse_speed(speed))
     found = pages.find_answers(model, engine, asked, scheme, options, name_file(path))
+    system, share = SYSTEMS[units], options.read_small()
+    book = live.describe_one(model, engine, system, text.decode(), name_file(path), share)
     with reporting("pictures") as tell:
-        system = SYSTEMS[units]
-        book = live.describe_one(
-            model, engine, system, text.decode(), name_file(path), options.read_small()
-        )
-        page = pages.page(found._replace(cylinder=cylinder), system, tell, live=book)
+        page = pages.page(found._replace(cylinder=cylinder), system, book, tell)
     emit(page, output)
 
 

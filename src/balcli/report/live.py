@@ -12,8 +12,9 @@ from __future__ import annotations
 import math
 import re
 import tomllib
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import suppress
+from operator import itemgetter
 from pathlib import Path
 from typing import Any
 
@@ -34,10 +35,8 @@ from ..file.units import (
     INERTIA,
     LENGTH,
     MASS,
-    PLAIN,
     SPEED as SPEED_OF_ROTATION,
     UNBALANCE,
-    Dimension,
     convert,
 )
 from ..forces.kinds import FORCE, VECTORS
@@ -63,18 +62,22 @@ _UNITS = {  # further units that the page reads, by dimension
     SPEED_OF_ROTATION: ("1/min", "min^-1", "rps", "Hz", "rad/s"),
     INERTIA: ("kg m^2", "kg cm^2", "g mm^2", "g cm^2", "lb in^2", "lb ft^2", "oz in^2"),
 }
-_NEW = {  # keys of a new device with their dimensions and initial values
-    "counterweight": {"unbalance": (UNBALANCE, 1e4), "angle": (ANGLE, 0), "position": (LENGTH, 0)},
+_WHOLE = {"unit": "", "whole": True, "least": -1000, "most": 1000}  # limits of ratios and orders
+_NEW_LENGTH = {"unit": LENGTH.unit, "usual": 0}
+_NEW_WEIGHT = {
+    "unbalance": {"unit": UNBALANCE.unit, "usual": 1e4, "least": 0},
+    "angle": {"unit": ANGLE.unit, "usual": 0},
+    "position": _NEW_LENGTH,
+}
+_NEW = {  # keys of a new device with their units, limits and initial values
+    "counterweight": _NEW_WEIGHT,
     "shaft": {
-        "ratio": (PLAIN, -1),
-        "unbalance": (UNBALANCE, 1e4),
-        "angle": (ANGLE, 0),
-        "at.1": (LENGTH, 0),
-        "at.2": (LENGTH, 0),
-        "position": (LENGTH, 0),
+        "ratio": {**_WHOLE, "usual": -1},
+        **_NEW_WEIGHT,
+        "at.1": _NEW_LENGTH,
+        "at.2": _NEW_LENGTH,
     },
 }
-_WHOLE = {"unit": "", "whole": True, "least": -1000, "most": 1000}  # limits of ratios and orders
 _OF_ROD = ("mass", "cg", "length", "ratio", "small_end", "big_end", "inertia")
 
 
@@ -117,7 +120,6 @@ def describe_engine(model: EngineFile, engine: Engine, text: str) -> Node:
         fired = (cell for cell in reversed(parts.plan.cells) if cell.number in parts.order)
         throws = {cell.throw: cell.number for cell in fired}
     forms = _find_forms(model, parts, throws, {each["name"]: each["value"] for each in numbers})
-    reference = model.frame.reference
     return {
         "name": model.name,
         "text": text if _is_plain(text) else _write_plainly(text),
@@ -128,7 +130,7 @@ def describe_engine(model: EngineFile, engine: Engine, text: str) -> Node:
         "up": engine.up_deg,
         "axes": ("x", "y") if engine.up_deg is None else FORCE.upright,
         "bore": clean(engine.bore_m * 1e3),
-        "reference": None if reference is None else list(reference),
+        "reference": model.frame.reference,
         "numbers": numbers,
         "throws": forms["throws"],
         "cylinders": [
@@ -194,10 +196,7 @@ def make_book(
         "negligible": NEGLIGIBLE,
         "shown": SHOWN,
         "unknown": sentence(MOMENTS_UNKNOWN),
-        "devices": {
-            kind: {key: _describe_new(*each) for key, each in keys.items()}
-            for kind, keys in _NEW.items()
-        },
+        "devices": _NEW,
         "units": {
             dimension.unit: {unit: convert(f"1 {unit}", dimension) for unit in others}
             for dimension, others in _UNITS.items()
@@ -212,14 +211,6 @@ def make_book(
 def name_unit(unit: ShownUnit) -> Node:
     """Return the names of a unit and of its thousandfold; the latter is empty unless it is SI."""
     return {"name": unit.name, "thousand": f"k{unit.name}" if unit.size == 1 else ""}
-
-
-def _describe_new(dimension: Dimension, usual: float) -> Node:
-    """Return unit, limits and initial value of a key of a new device."""
-    if dimension is PLAIN:
-        return {**_WHOLE, "usual": usual}
-    least = {"least": 0} if dimension is UNBALANCE else {}
-    return {"unit": dimension.unit, "usual": usual, **least}
 
 
 def _list_numbers(model: EngineFile) -> Iterator[Node]:
@@ -237,8 +228,8 @@ def _list_numbers(model: EngineFile) -> Iterator[Node]:
 def _describe_limits(number: Number) -> Node:
     """Return the unit and the finite limits of a number."""
     limits = {"above": number.above, "least": number.least, "most": number.most}
-    given = {key: value for key, value in limits.items() if value is not None}
-    return {"unit": number.dimension.unit, **{k: v for k, v in given.items() if abs(v) < math.inf}}
+    finite = {key: v for key, v in limits.items() if v is not None and abs(v) < math.inf}
+    return {"unit": number.dimension.unit, **finite}
 
 
 # ------------------------------------------------------------------ the text of the file
@@ -247,17 +238,15 @@ def _is_plain(text: str) -> bool:
     change the text line by line.
     """
     _, *parts = HEADER.split(text.replace("\r\n", "\n"))
-    bodies: dict[str, list[str]] = {}
-    for name, body in zip(parts[::2], parts[1::2], strict=True):
-        bodies.setdefault(name, []).append(body)
-    for head, table in _list_tables(tomllib.loads(text)):
-        name = head.strip("[]")
-        if not name.startswith((*_TABLES, *_DEVICES)):
-            continue
-        own = bodies.get(name)
-        if not own or _read_lines(own.pop(0)) != table:
-            return False
-    return True
+    sections = zip(parts[::2], map(_read_lines, parts[1::2]), strict=True)
+    tables = ((head.strip("[]"), own) for head, own in _list_tables(tomllib.loads(text)))
+    return _sort_changeable(sections) == _sort_changeable(tables)
+
+
+def _sort_changeable(tables: Iterable[tuple[str, Node]]) -> list[tuple[str, Node]]:
+    """Return the tables with numbers to change, by name; tables of one name keep their order."""
+    shown = (table for table in tables if table[0].startswith((*_TABLES, *_DEVICES)))
+    return sorted(shown, key=itemgetter(0))
 
 
 def _read_lines(body: str) -> Node:
@@ -298,9 +287,8 @@ def _free_throws(model: EngineFile, parts: Parts) -> Node | None:
     layout = model.layout
     if model.crank.throws is None or layout.firing_order is None or model.gas is not None:
         return None
-    rows = [list(row) for row in list_numbers(parts.plan)]
-    keys: Node = {"firing_order": "none", "firing_intervals": "none"}
-    return keys | ({} if layout.numbering is not None else {"numbering": format_value(rows)})
+    keys: Node = {} if layout.numbering else {"numbering": format_value(list_numbers(parts.plan))}
+    return keys | {"firing_order": "none", "firing_intervals": "none"}
 
 
 # ------------------------------------------------------------------ axes, pins and positions

@@ -11,7 +11,7 @@ from dataclasses import replace
 from html import escape
 from itertools import product
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 import tomli_w
@@ -121,15 +121,14 @@ def _cylinder_entries(engine: Engine) -> list[Node]:
 
 def _variant_entry(label: str, result: Analysis, system: System, bore: float) -> Node:
     drawn = place_beside(result.engine, bore / 1e3)
-    devices = enumerate(result.engine.devices)
     turn = -(result.engine.up_deg or 0.0)
-    entry: Node = {"force": [], "moment": []} | {
+    entry: Node = {"label": label, "force": [], "moment": []} | {
         kind.name: _vector_rows(phasors.turn(turn), system.unit(kind))
         for kind, phasors in result.spectra.vectors()
         if result.moments_known or kind is not MOMENT
     }
-    entry["devices"] = [_device_entry(device, drawn.get(row), turn) for row, device in devices]
-    return {"label": label, **entry}
+    devices = enumerate(result.engine.devices)
+    return entry | {"devices": [_device_entry(each, drawn.get(k), turn) for k, each in devices]}
 
 
 def _vector_rows(phasors: Phasors, unit: ShownUnit) -> list[list[float]]:
@@ -192,7 +191,6 @@ _PICTURES = tuple(product(("force", "moment", "about"), ("spectrum", "curves")))
 _COMPARED = (("force", "spectrum"), ("moment", "spectrum"))
 # Pictures for a browser without JavaScript.
 _STILL = (("force", "polar"), ("moment", "polar"))
-Panel: TypeAlias = tuple[PageSubject, str, str]  # subject, picture and quantity
 
 
 class Answers(NamedTuple):
@@ -251,17 +249,15 @@ def _warning(chapter: str) -> Iterator[None]:
         warn(f"the page does not show the {chapter}: {error}")
 
 
-def page(
-    found: Answers, system: System, tell: Tell = tell_nobody, *, live: Node | None = None
-) -> str:
+def page(found: Answers, system: System, live: Node | None = None, tell: Tell = tell_nobody) -> str:
     """Return the page of an engine: forces and moments, a remedy, vibration on mounts, torsional
     vibration, and gas. All text from the engine file is escaped.
 
     Args:
         found: Results to show.
         system: Units of figures and pictures.
-        tell: Progress callback; it receives the share of the panels that are drawn.
         live: Data of the numbers to change, from `live.make_book`; None: no panel for them.
+        tell: Progress callback; it receives the share of the pictures that are drawn.
 
     Raises:
         BalcliError: The engine does not have the cylinder whose piston is wanted.
@@ -272,18 +268,15 @@ def page(
     compared = _COMPARED if balanced.remedy.reasons else ()
     now = PageSubject(Study(result), system)
     after = PageSubject(Study(balanced.after, balanced.before, balanced.remedy), system)
-    alone = _choose_panels(now, _PICTURES, told)
-    beside = _choose_panels(after, compared, told)
-    drawn, stars, still = None, None, list[Panel]()
+    drawn, stars, loci = None, "", list[str]()
     if not result.engine.placed:  # a mechanism of several cranks is not drawn
         drawn = scene(result, _list_variants(result, balanced), system)
-        stars = PageSubject(compute_study(result.engine, "stars"), system)
-        still = _choose_panels(now, _STILL, told)
-    panels = (*alone, *beside, *still)
-    pictures = []
-    for panel in panels:
-        pictures.append(draw_panel(*panel))
-        tell(len(pictures) / len(panels))
+        stars = _draw_page(PageSubject(compute_study(result.engine, "stars"), system), "stars")
+        loci = _draw_panels(now, _STILL, told)
+    pictures = _draw_panels(now, _PICTURES, told)
+    tell(0.7)
+    pictures_after = _draw_panels(after, compared, told)
+    tell(1.0)
     return load_template().render(
         whole=True,
         live=live,
@@ -295,11 +288,11 @@ def page(
         figures=[part for part in own.parts[1:] if part.title != "Verdict"],
         remedy=remedy.parts,
         scene=drawn,
-        pictures=pictures[: len(alone)],
-        stars="" if stars is None else _draw_page(stars, "stars"),
+        pictures=pictures,
+        stars=stars,
         piston=None if cylinder is None else _draw_page(now, "piston", cylinder),
-        compared=pictures[len(alone) : len(alone) + len(beside)],
-        loci=pictures[len(alone) + len(beside) :],
+        compared=pictures_after,
+        loci=loci,
         running=running(result.engine, system) if result.engine.gas and drawn else None,
         mounts=None if mounted is None else mounts.sheet(mounted, system),
         rocking=None if mounted is None else rocking(mounted),
@@ -335,7 +328,7 @@ def explore(engine: Engine) -> Explorer:
     model = take_model(engine)
     found = find_answers(model, engine, None, "auto", SchemeOptions(), engine.name or "engine")
     live = describe_one(model, engine, SI, tomli_w.dumps(engine.to_dict()), engine.name)
-    return Explorer(page(found, SI, live=live))
+    return Explorer(page(found, SI, live))
 
 
 def _list_variants(result: Analysis, balanced: Balance) -> dict[str, Analysis]:
@@ -364,16 +357,16 @@ def _draw_torsion(twisted: TorsionAnalysis, system: System) -> Iterator[str]:
         yield inline_svg(save_figure(figure, "svg"), f"torsion-{what}")
 
 
-def _choose_panels(
+def _draw_panels(
     subject: PageSubject, panels: Sequence[tuple[str, str]], told: Collection[str]
-) -> list[Panel]:
-    """Return the panels to draw. For a quantity without a picture, only its first panel is
-    returned, at the end; it shows words in place of the picture.
+) -> list[str]:
+    """Return pictures as SVG. A quantity without a picture has only its first panel, at the end;
+    it shows words in place of the picture.
     """
     words = {quantity: subject.find_words(quantity) for quantity in told}
-    shown = [(subject, what, name) for name, what in panels if name in told and not words[name]]
-    first = {name: what for name, what in reversed(panels) if words.get(name)}
-    return [*shown, *((subject, what, name) for name, what in first.items())]
+    shown = [(what, name) for name, what in panels if name in told and not words[name]]
+    worded = {name: (what, name) for name, what in reversed(panels) if words.get(name)}
+    return [draw_panel(subject, *panel) for panel in (*shown, *worded.values())]
 
 
 def load_template() -> Template:

@@ -111,23 +111,34 @@ def draw_radii(ax: Axes, banks: Banks) -> None:
     put_legend_above(ax, 3)
 
 
+def _set_up_compass(ax: Any, banks: Banks) -> Array:
+    """Make polar axes start at the top and run clockwise; return the directions of both banks for
+    every bank angle, rad, shape (2 * angles,).
+    """
+    ax.set_theta_zero_location("N")
+    ax.set_theta_direction(-1)
+    half = np.radians(banks.angles_deg) / 2
+    return np.concatenate([-half[::-1], half])
+
+
+def _mirrored(values: Array) -> Array:
+    """Return the values of both banks from those over the bank angle, shape (2 * angles,)."""
+    return np.concatenate([values[::-1], values])
+
+
 def draw_radius_roses(ax: Any, banks: Banks) -> None:
     """Draw the curves of `draw_radii` in polar coordinates, in the directions of both banks. For a
     flat-plane V8 (Liu, figure 8), the backward radius is a circle, the forward radius a rose of
     three leaves, and the ratio a rose of four. The ratio continues over a whole turn; its line is
     thin beyond 180 deg.
     """
-    half = np.radians(banks.angles_deg) / 2
-    ax.set_theta_zero_location("N")
-    ax.set_theta_direction(-1)
-    ratio = np.abs(banks.find_radii()[2])
+    sides = _set_up_compass(ax, banks)
+    with_crank, against, ratio = (np.abs(_mirrored(each)) for each in banks.find_radii())
     ratio[ratio >= _LARGEST_RATIO] = np.nan
-    for start, sense in ((0, 1), (0, -1), (np.pi, 1), (np.pi, -1)):
-        width = 1.0 if start else 2.4
-        ax.plot(start + sense * half, ratio, color=GREEN, linewidth=width)
-    both = np.concatenate([-half[::-1], half])
-    for radii, colour, style in zip(banks.find_radii(), (BLUE, RED), ("-", "--"), strict=False):
-        ax.plot(both, np.abs(np.concatenate([radii[::-1], radii])), color=colour, linestyle=style)
+    ax.plot(sides, ratio, color=GREEN, linewidth=2.4)
+    ax.plot(np.pi + sides, ratio, color=GREEN, linewidth=1.0)
+    ax.plot(sides, with_crank, color=BLUE)
+    ax.plot(sides, against, color=RED, linestyle="--")
     marks = np.arange(0, 360, 30)
     angles = np.where(marks > 180, 720 - 2 * marks, 2 * marks)
     ax.set_thetagrids(marks, [f"{angle}°" if angle <= 180 else "" for angle in angles])
@@ -141,16 +152,9 @@ def draw_roses(ax: Any, banks: Banks, unit: ShownUnit) -> None:
     ahead, against = np.abs(banks.force.forward[0]), np.abs(banks.force.backward[0])
     largest = float(max(ahead.max(), against.max()))
     s = unit.fit(largest)
-    ax.set_theta_zero_location("N")
-    ax.set_theta_direction(-1)
-    half = np.radians(banks.angles_deg) / 2
-    for size, colour, style, label in (
-        (ahead, BLUE, "-", "with the crank"),
-        (against, RED, (0, (5, 1.5)), "against it"),
-    ):
-        both = np.concatenate([size[::-1], size]) / s.size
-        angles = np.concatenate([-half[::-1], half])
-        ax.plot(angles, both, color=colour, linestyle=style, label=label)
+    sides, dashed = _set_up_compass(ax, banks), (0, (5, 1.5))
+    ax.plot(sides, _mirrored(ahead) / s.size, color=BLUE, label="with the crank")
+    ax.plot(sides, _mirrored(against) / s.size, color=RED, linestyle=dashed, label="against it")
     if banks.own_deg <= 180:
         for side in (-0.5, 0.5):
             ax.axvline(np.radians(side * banks.own_deg), color=INK, linewidth=0.9, linestyle=":")
@@ -200,9 +204,8 @@ class PageSubject:
 
     def list_scalars(self, *, with_gas: bool) -> dict[str, Phasors]:
         """Return the moments about the crank by label, the roll last."""
-        kinds = SCALARS
-        if with_gas and self.now.spectra.gas is not None:
-            kinds = (TORQUE, GAS, ROLL_TOTAL)
+        gas_counts = with_gas and self.now.spectra.gas is not None
+        kinds = (TORQUE, GAS, ROLL_TOTAL) if gas_counts else SCALARS
         return {EVERY_KIND[kind.name].label: self.now.spectra[kind.name] for kind in kinds}
 
     def find_words(self, quantity: str) -> str:
@@ -284,9 +287,7 @@ def draw_panel(subject: PageSubject, what: str, quantity: str) -> str:
 def _draw(ax: Axes, subject: PageSubject, what: str, quantity: str) -> None:
     """Draw one picture of a force or moment, or of the moments about the crank."""
     unit, (curve, before) = subject.unit(quantity), subject.phasors(quantity)
-    scalars = {}
-    if quantity == ABOUT:
-        scalars = subject.list_scalars(with_gas=what == "spectrum")
+    scalars = subject.list_scalars(with_gas=what == "spectrum") if quantity == ABOUT else {}
     ax.set_title(subject.title(what, quantity))
     if what == "polar":
         draw_locus(ax, curve, subject.name_components(quantity), unit, before)
@@ -391,28 +392,28 @@ def _lay_out_inner(fig: Figure, subject: PageSubject) -> str:
     """
     bent, system = subject.study.bent, subject.system
     gas = [inner.with_gas for inner in bent if inner.with_gas is not None]
-    # By title: the curves, and how their points are joined.
-    pictures: dict[str, tuple[Sequence[AlongCrank], str]] = {
-        "Shear force along the crankshaft": ([b.shear for b in bent], "steps-post"),
-        "Bending moment": ([b.bending for b in bent], "default"),
-        "Inertia load of each main bearing": ([b.bearings for b in bent if b.bearings], ""),
-    }
+    # Title, curves, and how their points are joined.
+    pictures: list[tuple[str, Sequence[AlongCrank], str]] = [
+        ("Shear force along the crankshaft", [b.shear for b in bent], "steps-post"),
+        ("Bending moment", [b.bending for b in bent], "default"),
+        ("Inertia load of each main bearing", [b.bearings for b in bent if b.bearings], ""),
+    ]
     if gas:
-        pictures = {
-            "Bending moment in the crankshaft, with gas": ([b.bending for b in gas], "default"),
-            "Bending moment in the block, with gas": ([b.block_bending for b in gas], "default"),
-            "Load of each main bearing, with gas": ([b.bearings for b in gas], ""),
-        }
-    missing = [title for title, (curves, _) in pictures.items() if not curves]
-    fig.set_figheight(0.4 + 2.4 * (3 - len(missing)))
-    axes = fig.subplots(3 - len(missing), 1, sharex=True)
-    shown = ((title, *each) for title, each in pictures.items() if each[0])
+        pictures = [
+            ("Bending moment in the crankshaft, with gas", [b.bending for b in gas], "default"),
+            ("Bending moment in the block, with gas", [b.block_bending for b in gas], "default"),
+            ("Load of each main bearing, with gas", [b.bearings for b in gas], ""),
+        ]
+    shown = [picture for picture in pictures if picture[1]]
+    fig.set_figheight(0.4 + 2.4 * len(shown))
+    axes = fig.subplots(len(shown), 1, sharex=True)
     for ax, (title, curves, steps) in zip(axes, shown, strict=True):
         what = "moment" if "moment" in title else "force"
         draw_along(ax, curves, what, system, steps, "the cycle" if gas else "a revolution")
         ax.set_title(title)
         ax.label_outer()
     axes[-1].set_xlabel(f"z, {system.length.name} (free end on the left)")
+    missing = (title for title, curves, _ in pictures if not curves)
     return "".join(f"{title}: one throw, bearings not known" for title in missing)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from types import NoneType
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
@@ -99,14 +99,13 @@ def plot(
     check_type("what", what, (str, NoneType), 'give the name of a page, such as "polar"')
     check_count("cylinder", cylinder)
     options = SchemeOptions(small=check_small(check_number("small", small, "give a share")))
+    if isinstance(shown, Analysis):
+        orders = shown.orders if orders is None else orders
+        shown = shown.engine
     match shown:
         case Engine():
             page = what or "overview"
             return _plot_engine(shown, page, orders, scheme, options, speeds_rpm, cylinder)
-        case Analysis():
-            asked = shown.orders if orders is None else orders
-            page = what or "overview"
-            return _plot_engine(shown.engine, page, asked, scheme, options, speeds_rpm, cylinder)
         case Balance():
             study = Study(shown.after, shown.before, shown.remedy)
             return make_page(PageSubject(study), check_page(what or "overview", PAGES[:6]))
@@ -192,20 +191,18 @@ def make_figures(path: str, pages: Sequence[str], asked: Asked) -> list[Figure]:
     return [found[page] for page in pages]
 
 
-def _make_pages(path: str, pages: Sequence[str], asked: Asked) -> list[Figure]:
+def _make_pages(path: str, pages: Sequence[str], asked: Asked) -> Iterator[Figure]:
     beside = choose_beside(asked.scheme, asked.options) if {*pages} != {"factor"} else None
     orders = parse_orders(asked.orders)
     shown = tuple(_SHOWN[page] for page in pages) if {*pages} <= {*_SHOWN} else None
     engine = read_engine(path, parse_speed(asked.speed), shown).engine
     if any(page in OF_GAS for page in pages):
         require_gas(engine, path)
-    figures = []
     for page in pages:
         scheme = asked.scheme if page == "factor" else beside
         study = compute_study(engine, page, orders, scheme, asked.options)
         subject = PageSubject(study, SYSTEMS[asked.units], asked.cylinder or 1)
-        figures.append(make_page(subject, page))
-    return figures
+        yield make_page(subject, page)
 
 
 def write_pages(figures: Sequence[Figure], files: Sequence[Path], form: Form) -> None:

@@ -15,6 +15,7 @@ from ..balancing.answer import balance_engine as balance
 from ..core.phasors import Array, Phasors, unit
 from ..engine.engine import Engine, refuse_geared
 from ..errors import BalcliError
+from ..file.fields import counted
 from ..forces.crankshaft import InnerLoads
 from ..forces.kinds import VECTORS
 from ..forces.spectrum import compute_spectra
@@ -191,8 +192,8 @@ def swing_banks(engine: Engine, order: float) -> Banks:
     axes = np.ravel(c.axis_deg)
     if len(axes) != 2 or c.linkage is not None:
         raise BalcliError(
-            f"--what bank needs the two banks of a vee; this engine has {len(axes)} "
-            f"bank{'s' if len(axes) > 1 else ''}"
+            "--what bank needs the two banks of a vee; this engine has "
+            f"{counted(len(axes), 'bank')}"
             f"{' and articulated or turning cylinders' if c.linkage is not None else ''}"
         )
     middle, side = axes.mean(), np.sign(axes - axes.mean())

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Iterable
-from functools import wraps
+from functools import partial, wraps
 from inspect import signature
 from itertools import islice
 from typing import ParamSpec, TypeVar
@@ -41,18 +41,17 @@ def tell_arguments(**others: str) -> Callable[[Callable[P, Answer]], Callable[P,
             name = (option[1] or "").replace("-", "_")  # empty for a command in backquotes
             return names.get(name, option[0])
 
+        name_all = partial(_OPTION.sub, name_argument)
+
         @wraps(function)
         def call(*args: P.args, **kwargs: P.kwargs) -> Answer:
             try:
                 return function(*args, **kwargs)
             except InputError as error:
-                told = [
-                    p._replace(message=_OPTION.sub(name_argument, p.message))
-                    for p in error.problems
-                ]
+                told = [p._replace(message=name_all(p.message)) for p in error.problems]
                 raise InputError(told, error.file, error.more) from None
             except BalcliError as error:
-                raise BalcliError(_OPTION.sub(name_argument, str(error))) from None
+                raise BalcliError(name_all(str(error))) from None
 
         return call
 

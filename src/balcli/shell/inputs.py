@@ -99,12 +99,7 @@ def _tell_unknown(name: str, asked: Collection[str] | None) -> None:
     if by_name := [quantity for quantity in ("moment", "inner") if quantity in words]:
         raise BalcliError(f"{name}: {by_name[0]}: {MOMENTS_UNKNOWN}")
     if ABOUT_MOMENTS.intersection(words):
-        warn_of_unknown_moments(name)
-
-
-def warn_of_unknown_moments(name: str) -> None:
-    """Warn that the moments of this file are unknown, with the reason."""
-    warn(f"{name}: {MOMENTS_UNKNOWN}")
+        warn(f"{name}: {MOMENTS_UNKNOWN}")
 
 
 def warn_each(doubts: Iterable[str], name: str) -> None:

@@ -9,6 +9,7 @@ from typing import Annotated
 import typer
 
 from ..errors import BalcliError
+from ..file.units import SPEED
 from ..forces.kinds import GAS_KINDS, KINDS, VECTORS
 from ..limits import (
     HIGHEST_GUIDE_M,
@@ -20,7 +21,7 @@ from ..limits import (
 from ..show.formats import Format, Units
 from ..sizing.options import check_small
 from .file_names import TEXTS, format_option, parse_output
-from .values import argument, optional, read_length, read_share, read_speed
+from .values import argument, optional, read_figure, read_length, read_share
 
 # Words of `analyze --only` for tables and texts of quantities that are always computed.
 PARTS = ("xy", "textbook", "verdict")
@@ -215,7 +216,7 @@ def parse_speed(text: str | None) -> float | None:
         return None
     if _SEVERAL_SPEEDS.fullmatch(text.replace(" ", "")):
         raise BalcliError(f'--speed "{text}": give one speed here, such as --speed 3000')
-    speed = read_speed("--speed", text)
+    speed = read_figure("--speed", text, SPEED)
     if not SMALLEST_POSITIVE <= speed < 1e9:
         raise BalcliError(f"--speed {speed:g}: give rpm above 0, below 1e9")
     return speed

@@ -17,7 +17,6 @@ from ..files import replacing
 from ..process import has_no_reader
 from ..show.formats import Format, Renderer, Units, render
 from ..show.units import SYSTEMS
-from .file_names import Place
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -148,7 +147,7 @@ def refuse_existing(path: Path | None, force: bool) -> None:
         raise BalcliError(f"{path}: already exists; choose another name, or --force")
 
 
-def refuse_overwriting(*, reads: Sequence[str], writes: Mapping[str, Path | Place | None]) -> None:
+def refuse_overwriting(*, reads: Sequence[str], writes: Mapping[str, Path | None]) -> None:
     """Check the targets of a command before it computes anything.
 
     Args:
@@ -162,11 +161,7 @@ def refuse_overwriting(*, reads: Sequence[str], writes: Mapping[str, Path | Plac
     """
     if list(reads).count("-") > 1:
         raise BalcliError("standard input (-) is named twice, and can be read only once")
-    targets = {
-        option: place.path if isinstance(place, Place) else place
-        for option, place in writes.items()
-        if place is not None
-    }
+    targets = {option: place for option, place in writes.items() if place is not None}
     sources = [Path(path) for path in reads if path != "-"]
     if any(map(os.path.isfile, targets.values())):
         sources += [file for source in sources for file in _list_named_files(source)]
@@ -174,14 +169,12 @@ def refuse_overwriting(*, reads: Sequence[str], writes: Mapping[str, Path | Plac
     for option, target in targets.items():
         if str(target) == "-" and option not in _OF_RESULTS:
             raise BalcliError(f"{option} -: name a file; standard output is only for results")
-        if any(_is_same_file(target, source) for source in sources):
-            raise BalcliError(
-                f"{option} {target}: this file is read and must not change; choose another name"
-            )
-        if any(_is_same_file(target, other) for other in done):
-            raise BalcliError(
-                f"{option} {target}: another result is written there as well; choose another name"
-            )
+        for others, reason in (
+            (sources, "this file is read and must not change"),
+            (done, "another result is written there as well"),
+        ):
+            if any(_is_same_file(target, other) for other in others):
+                raise BalcliError(f"{option} {target}: {reason}; choose another name")
         done.append(target)
         try:
             os.stat(os.path.join(target.parent, ""))

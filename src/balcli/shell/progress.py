@@ -70,17 +70,14 @@ def _make_bar(what: str, total: float | None) -> Bar:
     from rich.console import Console
 
     bar = progress.Progress(
-        progress.TextColumn("balcli: {task.description}"),
-        progress.BarColumn(),
-        progress.TaskProgressColumn(),
+        *progress.Progress.get_default_columns(),
         *([] if total is None else [progress.MofNCompleteColumn()]),
-        progress.TimeRemainingColumn(),
         console=Console(file=sys.stderr),
         auto_refresh=False,
         transient=True,
         redirect_stdout=False,
     )
-    bar.add_task(what, total=total or 1.0)
+    bar.add_task(f"balcli: {what}", total=total or 1.0)
     return bar
 
 

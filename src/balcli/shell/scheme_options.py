@@ -12,7 +12,7 @@ from ..limits import LARGEST_FACTOR, MOST_FACTORS
 from ..show.formats import Units
 from ..sizing.options import NAMES, SchemeOptions
 from .options import parse_small
-from .values import optional, read_lengths, read_mass_on_scales, read_share
+from .values import SCALES, optional, read_figure, read_lengths, read_share
 
 
 def complete_schemes(incomplete: str) -> list[str]:
@@ -81,13 +81,14 @@ def parse_scheme_options(
     one = "one place along z in mm, such as 40"
     pair = "x,y of a shaft in mm, such as -40,60"
     along = () if position is None else read_lengths("--position", position, one, units=units)
+    weighed = None if measured is None else read_figure("--measured", measured, SCALES, units)
     return SchemeOptions(
         order=order,
         at=tuple(complex(*read_lengths("--at", text, pair, 2, units)) for text in at or ()) or None,
         position=along[0] if len(along) == 1 else along or None,
         planes=None if planes is None else _parse_planes(planes, units),
         factor=None if factor is None else parse_factors(factor),
-        measured=None if measured is None else read_mass_on_scales("--measured", measured, units),
+        measured=weighed and weighed / 1e3,
         roll=roll,
         small=None if small is None else parse_small(small),
     )

@@ -37,11 +37,11 @@ if TYPE_CHECKING:
     from ..core.vibration import Real
 
 
-_SCALES = MASS._replace(unit="g", examples=("812 g", "1.8 lb"))
+SCALES = MASS._replace(unit="g", examples=("812 g", "1.8 lb"))  # a shop's scales show grams
 _IMPERIAL_AND_SI = {
     LENGTH: ("in", "mm"),
     MASS: ("lb", "kg"),
-    _SCALES: ("oz", "g"),
+    SCALES: ("oz", "g"),
     INERTIA: ("lb in^2", "kg mm^2"),
 }
 
@@ -57,7 +57,7 @@ def read_length(option: str, text: str, units: Units = Units.SI) -> float:
     Raises:
         BalcliError: The text is not a length.
     """
-    return _read(option, text, LENGTH, units) / 1e3
+    return read_figure(option, text, LENGTH, units) / 1e3
 
 
 def read_lengths(
@@ -73,47 +73,23 @@ def read_lengths(
         BalcliError: The text has another form, or only some of the lengths have a unit.
     """
     parts = [part.strip() for part in text.split(",")]
-    if not all(any(map(str.isdigit, part)) for part in parts) or (
-        count is not None and len(parts) != count
-    ):
+    have_digits = all(any(map(str.isdigit, part)) for part in parts)
+    if not have_digits or count not in (None, len(parts)):
         raise BalcliError(f"{_shown(option, text)}: give {needed}")
     bare = [_as_bare(part) for part in parts]
     if None in bare and any(bare):  # 0 is 0 in every unit
         raise BalcliError(f"{_shown(option, text)}: give all numbers a unit, or none")
-    found = tuple(_read(option, part, LENGTH, units) / 1e3 for part in parts)
-    if not all(map(math.isfinite, found)):
-        raise BalcliError(f"{_shown(option, text)}: give {needed}")
-    return found
-
-
-def read_mass(option: str, text: str, units: Units = Units.SI) -> float:
-    """Return a mass, kg; raise BalcliError with the option and its text."""
-    return _read(option, text, MASS, units)
-
-
-def read_mass_on_scales(option: str, text: str, units: Units = Units.SI) -> float:
-    """Return a finite mass, kg. Unlike in `read_mass`, a bare number is in g, as on a shop's
-    scales.
-    """
-    found = _read(option, text, _SCALES, units) / 1e3
-    if not math.isfinite(found):
-        raise BalcliError(f"{_shown(option, text)}: {wanted(_SCALES)}")
-    return found
+    return tuple(read_length(option, part, units) for part in parts)
 
 
 def read_inertia(option: str, text: str, units: Units = Units.SI) -> float:
     """Return a moment of inertia, kg m2; raise BalcliError with the option and its text, also if it
     is not above 0.
     """
-    found = _read(option, text, INERTIA, units) / 1e6
+    found = read_figure(option, text, INERTIA, units) / 1e6
     if not 0 < found < LARGEST_INERTIA:
         raise BalcliError(f"{_shown(option, text)}: {wanted(INERTIA)}, above 0")
     return found
-
-
-def read_angle(option: str, text: str) -> float:
-    """Return an angle, deg; raise BalcliError with the option and its text."""
-    return _read(option, text, ANGLE, Units.SI)
 
 
 def as_bare_angles(option: str, text: str) -> str:
@@ -126,14 +102,9 @@ def as_bare_angles(option: str, text: str) -> str:
     parts = re.split(r"([:,])", text)
     with_unit = [any(map(str.isalpha, part.replace("e", ""))) or "°" in part for part in parts]
     return "".join(
-        f"{read_angle(option, part):.15g}" if said else part
+        f"{read_figure(option, part, ANGLE):.15g}" if said else part
         for part, said in zip(parts, with_unit, strict=True)
     )
-
-
-def read_speed(option: str, text: str) -> float:
-    """Return a speed, rpm; raise BalcliError with the option and its text."""
-    return _read(option, text, SPEED, Units.SI)
 
 
 def read_number(option: str, text: str, needed: str) -> float:
@@ -154,8 +125,18 @@ def read_share(option: str, text: str, needed: str) -> float:
         raise BalcliError(f"{_shown(option, text)}: give {needed}") from None
 
 
-def _read(option: str, text: str, dimension: Dimension, units: Units) -> float:
-    """Return a figure in the unit of bare numbers of its dimension; it may be infinite."""
+def read_figure(option: str, text: str, dimension: Dimension, units: Units = Units.SI) -> float:
+    """Return a finite figure in the unit of bare numbers of its dimension.
+
+    Args:
+        option: Name of the option, for messages.
+        text: Number, with or without a unit.
+        dimension: Dimension of the figure.
+        units: System of units of a bare number.
+
+    Raises:
+        BalcliError: The text is not such a figure; the error names the option and the text.
+    """
     value = _as_bare(text)
     if units is Units.IMPERIAL and value and dimension in _IMPERIAL_AND_SI:
         ways = " or ".join(f'"{text.strip()} {name}"' for name in _IMPERIAL_AND_SI[dimension])
@@ -166,9 +147,11 @@ def _read(option: str, text: str, dimension: Dimension, units: Units) -> float:
         if value is None:
             return convert(text, dimension)
         refuse_thousands(text, value, dimension)
+        if math.isfinite(value):
+            return value
+        raise ValueError(f"is not a finite number; {wanted(dimension)}")
     except ValueError as error:
         raise BalcliError(f"{_shown(option, text)}: {error}") from None
-    return value
 
 
 def _as_bare(text: str) -> float | None:
@@ -236,7 +219,7 @@ def parse_speeds(
     right = "give first:last:step in rpm, such as 1000:2500:25, or speeds such as 1500,2000"
     start, ranged = f"{_shown(option, text)}: ", ":" in text
     try:
-        figures = [read_speed(option, part) for part in text.split(":" if ranged else ",")]
+        figures = [read_figure(option, part, SPEED) for part in text.split(":" if ranged else ",")]
     except BalcliError as error:
         hint = str(error).partition('": ')[2]
         raise BalcliError(f"{start}{f'{hint}; ' * ('thousands:' in hint)}{right}") from None

@@ -14,6 +14,7 @@ from ..engine.engine import Engine, Placed, SilentCylinders
 from ..engine.layout import plan_cylinders
 from ..engine.numbering import list_numbers, write_rows
 from ..file.fields import count_lambda_digits, join_words
+from ..forces.spectrum import find_relevant_orders
 from ..limits import HIGHEST_ORDER_UNASKED
 from .figures import silent_entries
 from .sheet import Facts, get_digits, given, number, tell_assumed
@@ -48,19 +49,17 @@ _TURNING = '"with the crank" means with the cylinders, which carry the counterwe
 
 
 def engine_facts(
-    engine: Engine, system: System, *, higher: bool, whole: bool, speeds_rpm: Sequence[float] = ()
+    engine: Engine, system: System, *, whole: bool, speeds_rpm: Sequence[float] = ()
 ) -> Facts:
     """Return cylinders, crank, firing, speed, included masses, and devices. If `whole`, the
     highest order, the reference of moments and the source follow. Several engines have a line each,
     followed by the facts that they have in common.
 
     Args:
-        higher: Whether there may be orders above the default range.
         whole: Whether all facts are returned.
         speeds_rpm: Ascending speeds of the figures, if there are several.
     """
     single = not engine.placed
-    orders = f"to {HIGHEST_ORDER_UNASKED}; for higher ones use --orders" if higher else ""
     reference = tell_reference(engine.reference_m, system, known=engine.places_known)
     pairs = (
         *(_list_mechanism(engine, system) if single else _list_placed(engine, system)),
@@ -68,7 +67,7 @@ def engine_facts(
         ("speed", _speeds(engine, speeds_rpm) if len(speeds_rpm) > 1 else tell_speed(engine)),
         ("masses", _masses(engine, system, whole=whole) if single else ""),
         ("devices", _tell_devices(engine)),
-        ("orders", orders if whole and single else ""),
+        ("orders", _tell_orders(engine) if whole and single else ""),
         ("reference", reference if whole or any(engine.reference_m) or not single else ""),
         ("assumed", _tell_inferred(engine)),
         ("source", engine.source if whole else ""),
@@ -92,6 +91,12 @@ def _list_placed(engine: Engine, system: System) -> Iterator[tuple[str, str]]:
     volume = "" if math.isnan(engine.displacement_m3) else f", {_volume(engine, system)}"
     yield "cylinders", f"{len(engine.numbers)} on {len(engine.placed)} cranks{volume}"
     yield from ((one.name, _tell_placed(one, system)) for one in engine.placed)
+
+
+def _tell_orders(engine: Engine) -> str:
+    """Return the highest order that is shown by default; empty if the engine has no higher ones."""
+    higher = find_relevant_orders(engine)[-1] > HIGHEST_ORDER_UNASKED
+    return f"to {HIGHEST_ORDER_UNASKED}; for higher ones use --orders" if higher else ""
 
 
 def _tell_devices(engine: Engine) -> str:

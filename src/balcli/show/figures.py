@@ -142,10 +142,6 @@ class Peaks(NamedTuple):
     force: Annotated[Peak, Reached("force_N", "force_deg"), INLINE]
     moment: Annotated[Peak, Reached("moment_Nm", "moment_deg"), INLINE]
 
-    def items(self) -> list[tuple[Kind, Peak]]:
-        """Return each kind with its peak."""
-        return [(FORCE, self.force), (MOMENT, self.moment)]
-
 
 class EngineSize(NamedTuple):
     """Name and size of an engine.
@@ -204,7 +200,7 @@ class OrdersAndPeaks:
     @property
     def peaks(self) -> list[tuple[Kind, Peak]]:
         """Each kind whose peak was computed, with its peak."""
-        return [] if self.peak is None else self.peak.items()
+        return [] if self.peak is None else list(zip((FORCE, MOMENT), self.peak, strict=True))
 
 
 class FigureRow(NamedTuple):

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, Generic, NamedTuple, TypeAlias, TypeVar
 
 from ..core.records import Node, to_document
 from ..version import __version__
-from .table import markdown, plain_text, terminal_text
+from .table import markdown, write_text
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -175,7 +175,5 @@ def lay_out(sheets: list[Sheet], form: Format, *, seen: bool) -> str:
     """
     if form is Format.MARKDOWN:
         return markdown(sheets)
-    if not seen:
-        return plain_text(sheets)
-    styled = not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb"
-    return terminal_text(sheets, get_terminal_size().columns, styled=styled)
+    styled = seen and not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb"
+    return write_text(sheets, get_terminal_size().columns if seen else None, styled=styled)

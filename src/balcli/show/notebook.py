@@ -16,7 +16,7 @@ ENDS = 5  # number of rows that are shown at each end of a long table
 
 def show_engine(engine: Engine) -> str:
     """Return the description of an engine in SI units, with its doubtful figures, as HTML."""
-    facts = engine_facts(engine, SI, higher=False, whole=False)
+    facts = engine_facts(engine, SI, whole=False)
     return html_text(Sheet(engine.name or NAMELESS, (facts,)), engine.doubts)
 
 

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 FINE = np.radians(np.arange(361))  # crank angles at which one order is drawn
 _ORDER_ANGLE = 36  # order * crank angle, deg, at which both vectors are drawn
 _BOX: Look = {"facecolor": PAPER, "edgecolor": "none", "pad": 0.5}
+_CENTERED: Look = {"fontsize": 7, "ha": "center", "va": "center", "bbox": _BOX}
 
 
 def set_up_plane(ax: Axes, largest: float, names: Sequence[str] = (), unit: str = "") -> float:
@@ -69,8 +70,7 @@ def draw_path(ax: Axes, path: Complex, crank_deg: Array, step: float, limit: flo
             abs(spot.real - other.real) > 0.07 * limit or abs(spot.imag - other.imag) > 0.16 * limit
             for other in written
         ):
-            where: Look = {"ha": "center", "va": "center", "bbox": _BOX, "zorder": 1.5}
-            ax.text(spot.imag, spot.real, f"{mark:g}°", fontsize=7, **where)
+            ax.text(spot.imag, spot.real, f"{mark:g}°", zorder=1.5, **_CENTERED)
             written.append(spot)
 
 
@@ -92,9 +92,8 @@ def draw_locus(
     """
     shown = [curve] if before is None else [curve, before]
     path, *others = map(values_over_period, shown)
-    largest, most = (
-        float(np.abs(paths).max()) for paths in (path, np.concatenate([path, *others]))
-    )
+    largest = float(np.abs(path).max())
+    most = float(np.abs(np.concatenate([path, *others])).max())
     tiny = largest <= 0.3 * most  # a tiny path is enlarged in a corner
     s = unit.fit(most)
     limit = set_up_plane(ax, (1.25 if tiny else 1) * most / s.size, names, s.name)
@@ -238,19 +237,27 @@ def draw_star(ax: Axes, star: Star, turn_deg: float) -> None:
         star: Vectors of one order.
         turn_deg: Angle by which the picture is turned.
     """
-    turn = complex(unit_vector(turn_deg))
-    largest = max(abs(ray.force) for bank in star.banks for ray in bank.cylinders)
+    rays = _list_rays(star, "force", turn_deg)
+    largest = max(abs(vector) for vector, _, _ in rays)
     ax.set(title=f"order {order_name(star.order)}, {_WAYS[star.turns]}")
     _set_up_square(ax, 0j, 1.4)
     ax.plot([0], [0], "o", color=INK, markersize=4)
-    tips = []
-    for k, bank in enumerate(star.banks):
-        for ray in bank.cylinders:
-            if ray.force:
-                tip = turn * ray.force / largest
-                _draw_arrow(ax, 0j, tip, **_look(k, len(star.banks)))
-                tips.append((tip, 2 * _GAP * tip / abs(tip), str(ray.cylinder)))
-    _write_numbers(ax, tips)
+    for vector, _, bank in rays:
+        _draw_arrow(ax, 0j, vector / largest, **_look(bank, len(star.banks)))
+    _write_numbers(ax, ((v / largest, 2 * _GAP * v / abs(v), name) for v, name, _ in rays))
+
+
+def _list_rays(star: Star, quantity: str, turn_deg: float) -> list[tuple[complex, str, int]]:
+    """Return the turned vectors that are not 0, with the numbers of their cylinders and banks, bank
+    by bank and by direction within a bank.
+    """
+    turn = complex(unit_vector(turn_deg))
+    return [
+        (turn * getattr(ray, quantity), str(ray.cylinder), bank)
+        for bank, own in enumerate(star.banks)
+        for ray in sorted(own.cylinders, key=lambda ray: find_direction(getattr(ray, quantity)))
+        if getattr(ray, quantity)
+    ]
 
 
 def draw_polygon(ax: Axes, star: Star, quantity: str, turn_deg: float, unit: ShownUnit) -> None:
@@ -264,18 +271,12 @@ def draw_polygon(ax: Axes, star: Star, quantity: str, turn_deg: float, unit: Sho
         turn_deg: Angle by which the picture is turned.
         unit: Unit of the vectors.
     """
-    turn = complex(unit_vector(turn_deg))
-    rays = [
-        (turn * getattr(ray, quantity), str(ray.cylinder), bank)
-        for bank, own in enumerate(star.banks)
-        for ray in sorted(own.cylinders, key=lambda ray: find_direction(getattr(ray, quantity)))
-        if getattr(ray, quantity)
-    ]
+    rays = _list_rays(star, quantity, turn_deg)
     corners = np.cumsum([0j, *(vector for vector, _, _ in rays)])
     spans = np.ptp(corners.real), np.ptp(corners.imag)
     limit = 0.62 * float(max(spans)) or 1.0
     middle = complex(corners.real.min(), corners.imag.min()) + complex(*spans) / 2
-    total = turn * getattr(star, quantity)
+    total = complex(unit_vector(turn_deg)) * getattr(star, quantity)
     ax.set(title=f"{quantity}: {size_text(abs(total), unit) if total else 'closes'}")
     _set_up_square(ax, middle, limit)
     shift, last = 0j, 0j
@@ -323,5 +324,4 @@ def _write_numbers(ax: Axes, numbers: Iterable[tuple[complex, complex, str]]) ->
     for place, (out, names) in found.items():
         wide = abs(out.imag) / abs(out)  # share of the shift along the text
         spot = place + out * (1 + 0.5 * wide * (len(names) - 1))
-        middle: Look = {"ha": "center", "va": "center", "bbox": _BOX}
-        ax.text(spot.imag, spot.real, ", ".join(names), fontsize=7, **middle)
+        ax.text(spot.imag, spot.real, ", ".join(names), **_CENTERED)

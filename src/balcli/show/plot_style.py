@@ -133,8 +133,7 @@ def inline_svg(svg: bytes, name: str) -> str:
         svg: Content of an SVG file.
         name: Prefix of its ids.
     """
-    text = svg.decode()
-    text = text[text.index("<svg") :]
+    text = svg[svg.index(b"<svg") :].decode()
     text = re.sub(r"<metadata>.*?</metadata>\s*", "", text, flags=re.S)
     text = re.sub(r"<[^>]*>", lambda tag: _adapt_tag(tag[0], name), text)
     size = r'(<svg[^>]*?) width="([\d.]+)pt" height="[\d.]+pt"'

@@ -25,22 +25,17 @@ Piece = tuple[str, str]  # part of a line: text, and style in a terminal
 _BOLD, _DIM, _RED, _PLAIN = "1", "2", "1;31", ""  # ANSI codes
 
 
-def plain_text(sheets: Sequence[Sheet]) -> str:
-    """Return all sheets as text, one after the other, without blanks at the ends of lines."""
-    lines = (line for sheet in sheets for line in _lines(sheet, WIDTH))
-    return "\n".join(legible("".join(text for text, _ in line)).rstrip() for line in lines)
-
-
-def terminal_text(sheets: Sequence[Sheet], width: int, *, styled: bool) -> str:
-    """Return all sheets as text for a terminal. Figures are never folded: a table that is too wide
-    is divided into several, each with the first column.
+def write_text(sheets: Sequence[Sheet], width: int | None = None, *, styled: bool = False) -> str:
+    """Return all sheets as text, one after the other, without blanks at the ends of lines. Figures
+    are never folded: a table that is wider than the terminal is divided into several, each with the
+    first column.
 
     Args:
         sheets: Sheets to write.
-        width: Width of the terminal.
+        width: Width of the terminal; None: no terminal shows the text, and no table is divided.
         styled: Whether escape sequences make titles bold and notes dim.
     """
-    lines = (line for sheet in sheets for line in _lines(sheet, width, divided=True))
+    lines = (line for sheet in sheets for line in _lines(sheet, width))
     return "\n".join(
         "".join(_paint(text, style * styled) for text, style in line).rstrip() for line in lines
     )
@@ -51,7 +46,8 @@ def _paint(text: str, style: str) -> str:
     return f"\x1b[{style}m{text}\x1b[0m" if style and text.strip() else text
 
 
-def _lines(sheet: Sheet, width: int, *, divided: bool = False) -> Iterator[list[Piece]]:
+def _lines(sheet: Sheet, terminal: int | None) -> Iterator[list[Piece]]:
+    width = terminal or WIDTH
     yield [(sheet.title, _BOLD)]
     for part in sheet.parts:
         yield []
@@ -59,7 +55,7 @@ def _lines(sheet: Sheet, width: int, *, divided: bool = False) -> Iterator[list[
             yield [(part.title, _BOLD)]
         match part:
             case Grid():
-                for grid in _divide(part, width) if divided else (part,):
+                for grid in _divide(part, width) if terminal else (part,):
                     yield from _grid_lines(grid, width)
                 yield from ([(line, _DIM)] for line in fold(part.note, width) if line)
             case Facts():
@@ -142,13 +138,10 @@ def _row_lines(
     """Yield the lines of a row, as many as its longest folded cell needs."""
     folded = [fold(cell, width) for cell, width in zip(cells, widths, strict=True)]
     for texts in zip_longest(*folded, fillvalue=""):
-        line: list[Piece] = []
-        for k, (text, style) in enumerate(zip(texts, styles, strict=True)):
-            line += [
-                (" " * gap * (k > 0), _PLAIN),
-                (_justify(text, widths[k], k in grid.words), style),
-            ]
-        yield line
+        yield [
+            (" " * gap * (k > 0) + _justify(text, widths[k], k in grid.words), style)
+            for k, (text, style) in enumerate(zip(texts, styles, strict=True))
+        ]
 
 
 def _justify(text: str, width: int, to_the_left: bool) -> str:

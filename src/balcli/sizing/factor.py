@@ -300,18 +300,15 @@ def _change_measured(engine: Engine, options: SchemeOptions) -> Remedy:
     measured = options.measured or 0.0
     has, wanted = find_measured_factor(engine, measured), options._replace(measured=None)
     card = fill_card(engine, _choose_factors(engine, wanted)[0])
+    masses = np.array([float(w.rotating + w.reciprocating) for w in engine.weighed])
     slots, unbalances, actions = [], [], []
     for rows, one in zip(engine.rows_by_pin, card, strict=True):
-        weighed = [engine.weighed[row] for row in rows]
-        masses = np.array([float(w.rotating + w.reciprocating) for w in weighed])
-        z = _find_centre(masses, engine.cylinders.z[rows])
-        radius = float(engine.cylinders.radius_of_each[rows[0]])
+        pin, z = _locate_pin(engine, rows, masses[rows])
         slots.append(Slot("counterweight", 1, 1, z))
-        pin = complex(unit(engine.first_axis_deg + engine.cylinders.pin_deg[rows[0]]))
-        unbalances.append(-(measured + one.throw_g / 1e3) * radius * pin)
-        wants = one.bobweight_g / 1e3 * radius
-        change = wants - measured * radius
-        change = change if abs(change) > _UNCHANGED * abs(wants) else 0.0
+        unbalances.append(-(measured + one.throw_g / 1e3) * pin)
+        wants = one.bobweight_g / 1e3
+        change = wants - measured
+        change = change * abs(pin) if abs(change) > _UNCHANGED * abs(wants) else 0.0
         action = "add" if change > 0 else "remove" if change else "nothing"
         actions.append({"throw": one.throw, "unbalance_kg_m": change, "action": action})
     bare = remove_counterweights(engine)
@@ -423,9 +420,9 @@ def _size_each(engine: Engine, options: SchemeOptions) -> Remedy:
         weights = [w.model_copy(update={"engine": one.name}) for w in own.counterweights]
         for weight, reason in zip(weights, own.reasons, strict=True):
             remedy = remedy.add_devices([weight], f"{one.name}: {reason}")
-        names = {number: f"{one.name}.{number}" for number in one.engine.numbers}
         cards += (
-            pin._replace(cylinders=tuple(names[n] for n in pin.cylinders)) for pin in own.card
+            pin._replace(cylinders=tuple(f"{one.name}.{number}" for number in pin.cylinders))
+            for pin in own.card
         )
         needs += own.needs
     details = {key: own.details[key] for key in ("factor", "definition")}
@@ -443,24 +440,28 @@ def _find_counterweights(engine: Engine) -> tuple[Array, Complex]:
 
 def _list_pins(engine: Engine, factor: float) -> list[_Pin]:
     """Return the load of each crank pin; pins without load are omitted."""
-    pins = []
+    weighed, pins = engine.weighed, []
+    masses = np.array([float(w.rotating + w.share + factor * w.reciprocating) for w in weighed])
     for rows in engine.rows_by_pin:
-        weighed = [engine.weighed[row] for row in rows]
-        masses = np.array([float(w.rotating + w.share + factor * w.reciprocating) for w in weighed])
-        if total := float(masses.sum()):
-            pin = complex(unit(engine.first_axis_deg + engine.cylinders.pin_deg[rows[0]]))
-            cylinders = tuple(engine.numbers[row] for row in rows)
-            z = _find_centre(masses, engine.cylinders.z[rows])
-            radius = float(engine.cylinders.radius_of_each[rows[0]])
-            pins.append(_Pin(cylinders, total * radius * pin, z))
+        if total := float(masses[rows].sum()):
+            pin, z = _locate_pin(engine, rows, masses[rows])
+            pins.append(_Pin(tuple(engine.numbers[row] for row in rows), total * pin, z))
     return pins
 
 
-def _find_centre(masses: Array, places: Array) -> float:
-    """Return the centre of masses along z, m. It is rounded to 1e-12 m if this changes it by no
+def _locate_pin(engine: Engine, rows: list[int], masses: Array) -> tuple[complex, float]:
+    """Return the place of a crank pin at crank angle 0 (x + iy from the crank axis, m), and the
+    centre of the masses on it along z, m. The centre is rounded to 1e-12 m if this changes it by no
     more than rounding errors.
+
+    Args:
+        engine: Engine.
+        rows: Rows of the cylinders on the pin.
+        masses: Mass on the pin for each of these cylinders, kg.
     """
+    c, places = engine.cylinders, engine.cylinders.z[rows]
+    pin = float(c.radius_of_each[rows[0]]) * unit(engine.first_axis_deg + c.pin_deg[rows[0]])
     z = float(masses @ places) / float(masses.sum())
     rounded = round(z, 12) + 0.0
     rounding = len(places) * EPS * float(np.abs(places).max())
-    return rounded if abs(z - rounded) <= rounding else z
+    return complex(pin), rounded if abs(z - rounded) <= rounding else z

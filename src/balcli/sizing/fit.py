@@ -101,7 +101,7 @@ def size_fit(engine: Engine, model: EngineFile, targets: Sequence[str] | None = 
     if undetermined := unknowns - rank:
         are = "unknowns are" if undetermined > 1 else "unknown is"
         told = f"{undetermined} {are} not determined by these targets"
-        notes = [f"{told}; the smallest weights are given.", *notes]
+        notes.insert(0, f"{told}; the smallest weights are given.")
     details = {"target": list(chosen), "unknowns": unknowns, "undetermined": undetermined}
     remedy = Remedy(FIT, note=" ".join(notes), details=details)
     fitted = [found[name] for name, _ in named]

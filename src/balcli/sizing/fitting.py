@@ -384,8 +384,8 @@ def explain_shaft(
     kind = "eccentrics in two planes" if residual.force(sense) else "two opposite eccentrics"
     kind = "one eccentric" if count == 1 else kind
     both = ", in two halves on opposite sides of the crank so that no roll is added" * halves
-    turns = f"turning {tell_sense(sense)}"
-    return f"{what} {turns}: {why}; {kind} {_on_shaft(residual, sense)} can{both}{stays}"
+    shaft = f"on a shaft at {sense * residual.order:+d} times crank speed"
+    return f"{what} turning {tell_sense(sense)}: {why}; {kind} {shaft} can{both}{stays}"
 
 
 def tell_moment(residual: Residual, sense: int, z: float, cure: str) -> str:
@@ -395,21 +395,7 @@ def tell_moment(residual: Residual, sense: int, z: float, cure: str) -> str:
     return "" if takes_moment(residual, sense, z) else f"; a moment remains, which {cure}"
 
 
-def explain_couple(residual: Residual, sense: int) -> str:
-    """Return the reason for two opposite eccentrics against the moment that turns in one sense."""
-    needless = "; the scheme counterweights would do so without a shaft"
-    return (
-        f"Order {residual.order} moment turning {tell_sense(sense)}: two opposite "
-        f"eccentrics {_on_shaft(residual, sense)} make the opposite moment and no force, wherever "
-        f"the shaft is{needless * (sense * residual.order == 1)}"
-    )
-
-
 def _name(residual: Residual, sense: int) -> str:
     """Return the order and the kinds of its parts that turn in this sense, in words."""
     kinds = [part.kind for part in list_parts(sense) if residual.parts[part]]
     return f"Order {residual.order} {' and '.join(kinds)}"
-
-
-def _on_shaft(residual: Residual, sense: int) -> str:
-    return f"on a shaft at {sense * residual.order:+d} times crank speed"

@@ -27,7 +27,7 @@ from ..forces.spectrum import compute_spectra, find_relevant_orders, merge_order
 from ..limits import SMALL, WORTH_A_SHAFT
 from .fitting import LEFT, Fitting, Slot, explain_counterweights, explain_shaft, size_unbalances
 from .options import check_small
-from .planes import find_carrier, find_ends, find_planes, find_unbalance
+from .planes import find_carriers, find_ends, find_planes, find_unbalance
 from .remedy import Remedy, fit_devices
 from .residual import (
     FORWARD,
@@ -200,16 +200,9 @@ def add_at_ends(fitting: Fitting, first: Residual, sense: int = 1) -> Fitting:
     """Return the fitting with weights in the end planes for the part that turns with the crank. In
     geared engines, the weights are on the first crank that turns in the sense `sense`.
     """
-    one = find_carrier(fitting.engine, sense)
-    if one is None:
-        return fitting
+    one = find_carriers(fitting.engine)[sense]
     slots = [Slot.on_crank(one, z) for z in find_ends(one.engine)]
     return fitting.cancel(slots, list_parts(sense), explain_counterweights(first, sense), first)
-
-
-def list_senses(engine: Engine) -> list[int]:
-    """Return the senses in which cranks turn: 1, and -1 where a crank turns against the first."""
-    return [sense for sense in (1, -1) if find_carrier(engine, sense) is not None]
 
 
 def add_shafts(fitting: Fitting, residual: Residual, senses: Iterable[int]) -> Fitting:
@@ -241,12 +234,12 @@ def size_complete(engine: Engine) -> Remedy:
     """Return devices that cancel all of orders 1 and 2, however small."""
     fitting = Fitting.start(ignore_compensators(engine), "complete")
     first, second = fitting.find_residual(1), fitting.find_residual(2)
-    senses = list_senses(engine)
-    for sense in senses:
+    carriers = find_carriers(engine)
+    for sense in carriers:
         if any(first.parts[part] for part in list_parts(sense)):
             fitting = add_at_ends(fitting, first, sense)
-    others = [sense for sense in (-1,) if sense not in senses]
-    return add_shafts(add_shafts(fitting, first, others), second, [1, -1]).remedy
+    fitting = add_shafts(fitting, first, {-1}.difference(carriers))
+    return add_shafts(fitting, second, [1, -1]).remedy
 
 
 # ------------------------------------------------------------------ steps
@@ -265,9 +258,9 @@ def find_ladder(engine: Engine, small: float = SMALL) -> Ladder:
     first, second = drawn.find_residual(1), drawn.find_residual(2)
     steps, left_out, fitting = _list_weights(engine, drawn, first, scales, small)
     auto = steps[-1].step
-    others = tuple(sense for sense in (-1,) if sense not in list_senses(engine))
+    others = {-1}.difference(find_carriers(engine))
     for name, residual, senses in ((SHAFT, first, others), (SHAFTS, second, (1, -1))):
-        sizes = {sense: find_size(residual, sense, scales) for sense in senses}
+        sizes = {sense: find_size(residual, list_parts(sense), scales) for sense in senses}
         if due := [sense for sense, size in sizes.items() if not is_small(size, small)]:
             fitting = add_shafts(fitting, residual, due)
             steps.append(_make_step(name, engine, fitting))
@@ -292,7 +285,8 @@ def _list_weights(
         scales: Force, moment and roll of one cylinder.
         small: Parts below this share of one cylinder's first order are not balanced.
     """
-    turning = {sense: find_size(first, sense, scales) for sense in list_senses(engine)}
+    senses = find_carriers(engine)
+    turning = {sense: find_size(first, list_parts(sense), scales) for sense in senses}
     fitting, steps, left_out = drawn, [_make_step(AS_DRAWN, engine, drawn)], []
     if due := [sense for sense, size in turning.items() if not is_small(size, small)]:
         for sense in due:

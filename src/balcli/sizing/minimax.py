@@ -139,9 +139,11 @@ def size_minimax(engine: Engine, options: SchemeOptions) -> Remedy:
         NothingToBalanceError: No weight makes the largest force smaller.
     """
     fitting = Fitting.start(engine, "minimax", 1)
-    force = find_curve(fitting.engine, "force")
+    force, named = find_curve(fitting.engine, "force"), "all orders"
     if options.orders is not None:
-        force = force.select_orders(force.orders[np.isin(force.orders, (1, *options.orders))])
+        orders = sorted({1, *options.orders})
+        force = force.select_orders(force.orders[np.isin(force.orders, orders)])
+        named = f"orders {', '.join(f'{order:g}' for order in orders)}"
     circle = enclose_curve(force)
     newtons_per_kg_m = float(engine.omega) ** 2
     noise = fitting.find_residual(1).noise[FORWARD_FORCE] * newtons_per_kg_m
@@ -154,9 +156,6 @@ def size_minimax(engine: Engine, options: SchemeOptions) -> Remedy:
         raise NothingToBalanceError(nothing_gained)
     unbalance = 0j if centred else -circle.centre / newtons_per_kg_m
     slots, unbalances = _split(engine, options, fitting, unbalance)
-    named = "all orders"
-    if options.orders is not None:
-        named = f"orders {', '.join(f'{order:g}' for order in sorted({1, *options.orders}))}"
     reason = (
         f"The largest force over a revolution, {named}, becomes as small as a "
         "counterweight can make it (smallest circle around the force as seen from the crank)"
@@ -220,8 +219,7 @@ def _split(
     """
     if options.planes is None:
         middle = float(engine.throws_m.min() + engine.throws_m.max()) / 2
-        z = middle if options.position is None else read_position(options)
-        return [Slot("counterweight", 1, 1, z)], [unbalance]
+        return [Slot("counterweight", 1, 1, read_position(options, middle))], [unbalance]
     slots = [Slot("counterweight", 1, 1, z) for z in read_planes(engine, options)]
     residual = fitting.find_residual(1)
     wanted = residual._replace(parts={**residual.parts, FORWARD_FORCE: -unbalance})

@@ -40,11 +40,12 @@ def find_ends(engine: Engine) -> tuple[float, float]:
     return low - half, high + half
 
 
-def find_carrier(engine: Engine, sense: int) -> Placed | None:
-    """Return the first crank that turns in this sense (1: as the first crank, -1: against it),
-    moved to its position along z; None if no crank does.
+def find_carriers(engine: Engine) -> dict[int, Placed]:
+    """Return the first crank that turns in each sense (1: as the first crank, -1: against it),
+    moved to its position along z.
     """
-    return next(map(move_along, (one for one in engine.cranks if one.ratio == sense)), None)
+    first = {one.ratio: one for one in reversed(engine.cranks)}
+    return {sense: move_along(first[sense]) for sense in sorted(first, reverse=True)}
 
 
 def move_along(one: Placed) -> Placed:
@@ -97,16 +98,14 @@ def choose_plane(engine: Engine, options: SchemeOptions, residual: Residual, sen
     """Return the given z, m; by default the z within the engine that is nearest to where the force
     in this sense acts.
     """
-    if options.position is not None:
-        return read_position(options)
-    return find_single_plane(engine, residual, sense)[0]
+    return read_position(options, find_single_plane(engine, residual, sense)[0])
 
 
-def read_position(options: SchemeOptions) -> float:
-    """Return the given z, m; BalcliError for several."""
+def read_position(options: SchemeOptions, usual: float) -> float:
+    """Return the given z, m, by default `usual`; BalcliError for several."""
     if isinstance(options.position, tuple):
         raise BalcliError("--position: this scheme has one position along z; give one")
-    return options.position or 0.0
+    return usual if options.position is None else options.position
 
 
 def find_planes(engine: Engine, residual: Residual, sense: int) -> tuple[float, ...]:

@@ -5,7 +5,7 @@ rotating vectors, and their sizes compared with one cylinder.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from itertools import product
 from typing import Literal, NamedTuple
@@ -39,6 +39,8 @@ FORWARD_FORCE, FORWARD_MOMENT = FORWARD = (ResidualPart("force", 1), ResidualPar
 BACKWARD_FORCE, BACKWARD_MOMENT = BACKWARD = (ResidualPart("force", -1), ResidualPart("moment", -1))
 FORCE, MOMENT = (FORWARD_FORCE, BACKWARD_FORCE), (FORWARD_MOMENT, BACKWARD_MOMENT)
 ROLL = ResidualPart("roll", 0)
+_SCHEMES = {FORWARD_FORCE: "two-shaft", BACKWARD_FORCE: "single-shaft"}  # these cancel the parts
+_SCHEMES |= dict.fromkeys(MOMENT, "couple-shaft")
 
 
 def list_parts(sense: int) -> tuple[ResidualPart, ResidualPart]:
@@ -113,11 +115,9 @@ def find_scales(engine: Engine) -> Scales:
     return Scales(force, force * length, force * float(radius.max()))
 
 
-def find_size(residual: Residual, sense: int, scales: Scales) -> float:
-    """Return the size of the parts that turn in a sense (1 with the crank, -1 against it): the
-    larger of force and moment, as shares of one cylinder's first order.
-    """
-    return max(find_share(residual, part, scales) for part in list_parts(sense))
+def find_size(residual: Residual, parts: Iterable[ResidualPart], scales: Scales) -> float:
+    """Return the size of the largest of these parts as a share of one cylinder's first order."""
+    return max(find_share(residual, part, scales) for part in parts)
 
 
 def find_share(residual: Residual, part: ResidualPart, scales: Scales) -> float:
@@ -219,7 +219,7 @@ def _find_lowest(
     scales, least, found = find_scales(engine), options.read_small(), list[Residual]()
     for order in range(1, HIGHEST_ORDER_SOUGHT + 1):
         found.append(find_residual(engine, order))
-        if not is_small(max(find_share(found[-1], part, scales) for part in sought), least):
+        if not is_small(find_size(found[-1], sought, scales), least):
             return found[-1]
     if any(residual.parts[part] for residual in found for part in sought):
         raise OnlySmallError(tell_small(sought, found, scales, least))
@@ -258,10 +258,8 @@ def tell_small(
     alike = [each for each in large if each[1].sense in senses]
     one, part = max(alike or large, key=find_size_of)
     ratio = part.sense * one.order
-    takes = "couple-shaft" if part.kind == "moment" else "two-shaft"
-    takes = "single-shaft" if part == BACKWARD_FORCE else takes
-    takes = "counterweights" if ratio == 1 else takes
-    return f"{told}. Scheme {takes} cancels a {part.kind} of {_tell_size(one, part)} at {ratio:+d}"
+    scheme = "counterweights" if ratio == 1 else _SCHEMES[part]
+    return f"{told}. Scheme {scheme} cancels a {part.kind} of {_tell_size(one, part)} at {ratio:+d}"
 
 
 def tell_sense(sense: int) -> str:
@@ -276,6 +274,5 @@ def _tell_size(residual: Residual, part: ResidualPart) -> str:
 def _tell_rest(residual: Residual) -> str:
     """Return the parts that an order has, and the schemes that cancel them."""
     parts = [part for part in (*FORWARD, *BACKWARD) if residual.parts[part]]
-    takes = {"force": "two-shaft", "moment": "couple-shaft"}
-    has = (f"a {part.kind} turning {tell_sense(part.sense)} ({takes[part.kind]})" for part in parts)
+    has = (f"a {part.kind} turning {tell_sense(part.sense)} ({_SCHEMES[part]})" for part in parts)
     return f"; it has {join_words(has)}" if parts else ""

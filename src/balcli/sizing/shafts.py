@@ -19,7 +19,6 @@ from ..errors import MOMENTS_UNKNOWN, BalcliError
 from .fitting import (
     Fitting,
     Slot,
-    explain_couple,
     explain_shaft,
     tell_moment,
 )
@@ -43,7 +42,7 @@ from .residual import (
     choose_residual,
     find_residual,
     find_scales,
-    find_share,
+    find_size,
     is_small,
     tell_small,
 )
@@ -100,10 +99,12 @@ def size_couple_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
         told = "two shafts" if len(senses) == 2 else "one shaft"
         raise BalcliError(f"--at: this moment takes {told}; give no further places")
     fitting = Fitting.start(engine, "couple-shaft", residual.order)
+    moment = residual._replace(parts={**residual.parts, **dict.fromkeys(FORCE, 0j)})
     for sense, place in reversed([*zip(senses, (*at, 0j, 0j), strict=False)]):
         slots = [Slot("shaft", residual.order, sense, z, place) for z in (low, high)]
         unbalance = residual.moment(sense) / (high - low)
-        fitting = fitting.add(slots, (unbalance, -unbalance), explain_couple(residual, sense))
+        reason = explain_shaft(moment, sense, len(slots))
+        fitting = fitting.add(slots, (unbalance, -unbalance), reason)
     return fitting.describe_left(residual.order, "moment_left_Nm", "force_left_N").remedy
 
 
@@ -192,10 +193,9 @@ def size_four_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
     """Fit shafts at +1, -1, +2 and -2 for the forces of orders 1 and 2."""
     fitting = Fitting.start(engine, "four-shaft").balance_rotating()
     residuals, scales = [fitting.find_residual(order) for order in (1, 2)], find_scales(engine)
-    sizes = [max(find_share(one, part, scales) for part in FORCE) for one in residuals]
     least = options.read_small()
-    forces = [one for one, size in zip(residuals, sizes, strict=True) if not is_small(size, least)]
-    if not forces and any(sizes):
+    forces = [one for one in residuals if not is_small(find_size(one, FORCE, scales), least)]
+    if not forces and any(one.size(*FORCE) for one in residuals):
         raise OnlySmallError(tell_small(FORCE, residuals, scales, least))
     if not forces:
         raise NothingToBalanceError("there is no free force of orders 1 and 2: nothing to balance")

@@ -43,7 +43,6 @@ _NOISE = 5e-16  # rounding of the transform, which squares of the orders would m
 _SETTLED = 1e-10  # a relative step below this ends the search
 _FARTHEST_TO_PEAK, _FARTHEST_TO_MEAN = 0.25, 0.1  # largest change of k in one step, as a share of k
 _SINGULAR = 1e-14  # matrices with smaller determinants are singular
-_BELOW_0 = -1e-12  # a weight above this counts as 0 or positive
 _NEWTON_STEPS = 8  # number of steps from the middle of a grid cell to a root, up to rounding
 
 
@@ -203,22 +202,18 @@ def _iterate(step: Callable[[Array], Array], x: Array, farthest: float) -> Array
 
 def _step_to_peak(design: str, engine: Array, x: Array) -> Array:
     """Return the step d that minimises the largest of `|values + slopes d|` over the extremes of P.
-    The step is fixed by the three extremes with the highest bound (de la Vallee-Poussin).
+    At this step, three extremes have the same size; so the best of all such steps is taken.
     """
     remaining, by_x = _linearize(design, engine, x)
     theta = _find_zeros(remaining, 1)
     values = _evaluate(remaining, theta)
-    slopes = np.sign(values)[:, None] * _evaluate(by_x, theta)
+    sizes, slopes = np.abs(values), np.sign(values)[:, None] * _evaluate(by_x, theta)
     triples = np.array([*combinations(range(len(values)), 3)])
-    systems = np.concatenate([slopes[triples], -np.ones((len(triples), 3, 1))], axis=2)
+    systems = np.insert(slopes, 2, -1.0, axis=1)[triples]  # size + slopes d = common size
     regular = np.abs(np.linalg.det(systems)) >= _SINGULAR
-    systems, triples = systems[regular], triples[regular]
-    weights = np.linalg.solve(systems.transpose(0, 2, 1), np.array([[0], [0], [-1.0]]))
-    solutions = np.linalg.solve(systems, -np.abs(values)[triples][..., None])[..., 0]
-    balanced = solutions[np.all(weights[..., 0] >= _BELOW_0, axis=1)]
-    if not len(balanced):
-        raise ArithmeticError("no three extremes balance")
-    return np.asarray(balanced[balanced[:, 2].argmax(), :2])
+    solutions = np.linalg.solve(systems[regular], -sizes[triples[regular], None])
+    steps: Array = solutions[:, :2, 0]
+    return steps[(sizes + steps @ slopes.T).max(axis=1).argmin()]
 
 
 def _step_to_mean(design: str, engine: Array, x: Array) -> Array:
@@ -240,7 +235,6 @@ def _step_to_mean(design: str, engine: Array, x: Array) -> Array:
     return -np.linalg.solve(np.column_stack(columns), find_gradient(x))
 
 
-_SMALLEST = 1e-17  # harmonics of the shafts below this amplitude are omitted
 _ECCENTRIC_SLIDER = (
     "k = r_b/e, mu = m_b r_b/(m r) of each of the two shafts; forces in units of m r omega^2, with "
     "the reciprocating mass m; design a: pin on the shaft, slot in the disc; b: pin on the disc, "
@@ -276,27 +270,24 @@ def size_eccentric_slider(engine: Engine, options: SchemeOptions) -> Remedy:
     c = engine.cylinders
     if np.any(c.eps):
         raise BalcliError("eccentric-slider is for a cylinder without piston offset")
-    mass, throw = float(np.ravel(c.reciprocating)[0]), float(np.ravel(c.radius)[0])
     if c.harmonic:
         raise BalcliError("eccentric-slider is for a rod of finite length, not harmonic motion")
+    unit_kg_m = float(np.ravel(c.reciprocating)[0]) * float(np.ravel(c.radius)[0])
     optima = find_optima(float(np.ravel(c.lam)[0]))
-    designs = [_describe_shaft(engine, one, mass * throw, options.radius) for one in optima]
+    designs = [_describe_shaft(engine, one, unit_kg_m, options.radius) for one in optima]
     wanted = options.design or DESIGNS[0], options.criterion or CRITERIA[0]
     chosen = [n for n, one in enumerate(optima) if (one.design, one.criterion) == wanted]
     if not chosen:
         raise BalcliError(f"eccentric-slider: no optimum of design {wanted[0]} ({wanted[1]} force)")
-    fitting = (
-        Fitting.start(engine, "eccentric-slider")
-        .balance_rotating(keep_overbalance=False)
-        .add_details(
-            unit_force_N=mass * throw * float(engine.omega) ** 2,
-            fitted=designs[chosen[0]],
-            optima=designs,
-            speed_law=_SPEED_LAW,
-            definition=_ECCENTRIC_SLIDER,
-        )
+    fitting = Fitting.start(engine, "eccentric-slider").balance_rotating(keep_overbalance=False)
+    fitting = fitting.add_details(
+        unit_force_N=unit_kg_m * float(engine.omega) ** 2,
+        fitted=designs[chosen[0]],
+        optima=designs,
+        speed_law=_SPEED_LAW,
+        definition=_ECCENTRIC_SLIDER,
     )
-    return fitting.remedy._replace(beyond=_make_shafts(engine, optima[chosen[0]], mass * throw))
+    return fitting.remedy._replace(beyond=_make_shafts(engine, optima[chosen[0]], unit_kg_m))
 
 
 def _describe_shaft(engine: Engine, one: Optimum, unit_kg_m: float, radius: float | None) -> Node:
@@ -331,12 +322,10 @@ def _make_shafts(engine: Engine, fitted: Optimum, unit_kg_m: float) -> tuple[Dev
     axis = complex(unit(float(engine.cylinders.axis_deg[0])))
     z = float(engine.cylinders.z[0])
     wave, _ = expand_shaft_wave(fitted.design, fitted.k)
-    halves = {
-        order: -fitted.mu * unit_kg_m * float(amplitude) * axis
-        for order, amplitude in enumerate(wave)
-        if order and abs(amplitude) > _SMALLEST
-    }
-    return tuple(Device(order, half, half, 0j, z) for order, half in halves.items())
+    halves = (-fitted.mu * unit_kg_m * wave * axis).tolist()
+    return tuple(
+        Device(order, half, half, 0j, z) for order, half in enumerate(halves) if order and half
+    )
 
 
 def size_oldham(engine: Engine, options: SchemeOptions) -> Remedy:

@@ -21,7 +21,7 @@ from .options import SchemeOptions
 from .planes import (
     SAME_PLACE,
     choose_plane,
-    find_carrier,
+    find_carriers,
     find_ends,
     find_length,
     measure_direction,
@@ -66,8 +66,8 @@ def size_counterweights(engine: Engine, options: SchemeOptions) -> Remedy:
     residual = fitting.find_residual(1)
     if options.planes == "throws":
         return _size_at_throws(fitting)
-    for one in filter(None, (find_carrier(engine, sense) for sense in (1, -1))):
-        if any(residual.parts[part] for part in list_parts(one.ratio)):
+    for sense, one in find_carriers(engine).items():
+        if any(residual.parts[part] for part in list_parts(sense)):
             fitting = _size_on_crank(fitting, one, options, residual)
     remedy = fitting.remedy
     if not remedy.devices and not remedy.note:  # only negligible weights

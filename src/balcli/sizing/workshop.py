@@ -107,8 +107,7 @@ def find_practical(engine: Engine, remedy: Remedy, tools: Tools) -> tuple[Practi
     """
     tools = Tools(*map(_check_figure, Tools._fields, tools))
     _refuse_impossible(tools)
-    rims = [_find_rim(engine, device, tools) for device in remedy.devices]
-    rim = min(rims, default=tools.radius or engine.find_radius(0.0))
+    rim = min((_find_rim(engine, one, tools) for one in remedy.devices), default=math.inf)
     if tools.drill is not None and tools.drill > 2 * rim:
         raise BalcliError(
             f"--drill: {1e3 * tools.drill:g} mm is wider than a rim of radius {1e3 * rim:g} mm"
@@ -178,12 +177,11 @@ def _plan_holes(
         room = math.inf
     if count * tools.drill > room * (1 + ROUNDING) or math.isinf(count):
         fitting = float(np.floor(room / tools.drill * (1 + ROUNDING)))
-        needed_holes = "" if math.isinf(count) else f"{count:g} holes for "
-        most = 0.0 if math.isinf(count) else 1e6 * fitting * of_one
         raise HolesDoNotFitError(
-            f"--drill {1e3 * tools.drill:g} mm: {needed_holes}{1e6 * unbalance:.6g} g mm do not "
-            f"fit: {1e3 * room:g} mm (--width) have room for {fitting:g} holes side by side, "
-            f"{most:.6g} g mm; use a larger drill, --radius or --max-depth, or --slug"
+            f"--drill {1e3 * tools.drill:g} mm: {count:g} holes for {1e6 * unbalance:.6g} g mm do "
+            f"not fit: {1e3 * room:g} mm (--width) have room for {fitting:g} holes side by side, "
+            f"{1e6 * fitting * of_one:.6g} g mm; use a larger drill, --radius or --max-depth, or "
+            "--slug"
         )
     depth = find_drill_depth(unbalance / count, rim, tools.drill, density)
     depth = deepest if math.isnan(depth) else min(depth, deepest)
@@ -240,9 +238,8 @@ def shape_devices(engine: Engine, remedy: Remedy, shapes: Shapes) -> Remedy:
     used = set() if engine.model is None else {shaft.name for shaft in engine.model.shaft}
     free = (name for name in map("balancer {}".format, count(1)) if name not in used)
     axes = dict.fromkeys((shaft.ratio, shaft.at) for shaft in remedy.shafts)
-    of_axes: dict[object, Node] = {}
-    if bearings:
-        of_axes = {axis: {"name": name, **bearings} for axis, name in zip(axes, free, strict=False)}
+    named = zip(axes if bearings else (), free, strict=False)
+    of_axes: dict[object, Node] = {axis: {"name": name, **bearings} for axis, name in named}
     devices = []
     for device in remedy.devices:
         shape: Node = of_weights if isinstance(device, Counterweight) else {}

@@ -186,10 +186,7 @@ def _list_mounts(model: EngineFile, within: Tolerances) -> Iterator[Source]:
     tolerance = OF_MOUNTS if within.stiffness is None else within.stiffness
     for number, mount in enumerate(model.mount, 1):
         label = label_table(mount, number)
-        figures = {
-            f"mount.{label}.stiffness.{axis}": value
-            for axis, value in enumerate(mount.stiffness, 1)
-        }
+        figures = {f"mount.{label}.stiffness.{k}": v for k, v in enumerate(mount.stiffness, 1)}
         yield _relative(f"stiffness {label}", tolerance, figures)
 
 

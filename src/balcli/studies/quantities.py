@@ -276,8 +276,9 @@ class Evaluator:
 
     def evaluate(
         self, figures: Mapping[str, Array], shape: tuple[int, ...], engine: Engine | None = None
-    ) -> list[Array]:
-        """Return each quantity as an array of this shape, in SI units or degrees.
+    ) -> dict[AnyQuantity, Array]:
+        """Return each quantity, in the order of the constructor, as an array of this shape, in SI
+        units or degrees.
 
         Args:
             figures: Figures that vary, by dotted name; they broadcast to the shape.
@@ -295,7 +296,7 @@ class Evaluator:
             found |= dict(zip(self.of_engine, values, strict=True))
         if self._chapters:
             found |= self._evaluate_one_by_one(figures, shape)
-        return [np.broadcast_to(found[q], shape) for q in self._quantities]
+        return {q: np.broadcast_to(found[q], shape) for q in self._quantities}
 
     def _evaluate_one_by_one(
         self, figures: Mapping[str, Array], shape: tuple[int, ...]

@@ -103,13 +103,10 @@ class Form(NamedTuple):
 FORMS = tuple(Form(*map(str.strip, row)) for row in _COLUMNS.findall(_TABLE))
 BEGINNINGS = tuple(dict.fromkeys(form.beginning for form in FORMS))
 # Notes on quantities that are the largest value over a range of speeds, by the beginnings of names.
-_RANGES = (
-    (
-        ("mount.", "point."),
-        "Mounts and points: largest value from 1/8 to 1 times the engine's speed.",
-    ),
-    (("shaft.",), "Shafts: largest value from 0.5 to 1.5 times the engine's speed."),
-)
+_RANGES = {
+    ("mount.", "point."): "Mounts and points: largest value from 1/8 to 1 times the engine's speed",
+    ("shaft.",): "Shafts: largest value from 0.5 to 1.5 times the engine's speed",
+}
 
 
 def describe_names() -> str:
@@ -136,4 +133,5 @@ def tell_speeds(names: Iterable[str], varied: Iterable[str] = ()) -> str:
     if "operation.speed" in varied:
         return ""
     asked = [name for name in names if not name.endswith(".static")]
-    return " ".join(note for starts, note in _RANGES if any(n.startswith(starts) for n in asked))
+    notes = (note for starts, note in _RANGES.items() if any(n.startswith(starts) for n in asked))
+    return " ".join(f"{note}." for note in notes)

@@ -24,7 +24,7 @@ from ..forces.quantity import TargetQuantity, leave_out_unknown
 from ..limits import MOST_SINGLE_SAMPLES, MOST_TOLERANCE_SAMPLES
 from ..process import Tell, tell_nobody
 from ..shell.arguments import Words, check_count, join_names, tell_arguments
-from ..shell.values import read_angle, read_share
+from ..shell.values import read_figure, read_share
 from ..show.figures import EngineName
 from ..show.result import Result
 from ..show.sheet import count_name
@@ -123,7 +123,7 @@ def read_tolerances(
         BalcliError: A value cannot be read, is negative or too large; the error names the option.
     """
     if isinstance(angle, str):
-        angle = read_angle("--angle-scatter", angle)
+        angle = read_figure("--angle-scatter", angle, ANGLE)
     try:
         angle_deg = _DEGREES.read(angle)
     except ValueError as error:
@@ -141,11 +141,8 @@ def _read_share(option: str, value: float | str) -> float:
     wanted = "a percentage of 0 to 100, such as 0.5%"
     percent = isinstance(value, str) and "%" in value
     share = read_share(option, str(value), wanted) if percent else value
-    if (
-        isinstance(share, (int, float, np.number))
-        and not isinstance(share, bool)
-        and 0 <= share < 1
-    ):
+    is_number = isinstance(share, (int, float, np.number)) and not isinstance(share, bool)
+    if is_number and 0 <= float(share) < 1:
         return float(share)
     raise BalcliError(f"{option} {shorten(value)}: give {wanted}")
 
@@ -218,12 +215,13 @@ class Variants:
             for path, line in source.figures.items()
         }
         try:
-            return np.stack(self._evaluator.evaluate(figures, (len(deviations),)), axis=1)
+            found = self._evaluator.evaluate(figures, (len(deviations),))
         except InputError as error:
             raise BalcliError(
                 f"some engines within these tolerances are impossible: "
                 f"{error.problems[0].message}; give smaller tolerances"
             ) from None
+        return np.stack([*found.values()], axis=1)
 
     def draw(
         self,
@@ -252,7 +250,7 @@ class Variants:
                 f"{count_name(samples)} samples: give from 1 to {count_name(most)}{why}"
             )
         ends = np.diag([source.tolerance for source in self.sources])
-        nominal = np.array(self._evaluator.evaluate({}, (1,)))[:, 0]
+        nominal = np.ravel([*self._evaluator.evaluate({}, (1,)).values()])
         changes = _find_changes(nominal, self.evaluate(ends), self.evaluate(-ends))
         chunks, done = list[Array](), 0
         for deviations in self._draw_deviations(samples, seed, shape):
@@ -290,10 +288,8 @@ class Variants:
     def _spread(self, nominal: float, values: Array, changes: Array) -> Spread:
         p05, p50, p95 = np.percentile(values, [5, 50, 95]).tolist()
         unit = np.abs(changes).max() * _EQUAL or 1.0
-        ranked = sorted(
-            zip(self.sources, changes.tolist(), strict=True),
-            key=lambda pair: -round(abs(pair[1]) / unit),
-        )
+        pairs = zip(self.sources, changes.tolist(), strict=True)
+        ranked = sorted(pairs, key=lambda pair: -round(abs(pair[1]) / unit))
         return Spread(
             nominal=float(nominal),
             mean=float(values.mean()),

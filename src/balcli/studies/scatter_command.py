@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import typer
 
 from ..core.records import Node, to_document
+from ..errors import MOMENTS_UNKNOWN, warn
 from ..file.toml import name_file
 from ..forces.kinds import DEFAULT_QUANTITIES
 from ..shell.file_names import text_format
-from ..shell.inputs import read_engine, warn_of_unknown_moments
+from ..shell.inputs import read_engine
 from ..shell.options import EnginePath, FormatOption, Output
 from ..shell.output import refuse_overwriting, show
 from ..shell.progress import exit_if_cut_short, reporting_until_stopped
@@ -140,7 +141,7 @@ def scatter(
     within = read_tolerances(mass, length, angle, stiffness)
     _, model, engine = read_engine(path, asked=())
     if quantity is None and not engine.places_known:
-        warn_of_unknown_moments(name_file(path))
+        warn(f"{name_file(path)}: {MOMENTS_UNKNOWN}")
     variants = Variants(model, quantity, within)
     count = variants.usual if samples is None else samples
     with reporting_until_stopped("samples", count) as progress:

@@ -32,7 +32,7 @@ from ..file.doubts import find_suspicious
 from ..file.model import EngineFile
 from ..file.toml import name_file
 from ..forces.kinds import DEFAULT_QUANTITIES, GAS_KINDS
-from ..forces.quantity import Quantity, find_orders, leave_out_unknown
+from ..forces.quantity import find_orders, leave_out_unknown
 from ..forces.spectrum import count_engine_samples
 from ..limits import MOST_KEPT_FIGURES, MOST_PARAMETERS, MOST_THREADS
 from ..process import count_cores
@@ -95,11 +95,6 @@ class Sweep:
         return Evaluator(self.file, self.quantities)
 
     @property
-    def of_engine(self) -> tuple[Quantity, ...]:
-        """Quantities of forces and moments."""
-        return self.evaluator.of_engine
-
-    @property
     def doubts(self) -> list[str]:
         """Warnings of unlikely figures of the file, except varied ones."""
         with naming_file(self.name):
@@ -129,8 +124,10 @@ class Sweep:
         """Number of variants."""
         return math.prod(self.shape)
 
-    def cut(self, box: Box) -> Sweep:
-        """Return a sweep of the variants in a box of the grid."""
+    def cut(self, box: Sequence[slice | list[np.intp]]) -> Sweep:
+        """Return a sweep of the variants in a box of the grid. The box has a slice, or the indices
+        of some values, for each parameter.
+        """
         cuts = zip(self.parameters, box, strict=True)
         return replace(self, parameters=tuple(replace(p, values=p.values[cut]) for p, cut in cuts))
 
@@ -193,7 +190,7 @@ def plan_sweep(
     sweep = Sweep(model, parameters, asked, name)
     corners = build_corners(sweep)
     if quantities is None:
-        return replace(sweep, quantities=leave_out_unknown(corners, sweep.of_engine))
+        return replace(sweep, quantities=leave_out_unknown(corners, sweep.evaluator.of_engine))
     with naming_variant(name), naming_file(""):
         refuse_unknown(model, corners, asked)
     return sweep
@@ -205,11 +202,8 @@ def build_corners(sweep: Sweep) -> Engine:
     Raises:
         InputError: A variant is impossible.
     """
-    corners = tuple(
-        Parameter(p.path, np.array([p.values.min(), p.values.max()]), p.unit)
-        for p in sweep.parameters
-    )
-    return Sweep(sweep.file, corners, (), sweep.name).engine()
+    ends = [[p.values.argmin(), p.values.argmax()] for p in sweep.parameters]
+    return replace(sweep.cut(ends), quantities=()).engine()
 
 
 def evaluate_sweep(sweep: Sweep) -> list[Array]:
@@ -218,25 +212,25 @@ def evaluate_sweep(sweep: Sweep) -> list[Array]:
     Raises:
         InputError, BalcliError: A variant is impossible; the error has its figures.
     """
-    engine = sweep.engine() if sweep.of_engine else None
+    engine = sweep.engine() if sweep.evaluator.of_engine else None
     with naming_variant(sweep.name):
         values = sweep.evaluator.evaluate(sweep.figures, sweep.shape, engine)
-    return [value.ravel() for value in values]
+    return [value.ravel() for value in values.values()]
 
 
 def count_at_once(sweep: Sweep) -> int:
     """Return how many variants a box may have if it is to take a fraction of a second and little
     memory, estimated at the corners of the grid.
     """
-    of_gas = any(q.kind in GAS_KINDS for q in sweep.of_engine)
+    of_gas = any(q.kind in GAS_KINDS for q in sweep.evaluator.of_engine)
     gases = [crank.gas for crank in sweep.file.cranks]
     paths = [parameter.path for parameter in sweep.parameters]
     gas_varies = of_gas and any(concerns_gas(path, gas) for path in paths for gas in gases)
     most = ALONE if sweep.evaluator.one_by_one or gas_varies else CHUNK
-    if not sweep.of_engine:
+    if not sweep.evaluator.of_engine:
         return most
     engine = build_corners(sweep)
-    orders = find_orders(engine, sweep.of_engine)
+    orders = find_orders(engine, sweep.evaluator.of_engine)
     figures = max(len(engine.numbers) * max(map(len, orders)), 2 * max(map(max, orders)))
     samples = count_engine_samples(engine) // 2 ** len(sweep.parameters)
     return max(min(BYTES // (16 * int(figures)), SAMPLES // max(samples, 1), most), 1)

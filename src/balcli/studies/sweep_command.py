@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ..errors import BalcliError
+from ..errors import MOMENTS_UNKNOWN, BalcliError, warn
 from ..forces.kinds import DEFAULT_QUANTITIES
 from ..limits import MOST_THREADS
 from ..shell.file_names import (
@@ -23,7 +23,7 @@ from ..shell.file_names import (
     read_place,
     text_format,
 )
-from ..shell.inputs import read_engine, warn_each, warn_of_unknown_moments
+from ..shell.inputs import read_engine, warn_each
 from ..shell.options import EnginePath, FormatOption, Output
 from ..shell.output import is_seen, refuse_overwriting, show, write_figure
 from ..shell.progress import reporting
@@ -142,14 +142,14 @@ def sweep(
       balcli sweep v8.toml --vary layout.stagger=0:30:10 -q moment.1.major
       balcli sweep i4.toml --vary rod.ratio=0.24:0.32:0.01 -o ratios.csv --jobs 2
     """
-    refuse_overwriting(reads=[path], writes={"--output": output, "--plot": plot})
+    refuse_overwriting(reads=[path], writes={"--output": output and output.path, "--plot": plot})
     file, kind = _choose_target(output, form, plot)
     drawn = picture_form(plot, "--plot") if plot is not None else None
     from . import sweep as chapter, sweep_show, sweep_write
 
     job = chapter.read_sweep(path, vary, quantity)
-    if quantity is None and all(asked.kind != "moment" for asked in job.of_engine):
-        warn_of_unknown_moments(job.name)
+    if quantity is None and all(asked.kind != "moment" for asked in job.evaluator.of_engine):
+        warn(f"{job.name}: {MOMENTS_UNKNOWN}")
     warn_each(job.doubts, job.name)
     if drawn is not None:
         sweep_show.check_drawable(job)

@@ -115,13 +115,11 @@ def make_sheet(sweep: Sweep, figures: Array) -> Sheet:
         for row in (figures / [unit.size for unit in units]).tolist()
     ]
     heads = map(name_with_unit, sweep.columns, (unit.name for unit in units))
-    notes = []
+    note = tell_speeds((q.name for q in sweep.quantities), sweep.columns)
     if missing := sweep.variants - len(figures):
         whole, others = count_name(sweep.variants), count_name(missing)
-        notes += [f"{whole} variants, {others} of them not shown; -o X.csv writes all."]
-    if speeds := tell_speeds((q.name for q in sweep.quantities), sweep.columns):
-        notes += [speeds]
-    grid = Grid("", tuple(heads), tuple(rows), " ".join(notes))
+        note = f"{whole} variants, {others} of them not shown; -o X.csv writes all. {note}"
+    grid = Grid("", tuple(heads), tuple(rows), note.rstrip())
     head = assumed_facts(sweep.assumed)
     return Sheet(f"{sweep.file.name or NAMELESS}: variants", (*head, grid))
 
@@ -184,9 +182,8 @@ def make_sweep(sweep: Sweep, values: Sequence[Array]) -> Figure:
         for axes, unit in zip(places, units, strict=True):
             curves = {q.name: value.ravel() for q, value in shown if q.unit == unit}
             fit = _fit(unit, np.concatenate([*curves.values()]))
-            for (label, curve), (line, colour) in zip(
-                curves.items(), cycle(style.MANY_LOOKS), strict=False
-            ):
+            looks = zip(curves.items(), cycle(style.MANY_LOOKS), strict=False)
+            for (label, curve), (line, colour) in looks:
                 drawn = curve / fit.size
                 axes.plot(first.values, drawn, color=colour, linestyle=line, label=label)
             axes.set(xlabel=name_with_unit(first.path, first.unit), ylabel=fit.name)

@@ -155,10 +155,8 @@ def write_uneven(path: str, source: bytes, result: TorqueAnalysis, target: Path)
             "inertia = 250000"
         )
         raise BalcliError(f"--write: {(flywheel and flywheel.stall) or unknown}")
-    lines = [
-        {"order": line.order, "amplitude": line.amplitude, "angle": line.angle_deg}
-        for line in flywheel.lines
-    ]
+    keys = ("order", "amplitude", "angle")
+    lines = [dict(zip(keys, line, strict=True)) for line in flywheel.lines]
     text = set_speed(source.decode("utf-8-sig"), result.speed_rpm or 0.0, _NOTE)
     text = set_keys(text, "operation", {"speed_ripple": lines}, _NOTE)
     if result.no_gas_in and result.engine is not None and result.engine.placed:

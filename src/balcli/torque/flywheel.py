@@ -81,19 +81,16 @@ def find_flywheel(
     if constant is None and fluctuation is None:
         return None
     course = resolved(moving or np.zeros_like, torque.breaks)  # faster than the mechanism
-    found = Flywheel(moving_parts_kg_m2=course.mean)
+    needed = None
     if fluctuation is not None:
         if not SMALLEST_FLUCTUATION <= fluctuation < 2:
             raise BalcliError(f"--fluctuation {fluctuation:g}: give {FLUCTUATION}")
         if mean_speed is None:
             raise BalcliError("--fluctuation needs the mean speed; give it, such as --speed 300")
-        needed = needed_inertia(torque, mean_speed, fluctuation, course.at)
-        found = found._replace(needed_kg_m2=course.mean + needed)
-    if constant is None:
-        return found
-    mean = constant + course.mean
-    found = found._replace(inertia_kg_m2=mean)
-    if mean_speed is None:
+        needed = course.mean + needed_inertia(torque, mean_speed, fluctuation, course.at)
+    mean = (constant or 0.0) + course.mean
+    found = Flywheel(None if constant is None else mean, course.mean, needed_kg_m2=needed)
+    if constant is None or mean_speed is None:
         return found
     try:
         speed = speed_variation(torque, lambda angle: constant + course.at(angle), mean_speed)

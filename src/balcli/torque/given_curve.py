@@ -54,11 +54,9 @@ def read_curve(path: Path) -> PiecewiseCurve:
     if not np.abs(angle).max() <= FARTHEST_DEG:
         raise BalcliError(f"{path}: has angles beyond {FARTHEST_DEG:g} deg")
     if len(falling := np.flatnonzero(np.diff(angle) < 0)):
-        row = falling[0] + 1
-        raise BalcliError(
-            f"{path}: line {columns.lines[row]}: the angle {columns.as_written(row, 0)} is below "
-            f"the {columns.as_written(row - 1, 0)} before it"
-        )
+        before, here = (columns.as_written(row, 0) for row in (falling[0], falling[0] + 1))
+        text = f"the angle {here} is below the {before} before it"
+        raise BalcliError(f"{path}: line {columns.lines[falling[0] + 1]}: {text}")
     return polyline(np.radians(angle), torque)
 
 
@@ -138,10 +136,8 @@ def _choose_harmonics(turns: float, orders: list[float] | None) -> NDArray[np.in
     wanted = check_orders(orders) * turns
     every = np.rint(wanted).astype(int)
     if len(odd := np.flatnonzero(np.abs(wanted - every) > _SAME)):
-        raise BalcliError(
-            f"order {wanted[odd[0]] / turns:g}: a period of {turns * 360:g} deg has only "
-            f"multiples of {1 / turns:g}"
-        )
+        there = f"a period of {turns * 360:g} deg has only multiples of {1 / turns:g}"
+        raise BalcliError(f"order {wanted[odd[0]] / turns:g}: {there}")
     if len(high := np.flatnonzero(every > HIGHEST_HARMONIC)):
         highest = math.floor(2 * HIGHEST_HARMONIC / turns) / 2  # allowed, to a multiple of 1/2
         order = every[high[0]] / turns

@@ -83,8 +83,8 @@ def analyze_loads(engine: Engine, asked: Iterable[str] = KINDS_OF_LOAD) -> Cycle
     pin = knuckle = main = obstacle = None
     if "pin" in asked:
         # forces on crank or knuckle pins in the cylinder's frame: real along its axis, outward
-        forces = lambda at: compute_rod_forces(steady, at).pin  # noqa: E731
-        found = _measure(steady, forces, sizes and sizes.pin_m2)
+        area = sizes and sizes.pin_m2
+        found = _measure(steady, lambda at: compute_rod_forces(steady, at).pin, area)
         loads = [replace(f, cylinder=int(n)) for n, f in zip(engine.numbers, found, strict=True)]
         loads.sort(key=lambda load: load.cylinder or 0)
         hung = {engine.numbers[row] for rows in list_hung_rows(engine).values() for row in rows}

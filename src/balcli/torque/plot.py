@@ -79,8 +79,8 @@ def _draw_pressure(ax: Axes, engine: Engine, system: System, *, over_volume: boo
     ax.set(ylim=(0, None), ylabel=f"pressure, {s.name}")
     if over_volume:
         base = " above the smallest" if gas.compression_ratio is None else ""
-        ax.set(xlim=(0, None), xlabel=f"volume{base}, {v.name}")
-        ax.set_title(f"Indicator diagram of cylinder {number}")
+        title = f"Indicator diagram of cylinder {number}"
+        ax.set(xlim=(0, None), xlabel=f"volume{base}, {v.name}", title=title)
     else:
         ax.axvline(0, color=SOFT, linewidth=0.7)
         set_crank_axis(ax, angle, "cycle angle from the firing dead centre, deg")
@@ -103,14 +103,13 @@ def _draw_torque(ax: Axes, engine: Engine, unit: ShownUnit) -> None:
     ax.plot(crank, total, color=INK, label="total")
     ax.axhline(mean, color=SOFT, linewidth=0.9, label="mean")
     set_crank_axis(ax, crank)
-    ax.set_ylabel(f"torque, {s.name}")
+    ax.set(ylabel=f"torque, {s.name}", title="Torque on the crank")
     above = surplus(curves.total)
     for angle, word, marker in ((above.start, "slowest", "v"), (above.end, "fastest", "^")):
         at = float(np.degrees(angle)) % crank[-1]
         side = "right" if at > 0.8 * crank[-1] else "left"
         ax.plot([at], [mean], marker, color=INK, markersize=5)
         ax.text(at, mean, f" {word} ", ha=side, va="bottom", fontsize=7)
-    ax.set_title("Torque on the crank")
     put_legend_above(ax)
 
 

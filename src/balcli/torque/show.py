@@ -59,13 +59,11 @@ def _list_rows(result: TorqueAnalysis, found: Node, system: System) -> Iterator[
         head[key] = " ".join(map(str, head[key]))
     parts = [("engine", head), (names[TORQUE_TOTAL.key], found["torque"])]
     parts += [(key, found.get(key, {})) for key in ("energy", "flywheel")]
-    loads = found.get("loads", {})
-    obstacle = loads.pop("obstacle", None)
-    parts += [(kind, load) for kind, each in loads.items() for load in each]
+    for key, loads in found.get("loads", {}).items():
+        obstacle = key == "obstacle"
+        parts += [("main", {key: loads})] if obstacle else [(key, load) for load in loads]
     for quantity, part in parts:
         yield from _write(quantity, part, system)
-    if obstacle is not None:
-        yield FigureRow(0, "main", None, "obstacle", obstacle, "")
     for cylinder, entries in places:
         for key, name in names.items():
             for row, entry in zip(found["orders"], entries, strict=True):
@@ -119,14 +117,12 @@ def _list_work(result: TorqueAnalysis, system: System) -> Iterator[tuple[str, st
         kinds = {" indicated": 1.0}
         if engine.mechanical_efficiency is not None:
             kinds[" brake"] = engine.mechanical_efficiency
-        imep = result.imep_Pa or 0.0
-        each = (_size(imep * share, system.pressure) + kind for kind, share in kinds.items())
-        yield "mean pressure", ", ".join(each)
         if result.max_pressure_Pa is not None:
             size, at = _size(result.max_pressure_Pa, system.pressure), result.max_pressure_deg
             yield "largest pressure", f"{size}, {degrees(at or 0.0)} deg after firing"
         yield from list_silent(engine.silent)
     for name, value, of in (
+        ("mean pressure", result.imep_Pa, system.pressure),
         ("mean torque", result.mean_torque_Nm, system.moment),
         ("power", result.power_W, system.power),
     ):
@@ -176,14 +172,13 @@ def _list_flywheel(
         yield "speed", wheel.stall
     if (needed := wheel.needed_kg_m2) is not None:
         told, engine = f"{_size(needed, unit)} in total", result.engine
-        crank = None if engine is None else 0.0 if engine.rotary else engine.crank_inertia
-        there = 0.0 if engine is None else find_constant_inertia(engine) or 0.0
-        rest = needed - moving - there + float((engine and engine.flywheel_inertia) or 0.0)
-        if moving and rest <= 0:
-            told += ", which needs no flywheel"
-        elif moving:
-            place = "crankshaft and flywheel" if crank is None else "the flywheel"
-            told += f", including {number(unit.of(rest))} in {place}"
+        if engine is not None and moving:
+            others = (find_constant_inertia(engine) or 0.0) - float(engine.flywheel_inertia or 0.0)
+            known = engine.rotary or engine.crank_inertia is not None
+            place = "the flywheel" if known else "crankshaft and flywheel"
+            rest = needed - moving - others
+            there = f"including {number(unit.of(rest))} in {place}"
+            told += f", {there if rest > 0 else 'which needs no flywheel'}"
         yield "needed", told
 
 
@@ -219,8 +214,7 @@ def _make_order_table(result: TorqueAnalysis, system: System) -> Grid:
     cylinder has a torque.
     """
     orders, alone = list(result.orders), f"gas of {result.cylinder}"
-    many = len(orders) == MOST_HARMONICS_UNASKED
-    note = "--orders lists higher orders." if many else ""
+    note = "--orders lists higher orders." * (len(orders) == MOST_HARMONICS_UNASKED)
     kinds = {"torque": [order.torques.torque_Nm for order in orders]}
     if result.engine is not None:
         keys = {"gas": "gas_torque_Nm", "inertia": "inertia_torque_Nm", "total": "torque_Nm"}

@@ -54,12 +54,11 @@ from .chain import (
     join_chain,
     rigid_motions,
 )
-from .chain_file import ChainFile, ChainShaft as ShaftTable, Gear, refuse_node
+from .chain_file import ChainFile, refuse_node
 from .system import Excitation, Pendulums, TorsionalSystem, ViscousRing
 
 NO_DAMPERS: Mapping[str, Damper | None] = MappingProxyType({})
 _LIGHT = 0.05  # a shaft below this share of the smaller neighbour's inertia may be neglected
-_MOST_NAMED = 4  # largest number of shafts that a message names
 _MESH = ShaftKeys.model_construct(stiffness=math.inf)
 
 
@@ -167,13 +166,12 @@ def _doubt_light_shafts(chain: Chain, shafts: Sequence[PlannedShaft]) -> Iterato
     lost[[each.table.density is not None for each in shafts]] = 0
     ends = np.where(chain.clamped, np.inf, chain.inertia)
     near = np.minimum(ends[chain.start] / chain.ratio**2, ends[chain.end])
-    if heavy := np.flatnonzero(lost > _LIGHT * near).tolist():
-        named = ", ".join(shorten(shafts[k].name) for k in heavy[:_MOST_NAMED])
-        named += ", ..." * (len(heavy) > _MOST_NAMED)
+    heavy = lost > _LIGHT * near
+    if np.any(heavy):
         yield (
-            f"{counted(len(heavy), 'plain shaft')} without a density ({named}): their "
-            f"inertia, {sum(lost[heavy]):.4g} kg m2 in steel, is left out; give density = {STEEL} "
-            "(g/cm3), which adds half of it to the node at each end"
+            f"{counted(int(heavy.sum()), 'plain shaft')} without a density: their inertia, "
+            f"{lost[heavy].sum():.4g} kg m2 in steel, is left out; give density = {STEEL} (g/cm3), "
+            "which adds half of it to the node at each end"
         )
 
 
@@ -197,13 +195,12 @@ def build_chain(
     """
     index = {node.name: k for k, node in enumerate(file.node)}
     nodes = [PlannedNode(node, node.damping) for node in file.node]
-    joints: list[ShaftTable | Gear] = [*file.shaft, *file.gear]
-    labels = _tell_apart([f"{each.from_}-{each.to}" for each in joints])
+    joints: list[tuple[str, str, ShaftKeys, float]] = [(s.from_, s.to, s, 1.0) for s in file.shaft]
+    joints += [(g.from_, g.to, _MESH, g.ratio) for g in file.gear]
+    labels = _tell_apart([f"{start}-{end}" for start, end, *_ in joints])
     shafts = [
-        PlannedShaft(label, index[each.from_], index[each.to], _MESH, each.ratio)
-        if isinstance(each, Gear)
-        else PlannedShaft(label, index[each.from_], index[each.to], each)
-        for label, each in zip(labels, joints, strict=True)
+        PlannedShaft(label, index[start], index[end], table, ratio)
+        for label, (start, end, table, ratio) in zip(labels, joints, strict=True)
     ]
     unnamed = {s.shear_modulus for s in file.shaft if s.is_of_unnamed_steel}
     system = assemble_system(
@@ -269,16 +266,12 @@ def _find_faults(system: TorsionalSystem, paths: Sequence[str]) -> Iterator[Prob
         yield Problem(paths[mesh], f"closes a loop of gears and rigid shafts: {hint}")
     yield from _find_contradiction(chain, paths, np.full(len(meshes), free))
     if system.angle_limit is not None and still[0]:
-        text = (
-            f"applies to the first node, and {shorten(names[0])} is fixed; leave it out, or begin"
-        )
-        yield Problem("angle_limit", f"{text} the chain with the node that it limits")
+        text = f"applies to the first node, and {shorten(names[0])} is fixed; leave it out"
+        yield Problem("angle_limit", f"{text}, or begin the chain with the node that it limits")
     for piece in [] if apart else [motion != 0 for motion in rigid_motions(chain)] or [~still]:
         if not np.any(chain.inertia[piece]):
-            node = int(np.argmax(piece))
-            yield Problem.of_missing(
-                f"node.{node + 1}.inertia", "no node that turns with it has one"
-            )
+            path = f"node.{np.argmax(piece) + 1}.inertia"
+            yield Problem.of_missing(path, "no node that turns with it has one")
 
 
 def _find_contradiction(
@@ -386,11 +379,10 @@ def _plan_throws(torsion: Torsion, engine: Engine, throws: Sequence[str]) -> Ite
     """Yield a node for each throw, with its running gear and the damping of every cylinder."""
     gear, on_throw = weigh_running_gear(engine), engine.joined_throw_of_rows
     inertias = _weigh_throws(torsion, engine) + np.bincount(on_throw, gear, len(throws))
-    for name, inertia, rods in zip(
-        throws, inertias, np.bincount(on_throw, None, len(throws)), strict=True
-    ):
-        table = NodeKeys.model_construct(name=name, inertia=1e6 * float(inertia))
-        yield PlannedNode(table, torsion.damping * int(rods), list_dampers(torsion, name))
+    damping = torsion.damping * np.bincount(on_throw, None, len(throws))
+    for name, j, c in zip(throws, inertias.tolist(), damping.tolist(), strict=True):
+        table = NodeKeys.model_construct(name=name, inertia=1e6 * j)
+        yield PlannedNode(table, c, list_dampers(torsion, name))
 
 
 def list_dampers(torsion: Torsion, throw: str) -> tuple[Damper, ...]:
@@ -524,12 +516,11 @@ def _find_misfits(
     joined = [j if j.of in names else j._replace(of=throws[0]) for j in joints]
     led = {joint.part.name for joint in _lead_outward(joined, throws)}
     for k, (path, part, of) in enumerate(joints, len(throws)):
+        name = shorten(part.name)
         if part.name in reserved:
-            yield Problem(f"{path}.name", f"{shorten(part.name)} is the name of a throw")
+            yield Problem(f"{path}.name", f"{name} is the name of a throw")
         elif part.name in names[:k]:
-            yield Problem(
-                f"{path}.name", f"{shorten(part.name)} is given twice; rename one of them"
-            )
+            yield Problem(f"{path}.name", f"{name} is given twice; rename one of them")
         if of not in names:
             yield Problem(f"{path}.of", refuse_node(of, names))
         elif part.name not in led and part.name not in reserved:

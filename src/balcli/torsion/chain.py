@@ -42,12 +42,10 @@ class Pieces(NamedTuple):
     Attributes:
         first: (nodes,) first node of the piece that each node belongs to.
         pace: (nodes,) speed of each node over that of the first node of its piece.
-        locked: (nodes,) whether a loop of the piece has ratios that contradict each other.
     """
 
     first: Indices
     pace: Real
-    locked: NDArray[np.bool_]
 
 
 class Chain(NamedTuple):
@@ -118,9 +116,7 @@ def find_pieces(chain: Chain, shafts: NDArray[np.bool_] | None = None) -> Pieces
             first[node] = node
             for child, parent, _, near, far in grow_branches(chain, [node], joining):
                 first[child], pace[child] = node, -far / near * pace[parent]
-    off = np.abs(pace[chain.end] - pace[chain.start] * chain.ratio)
-    torn = joining & (off > SAME_RATIO * np.abs(pace[chain.end]))
-    return Pieces(first, pace, np.isin(first, first[chain.start[torn]]))
+    return Pieces(first, pace)
 
 
 def find_still(chain: Chain) -> NDArray[np.bool_]:
@@ -133,11 +129,10 @@ def find_still(chain: Chain) -> NDArray[np.bool_]:
 
 def rigid_motions(chain: Chain) -> Real:
     """Return the rigid-body motions, shape (motions, nodes): for each piece that can turn freely,
-    the angles of its nodes, 1 at its first node.
+    the angles of its nodes, 1 at its first node. Loops must not contradict each other.
     """
     pieces = find_pieces(chain, chain.stiffness > 0)
-    stopped = np.unique(pieces.first[chain.clamped | pieces.locked])
-    free = np.setdiff1d(pieces.first, stopped)
+    free = np.setdiff1d(pieces.first, pieces.first[chain.clamped])
     return np.where(pieces.first == free[:, None], pieces.pace, 0)
 
 

@@ -112,12 +112,10 @@ def read_chain_tables(data: Mapping[str, object], file: str = "") -> ChainFile:
 def _find_misfits(data: Mapping[str, object]) -> Iterator[Problem]:
     """Yield contradictions between the tables."""
     nodes = _tables(data, "node")
-    if "node" not in data:
+    if data.get("node", []) == []:
         hint = 'write [[node]] for every inertia, such as name = "flywheel"'
         yield Problem.of_missing("node", hint)
         return
-    if data["node"] == []:
-        yield Problem("node", "is an empty list; a chain has at least one node")
     names = [node.get("name") for _, node in nodes]
     known = [name for name in names if isinstance(name, str)]
     for k, node in nodes:

@@ -14,6 +14,7 @@ import tomllib
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from itertools import count
+from operator import itemgetter
 from typing import Annotated, Any, NamedTuple
 
 import numpy as np
@@ -168,7 +169,7 @@ def size_damper(
     start, tried = float(getattr(first, figure)), count(1)
     free = first.kind == "pendulum" and asked.inertia is None
     if free:
-        first = _limit_swing(source, speeds, node, first)
+        first = _limit_swing(source, speeds, node, first, float(bare.chain.inertia[place]))
 
     def judge(damper: Damper | None) -> float:
         """Return the largest stress or torque with a damper; inf if it has no bound, or if
@@ -219,9 +220,8 @@ def _find_carrier(source: Source, asked: DamperAsked, speeds: Real) -> str:
     carriers = source.dampers
     if asked.node is not None:
         if asked.node not in carriers:
-            able = ", ".join(map(printable, carriers))
-            name = printable(asked.node)
-            raise BalcliError(f'--damper-at "{name}": cannot carry a damper; choose from {able}')
+            wrong = f'--damper-at "{printable(asked.node)}": cannot carry a damper'
+            raise BalcliError(f"{wrong}; choose from {', '.join(map(printable, carriers))}")
         return asked.node
     system = source.system(NO_DAMPERS)
     if asked.kind == "pendulum" and source.throws:
@@ -234,27 +234,27 @@ def _find_carrier(source: Source, asked: DamperAsked, speeds: Real) -> str:
     return system.free_end if system.free_end in parts or not parts else parts[0]
 
 
-def _limit_swing(source: Source, speeds: Real, node: str, proposed: Damper) -> Damper:
+def _limit_swing(
+    source: Source, speeds: Real, node: str, proposed: Damper, inertia: float
+) -> Damper:
     """Return pendulums that are heavy enough to swing by at most WIDE_SWING at some length of the
     searched range, with this length. The swing is about inversely proportional to the mass.
+    `inertia` (kg m2) is that of their node.
 
     Raises:
         BalcliError: They would have more than half of the inertia of their node, and more mass than
             the pendulums of the file.
     """
-    bare = source.system({node: None})
-    place, width = bare.nodes.index(node), math.log(_WIDTH["pendulum"])
-    start, given = proposed.swinging_length, proposed.mass or 0.0
-    mass = given
-    lengths = [start, *(start * np.exp(np.linspace(-width, width, _PLACES))).tolist()]
+    start, width = proposed.swinging_length, _WIDTH["pendulum"]
+    mass = given = proposed.mass or 0.0
+    lengths = [start, *np.geomspace(start / width, start * width, _PLACES).tolist()]
     reach = ((proposed.radius or 0.0) + start) / 1e3
-    most = _MOST_PENDULUM * float(bare.chain.inertia[place]) / reach**2
+    most = _MOST_PENDULUM * inertia / reach**2
     for _ in range(_MASSES):
         changes = [{"mass": float(f"{mass:.4g}"), "length": length} for length in lengths]
         tried = [proposed.model_copy(update=change) for change in changes]
         swings = [_find_pendulum_swing(source, node, each, speeds) for each in tried]
-        least = min(swings)
-        proposed = tried[swings.index(least)]
+        least, proposed = min(zip(swings, tried, strict=True), key=itemgetter(0))
         if least <= WIDE_SWING:
             break
         mass *= _HEAVIER * min(least / WIDE_SWING, _MOST_AT_ONCE)
@@ -436,6 +436,5 @@ def insert_damper(text: bytes, name: str, damper: Damper) -> str:
             own = name_throw(table["throw"]) if key == "torsion.throw" else table.get("name")
             if own == name:
                 return set_keys(old, f"{key}.{number}", {"damper": keys}, "by balcli")
-    throw = {"throw": int(name.removeprefix(name_throw(0)[:-1])), "damper": keys}
-    lines = [f"{key} = {format_value(value)}" for key, value in throw.items()]
-    return "\n".join([old.rstrip("\n"), "", "[[torsion.throw]]    # by balcli", *lines, ""])
+    table = f"throw = {name.split()[-1]}\ndamper = {format_value(keys)}\n"
+    return f"{old.rstrip()}\n\n[[torsion.throw]]    # by balcli\n{table}"

@@ -11,9 +11,10 @@ from ..engine.engine import Engine, refuse_geared
 from ..engine.load import build_named
 from ..engine.parse import parse
 from ..errors import BalcliError
-from ..file.doubts import doubt_losses
+from ..file.doubts import doubt_losses, walk_figures
 from ..file.messages import CHAIN, ENGINE, refuse_other_kind
 from ..file.model import EngineFile
+from ..file.plain_tables import list_tables
 from ..file.toml import name_file, parse_toml, read_bytes
 from ..file.torsion_tables import Damper
 from ..file.units import ask_unit
@@ -60,25 +61,18 @@ def make_chain_source(
     model: ChainFile, name: str, orders: Real | None = None, text: bytes = b""
 ) -> Source:
     """Return the source for the tables of a chain file."""
-    losses = [(f"shaft.{k}.loss", shaft.loss) for k, shaft in enumerate(model.shaft, 1)]
-    damped = [(k, node.damper) for k, node in enumerate(model.node, 1) if node.damper]
-    losses += [(f"node.{k}.damper.loss", damper.loss) for k, damper in damped]
-    doubts = *doubt_losses([("loss", model.loss), *losses]), *_doubt_units(model)
+    doubts = *doubt_losses("", model), *_doubt_units(model)
     dampers = {node.name: node.damper for node in model.node}
     return Source(text, doubts, partial(build_chain, model, name, orders), dampers)
 
 
 def _doubt_units(model: ChainFile) -> Iterator[str]:
     """Yield warnings of inertias and diameters that were probably meant in kg m2 and m."""
-    figures = [
-        (f"node.{k}.inertia of '{node.name}'", node.inertia, "kg mm^2")
-        for k, node in enumerate(model.node, 1)
-    ]
-    figures += [(f"shaft.{k}.diameter", s.diameter, "mm") for k, s in enumerate(model.shaft, 1)]
-    for path, value, unit in figures:
-        if value is not None and value < _SMALL:
-            larger = ask_unit(unit, f"{value:.4g} {unit.replace('mm', 'm')}")
-            yield f"{path} is {value:.4g} {unit}; {larger}"
+    units = {"inertia": "kg mm^2", "diameter": "mm"}
+    for path, key, value in walk_figures("", list_tables(model)):
+        if key in units and value < _SMALL:
+            larger = ask_unit(units[key], f"{value:.4g} {units[key].replace('mm', 'm')}")
+            yield f"{path} is {value:.4g} {units[key]}; {larger}"
 
 
 def load_source(path: str, orders: Real | None = None, misfires: Sequence[str] = ()) -> Source:
@@ -102,21 +96,21 @@ def load_source(path: str, orders: Real | None = None, misfires: Sequence[str] =
     refuse_other_kind(data, name, ENGINE, CHAIN)
     model = parse(text, name)
     engine = build_named(model, name)
-    doubts = engine.unlikely
     refuse_geared(engine)
     for number in misfires:
         engine = silence(engine, parse_cylinder(number))
-    return make_source(model, engine, name, orders)._replace(text=text, doubts=doubts)
+    return make_source(model, engine, name, orders, text)
 
 
-def make_source(model: EngineFile, engine: Engine, name: str, orders: Real | None = None) -> Source:
-    """Return the source for an engine and its file. The source has no text, so that nothing can be
-    written into it.
+def make_source(
+    model: EngineFile, engine: Engine, name: str, orders: Real | None = None, text: bytes = b""
+) -> Source:
+    """Return the source for an engine and its file. Without a text, nothing can be written into it.
 
     Raises:
         BalcliError: The file has no [torsion].
     """
-    doubts, torsion = engine.unlikely, require_torsion(model, name)
+    torsion = require_torsion(model, name)
     excitation = excite_engine(model, engine, orders)
     system = partial(build_engine_system, model, engine, excitation, name)
     dampers: dict[str, Damper | None] = {
@@ -124,4 +118,4 @@ def make_source(model: EngineFile, engine: Engine, name: str, orders: Real | Non
     }
     throws = tuple(list_throws(engine))
     dampers |= {throw: next(iter(list_dampers(torsion, throw)), None) for throw in throws}
-    return Source(b"", doubts, system, dampers, engine, throws)
+    return Source(text, engine.unlikely, system, dampers, engine, throws)

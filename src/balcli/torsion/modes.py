@@ -206,7 +206,7 @@ class Critical(NamedTuple):
 def find_natural_modes(system: TorsionalSystem) -> tuple[NaturalMode, ...]:
     """Return the modes in which shafts twist, lowest first."""
     modes = find_chain_modes(system.chain)
-    loss = chain_loss(system.chain, system.damping, modes, system.attached(modes.omega))
+    loss = chain_loss(system.chain, system.damping, modes, system.attached_rings(modes.omega))
     found = []
     for k, shape in enumerate(scale_shapes(modes.shapes)[modes.rigid :], modes.rigid):
         in_shafts, at_nodes = locate_nodes(system.chain, shape)

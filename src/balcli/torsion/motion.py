@@ -19,7 +19,6 @@ from ..core.vibration import (
     Complex,
     Real,
     UndampedResonanceError,
-    frequencies,
     solve_equations,
 )
 from ..errors import BalcliError
@@ -68,7 +67,7 @@ def respond_chain(
         frequency: w (rad/s), any shape, commonly (orders, speeds).
         load: Torques on the nodes (N m); they broadcast to (*frequency, nodes).
         attached: Complex inertias of dampers (kg m2); they broadcast to (*frequency, nodes); see
-            `TorsionalSystem.attached`.
+            `TorsionalSystem.attached_rings`.
 
     Raises:
         UndampedResonanceError: A load drives an undamped mode at its own frequency.
@@ -110,10 +109,8 @@ def _find_roots(chain: Chain, shafts: NDArray[np.bool_]) -> list[int]:
     """Return the free node of each connected piece with the largest inertia at a common speed."""
     pieces = find_pieces(chain, shafts)
     weight = np.where(chain.clamped, -1, chain.inertia * pieces.pace**2)
-    return [
-        int(max(np.flatnonzero(pieces.first == first), key=lambda node: weight[node]))
-        for first in np.unique(pieces.first)
-    ]
+    heaviest = {pieces.first[node]: node for node in weight.argsort().tolist()}  # last of each
+    return [*heaviest.values()]
 
 
 def _solve_tree(
@@ -212,9 +209,9 @@ _AT_A_TIME = 1 << 18  # number of angles and torques computed at once, which bou
 def _move(system: TorsionalSystem, rpm: Real) -> tuple[Complex, Real]:
     """Return the curves and heat that `compute_curves` describes."""
     excitation, speeds = system.require_excitation(), rpm * RPM
-    w = frequencies(excitation.orders, speeds)
+    w = np.multiply.outer(excitation.orders, speeds)
     load = excitation.at(speeds) @ np.equal.outer(excitation.nodes, np.arange(len(system.nodes)))
-    attached = system.attached(w, np.broadcast_to(excitation.orders[:, None], w.shape))
+    attached = system.attached_rings(w) + system.attached_pendulums(excitation.orders[:, None])
     try:
         twist = respond_chain(system.chain, system.damping, w, load, attached)
     except UndampedResonanceError as error:
@@ -284,7 +281,7 @@ def refuse_unbounded(system: TorsionalSystem, rpm: Real) -> None:
     if np.all(lossy | np.isinf(system.chain.stiffness)):  # every elastic shaft has losses
         return
     modes = find_chain_modes(system.chain)
-    loss = chain_loss(system.chain, system.damping, modes, system.attached(modes.omega))
+    loss = chain_loss(system.chain, system.damping, modes, system.attached_rings(modes.omega))
     free = modes.omega[(modes.omega > 0) & (loss <= UNDAMPED)]
     none = Damping(*(np.zeros_like(each) for each in system.damping))
     for order in excitation.orders.tolist():

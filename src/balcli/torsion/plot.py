@@ -150,33 +150,30 @@ def _draw_modes(ax: Axes, result: TorsionAnalysis) -> None:
     ax.axhline(0, color=SOFT, linewidth=0.8)
     ax.set_xticks(range(len(names)), [fit_name(name, 14) for name in names])
     ax.tick_params(axis="x", labelrotation=90 if len(names) > 5 else 0)
-    ax.set_ylim(-1.1, 1.1)
+    ax.set(ylim=(-1.1, 1.1), title="Shapes of modes: angle of each node")
     if result.modes:
         put_legend_above(ax)
-    ax.set_title("Shapes of modes: angle of each node")
 
 
-def _find_span(result: TorsionAnalysis) -> float:
-    """Return the highest speed of a Campbell diagram, rpm."""
+def _find_span(result: TorsionAnalysis, first: float) -> float:
+    """Return the highest speed of a Campbell diagram, rpm; `first` (Hz) is the first mode."""
     if result.response is not None:
         return float(result.response.speeds_rpm[-1])
     worth = [each.speed_rpm for each in result.criticals or () if each.work_share > 0.02]
-    first = result.modes[0].frequency_Hz * 60 if result.modes else 1000.0
-    return 1.1 * min(max(worth, default=first), 2 * first)
+    return 1.1 * min(max(worth, default=60 * first), 120 * first)
 
 
 def _draw_campbell(ax: Axes, result: TorsionAnalysis) -> None:
     """Draw natural frequencies over speed, a ray for each order, a dot for each critical."""
-    top = _find_span(result)
+    first = result.modes[0].frequency_Hz if result.modes else 1000 / 60
+    top = _find_span(result, first)
     met = [c for c in result.criticals or () if c.work_share > _WORTH and c.speed_rpm <= top]
     every = np.array(sorted({c.order for c in met}) or result.orders or ())
     work = [max((c.work for c in met if c.order == order), default=0.0) for order in every]
     orders = every[_find_largest(np.array(work))].tolist()
-    drawn = [c for c in met if c.order in orders]
-    modes = {mode.number: mode for mode in result.modes}
-    highest = max((modes[c.mode].frequency_Hz for c in drawn), default=0.0)
-    first = result.modes[0].frequency_Hz if result.modes else 1.0
-    ceiling = 1.25 * max(highest, first)
+    dots = [(c.speed_rpm, c.order * c.speed_rpm / 60, c.work) for c in met if c.order in orders]
+    rpm, hertz, works = np.array(dots).reshape(-1, 3).T
+    ceiling = 1.25 * hertz.max(initial=first)
     for mode in result.modes:
         if mode.frequency_Hz < ceiling:
             ax.axhline(mode.frequency_Hz, color=INK, linewidth=1)
@@ -186,11 +183,8 @@ def _draw_campbell(ax: Axes, result: TorsionAnalysis) -> None:
         end = min(top, 60 * ceiling / order)
         ax.plot([0, end], [0, order * end / 60], color=FAINT, linewidth=0.9, zorder=1)
         ax.text(end, order * end / 60, order_name(order), fontsize=7, color=SOFT)
-    most = max((critical.work for critical in drawn), default=1.0)
-    for critical in drawn:
-        size = 12 + 240 * critical.work / most
-        height = modes[critical.mode].frequency_Hz
-        ax.scatter([critical.speed_rpm], [height], s=size, color=RED, alpha=0.7, zorder=3)
+    sizes = 12 + 240 * works / works.max(initial=0.0)
+    ax.scatter(rpm, hertz, s=sizes, color=RED, alpha=0.7, zorder=3)
     ax.set(xlim=(0, 1.03 * top), ylim=(0, ceiling), xlabel="rpm", ylabel="Hz")
     title = "Campbell diagram: orders, and criticals by work"
     ax.set_title(title + _count_left_out(len(every) - len(orders)))
@@ -217,20 +211,21 @@ def _draw_torque(ax: Axes, result: TorsionAnalysis, curves: _Curves, system: Sys
     """Draw half of peak to peak of the largest torques of shafts, or of their stresses if the file
     limits the stress and a shaft has a diameter.
     """
-    limit, stress = result.system.limit_pa, result.system.stress_by_torque
-    by_stress = limit is not None and any(stress)
-    by_torque: Real = stress if by_stress else np.ones(len(stress))
+    stress = result.system.stress_by_torque
+    limit = result.system.limit_pa if any(stress) else None
+    by_torque = np.ones(len(stress)) if limit is None else stress
     values = curves.swings[:, : len(by_torque)] * by_torque
     peaks = values.max(axis=0)
-    unit = (system.stress if by_stress else system.moment).fit(peaks.max())
+    unit = (system.moment if limit is None else system.stress).fit(peaks.max())
     largest = np.argsort(-peaks, kind="stable")[:_MOST_SHAFTS]
     shown = np.sort(largest[by_torque[largest] > 0]).tolist()
     for k, (line, colour) in zip(shown, cycle(MANY_LOOKS), strict=False):
         name = fit_name(result.shafts[k].name, 22)
         ax.plot(curves.rpm, values[:, k] / unit.size, line, color=colour, label=name)
-    if by_stress and limit is not None:
+    if limit is not None:
         ax.axhline(unit.of(limit), color=INK, linewidth=0.9, linestyle=(0, (1, 2)))
-    _finish(ax, result, curves, "Vibratory stress" if by_stress else "Vibratory torque", unit.name)
+    title = f"Vibratory {'torque' if limit is None else 'stress'}"
+    _finish(ax, result, curves, title, unit.name)
 
 
 def _draw_swing(ax: Axes, result: TorsionAnalysis, curves: _Curves) -> None:
@@ -249,9 +244,8 @@ def _draw_swing(ax: Axes, result: TorsionAnalysis, curves: _Curves) -> None:
 def _finish(
     ax: Axes, result: TorsionAnalysis, curves: _Curves, title: str, unit: str, columns: int = 4
 ) -> None:
-    ax.set_xlim(float(curves.rpm[0]), float(curves.rpm[-1]) + 1e-9)
-    ax.set_ylim(bottom=0)
-    ax.set(xlabel="rpm", ylabel=f"± {unit}")
+    ends = float(curves.rpm[0]), float(curves.rpm[-1]) + 1e-9
+    ax.set(xlim=ends, ylim=(0, None), xlabel="rpm", ylabel=f"± {unit}")
     ax.set_title(title, pad=30)
     put_legend_above(ax, columns)
     _shade_barred(ax, result)
@@ -270,10 +264,8 @@ def _draw_waterfall(ax: Axes, result: TorsionAnalysis, curves: _Curves, system: 
         left, right = order - half * sizes, order + half * sizes
         ax.axvline(order, color=FAINT, linewidth=0.5, zorder=0)
         ax.fill_betweenx(curves.rpm, left, right, color=BLUE, linewidth=0.4)
-    ax.set(xlabel="order", ylabel="rpm")
+    ax.set(xlim=(0, float(orders[-1]) + gap), xlabel="order", ylabel="rpm")
     ax.grid(visible=False, axis="x")
-    ax.set_xlim(0, float(orders[-1]) + gap)
     unit, name = system.moment.fit(most), fit_name(result.shafts[shaft].name, 22)
-    largest = f"{number(unit.of(most), 3)} {unit.name}"
-    title = f"Torque of {name} by order: widest {largest}"
+    title = f"Torque of {name} by order: widest {number(unit.of(most), 3)} {unit.name}"
     ax.set_title(title + _count_left_out(len(every) - len(orders)))

@@ -10,8 +10,18 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..core.records import IN_CSV, Figure, Node, list_figures, list_series, remove_unit, to_document
+from ..core.records import (
+    IN_CSV,
+    Figure,
+    Node,
+    find_unit,
+    list_figures,
+    list_series,
+    remove_unit,
+    to_document,
+)
 from ..core.vibration import Real
+from ..file.fields import counted
 from ..show.engine_facts import list_silent
 from ..show.formats import Renderer, Rows, name_cell
 from ..show.sheet import (
@@ -27,8 +37,8 @@ from ..show.sheet import (
 )
 from ..show.units import SI, ShownUnit, System
 from .answer import BEYOND, HolzerTable, TorsionAnalysis
-from .dampers import DAMPER_KEYS, FIGURES, SizedDamper
-from .response import ShaftResponse, TorsionResponse
+from .dampers import DAMPER_KEYS, SizedDamper
+from .response import TorsionResponse, WorstTorque
 from .system import TorsionalSystem
 
 _MOST_MODES = 5  # largest number of shapes in a table; more do not fit into a terminal
@@ -173,16 +183,10 @@ def _show_damper(sized: SizedDamper, system: System) -> Facts:
     units = _choose_units(system)
     units["kg m2"] = _RING if system == SI else system.inertia
     pairs = [("on", sized.node)]
-    for key, (name, size, label) in DAMPER_KEYS.items():
-        if (value := getattr(sized, name)) is None:
-            continue
-        (figure,) = list_figures({name: value})
-        shown = units.get(figure.unit, ShownUnit("", 1)).fit(value)
-        text = size_text(value, shown, 6).rstrip()
-        if key == FIGURES[sized.kind]:
-            alone = number(shown.of(sized.start / size))
-            text += f" (best for mode {sized.mode} alone: {alone})"
-        pairs.append((label, text))
+    for name, _, label in DAMPER_KEYS.values():
+        if (value := getattr(sized, name)) is not None:
+            shown = units.get(find_unit(name).translate(IN_CSV), ShownUnit("", 1))
+            pairs.append((label, size_text(value, shown, 6).rstrip()))
     for when, size in (("without the damper", sized.before), ("with it", sized.after)):
         text = f"±{number(unit.of(size))} {unit.name}" if math.isfinite(size) else "without bound"
         pairs.append((f"largest {sized.measure} {when}", text))
@@ -210,19 +214,24 @@ def _show_modes(result: TorsionAnalysis) -> Grid | Text:
 
 
 def _show_shapes(result: TorsionAnalysis, system: System) -> Grid:
-    shown = result.modes[:_MOST_MODES]
-    geared = any(node.gear != 1 for node in result.nodes)
-    heads = ["node", system.inertia.name, *["gear"] * geared]
-    heads += [f"mode {mode.number}" for mode in shown]
-    rows = []
-    for k, node in enumerate(result.nodes):
-        inertia = system.inertia.of(node.inertia_kg_m2)
-        cells = [node.name, number(inertia) if inertia else "–", *[number(node.gear)] * geared]
-        rows.append((*cells, *(f"{round(float(mode.shape[k]), 4) + 0.0:.4f}" for mode in shown)))
+    names, inertias, gears = zip(*result.nodes, strict=True)
+    columns = [
+        ("node", names),
+        (system.inertia.name, [number(system.inertia.of(each or math.nan)) for each in inertias]),
+    ]
+    if any(gear != 1 for gear in gears):
+        columns.append(("gear", [number(gear) for gear in gears]))
+    for mode in result.modes[:_MOST_MODES]:
+        angles = [f"{angle + 0.0:.4f}" for angle in mode.shape.round(4).tolist()]
+        columns.append((f"mode {mode.number}", angles))
     note = "Real angle of each inertia, not reduced to the crank; the largest is 1."
-    if left := len(result.modes) - len(shown):
-        note += f" JSON has {left} more mode{'s' * (left > 1)}."
-    return Grid("Inertias and shapes", tuple(heads), tuple(rows), note)
+    note += _count_in_json(len(result.modes) - _MOST_MODES, "mode")
+    return Grid.of_columns("Inertias and shapes", columns, note)
+
+
+def _count_in_json(left: int, what: str) -> str:
+    """Return a note on the rows or columns that only JSON has; "" if there are none."""
+    return f" JSON has {counted(left, f'more {what}')}." if left > 0 else ""
 
 
 def _show_criticals(result: TorsionAnalysis) -> Grid | Text:
@@ -240,8 +249,7 @@ def _show_criticals(result: TorsionAnalysis) -> Grid | Text:
         ("share", [f"{each.work_share:.1%}" for each in shown]),
     ]
     note = f"Sorted by work. Share: part of all work done on that mode. {scope}"
-    if left := len(criticals) - len(shown):
-        note += f" JSON has {left} more critical speed{'s' * (left > 1)}."
+    note += _count_in_json(len(criticals) - len(shown), "critical speed")
     return Grid.of_columns(title, columns, note)
 
 
@@ -270,20 +278,17 @@ def _name_left_out(system: TorsionalSystem, end: str) -> str:
 
 def _show_holzer(result: TorsionAnalysis, table: HolzerTable, system: System) -> Grid:
     inertia, stiffness = system.inertia, system.torsional_stiffness
-    torques, angles = [row.torque_Nm for row in table.rows], [row.angle for row in table.rows]
-    largest = max(abs(each) for row in table.rows for each in (row.torque_Nm, row.sum_Nm))
-    unit = system.moment.fit(largest)
-    springs = [stiffness.of(row.stiffness_Nm_per_rad or math.nan) for row in table.rows]
-    twists = [row.twist if row.stiffness_Nm_per_rad else math.nan for row in table.rows]
-    sums = [_settle(row.sum_Nm, torques) for row in table.rows]
+    names, inertias, angles, torques, sums, springs, twists = zip(*table.rows, strict=True)
+    unit = system.moment.fit(max(map(abs, (*torques, *sums))))
+    known = [k or math.nan for k in springs]  # the last node has no shaft
     columns = [
-        ("node", [row.node for row in table.rows]),
-        (f"J, {inertia.name}", [number(inertia.of(row.inertia_kg_m2)) for row in table.rows]),
+        ("node", names),
+        (f"J, {inertia.name}", [number(inertia.of(each)) for each in inertias]),
         ("angle", [number(_settle(angle, angles), 6) for angle in angles]),
         ("J ω² angle", [number(unit.of(_settle(torque, torques))) for torque in torques]),
-        ("sum", [number(unit.of(size)) for size in sums]),
-        (f"k, {stiffness.name}", [number(k).replace("inf", "rigid") for k in springs]),
-        ("twist", [number(twist) for twist in twists]),
+        ("sum", [number(unit.of(_settle(size, torques))) for size in sums]),
+        (f"k, {stiffness.name}", [number(stiffness.of(k)).replace("inf", "rigid") for k in known]),
+        ("twist", [number(x if k else math.nan) for x, k in zip(twists, springs, strict=True)]),
     ]
     what, omega = f"mode {table.mode}" if table.mode else "trial", 2 * np.pi * table.frequency_Hz
     title = f"Holzer's table, {what}: {number(omega, 7)} rad/s; torques in {unit.name}"
@@ -306,30 +311,27 @@ def _show_response(
     span, worst = _name_span(response.speeds_rpm), _describe_worst(result, response, system)
     if not response.shafts:
         return Text(f"Vibration, {span}", (worst,))
-    sums = [sum(each.amplitude_Nm for each in s.worst.orders) for s in response.shafts]
+    sums = [sum(one.amplitude_Nm for one in s.worst.orders) for s in response.shafts]
     unit = system.moment.fit(max(sums))
-    stress, stressed = system.stress.fit(0.0), any(result.system.stress_by_torque)
-    rows = []
-    for shaft, total in zip(response.shafts, sums, strict=True):
-        most = shaft.worst
-        known = math.nan if most.stress_Pa is None else most.stress_Pa
-        cells = [
-            shaft.name,
-            number(unit.of(most.half_peak_to_peak_Nm)),
-            number(most.speed_rpm),
-            number(unit.of(total)),
-            *[number(stress.of(known))] * stressed,
-        ]
-        rows.append((*cells, _name_orders(shaft, unit)))
-    heads = ["shaft", f"± {unit.name}", "at rpm", f"sum, {unit.name}"]
-    heads += [*[stress.name] * stressed, "largest orders"]
+    each = [shaft.worst for shaft in response.shafts]
+    columns = [
+        ("shaft", [shaft.name for shaft in response.shafts]),
+        (f"± {unit.name}", [number(unit.of(most.half_peak_to_peak_Nm)) for most in each]),
+        ("at rpm", [number(most.speed_rpm) for most in each]),
+        (f"sum, {unit.name}", [number(unit.of(total)) for total in sums]),
+    ]
+    if any(result.system.stress_by_torque):
+        stress = system.stress.fit(0.0)
+        known = (math.nan if most.stress_Pa is None else most.stress_Pa for most in each)
+        columns.append((stress.name, [number(stress.of(size)) for size in known]))
+    columns.append(("largest orders", [_name_orders(most, unit) for most in each]))
     note = (
         "±: half of peak to peak at the worst speed, all orders added with their phases. sum: sum "
         f"of their amplitudes, too large because orders do not peak together. {worst}"
         f"{_name_gas(result, ' The gas torque is the same at every speed.')}"
     )
-    words = (0, len(heads) - 1)
-    return Grid(f"Vibratory torque, {span}", tuple(heads), tuple(rows), note, words=words)
+    table = Grid.of_columns(f"Vibratory torque, {span}", columns, note)
+    return table._replace(words=(0, len(columns) - 1))
 
 
 def _name_span(ends: Sequence[float] | Real) -> str:
@@ -364,9 +366,9 @@ def _describe_worst(result: TorsionAnalysis, response: TorsionResponse, system: 
     return " ".join(f"{what} at {number(speed)} rpm." for what, speed in parts)
 
 
-def _name_orders(shaft: ShaftResponse, unit: ShownUnit) -> str:
+def _name_orders(torque: WorstTorque, unit: ShownUnit) -> str:
     """Return the largest orders of a shaft's torque and their amplitudes in this unit."""
-    falling = sorted(shaft.worst.orders, key=lambda each: -each.amplitude_Nm)
+    falling = sorted(torque.orders, key=lambda each: -each.amplitude_Nm)
     return ", ".join(
         f"{order_name(each.order)}: {number(unit.of(each.amplitude_Nm), 3)}"
         for each in falling[:_MOST_ORDERS]

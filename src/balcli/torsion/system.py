@@ -143,24 +143,18 @@ class TorsionalSystem:
         pace = find_pieces(self.chain).pace
         return np.asarray(pace / pace[self.reference])
 
-    def attached(self, frequency: Real, order: Real | None = None) -> Complex:
-        """Return the complex inertias, kg m2, that rings and pendulums add to nodes, shape
-        (*frequency, nodes).
-
-        Args:
-            frequency: Frequency, rad/s, any shape.
-            order: Order, which broadcasts to `frequency`; if it is None, pendulums are left out.
+    def attached_rings(self, frequency: Real) -> Complex:
+        """Return the complex inertias, kg m2, that viscous rings add to nodes at frequencies
+        (rad/s), shape (*frequency, nodes).
         """
         found = np.zeros((*frequency.shape, len(self.nodes)), complex)
         for ring in self.rings:
             found[..., ring.node] += viscous_inertia(ring.inertia, ring.damping, frequency)
-        if self.pendulums and order is not None:
-            found += self.attached_pendulums(order)
         return found
 
     def attached_pendulums(self, order: Real) -> Complex:
-        """Return the inertias of pendulums, kg m2, shape (*order, nodes), at orders of the
-        reference.
+        """Return the inertias, kg m2, that pendulums add to nodes at orders of the reference,
+        shape (*order, nodes).
         """
         found = np.zeros((*order.shape, len(self.nodes)), complex)
         for swung in self.pendulums:

@@ -3,10 +3,12 @@ engines that are made to fire evenly at one angle.
 """
 
 import itertools
+from collections.abc import Sequence
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from support.engines import engine_text
 from support.searches import search_least
 
 from balcli.engine.build import build
@@ -25,34 +27,19 @@ pytestmark = pytest.mark.slow
 Array = NDArray[np.float64]
 PATHS = {"bank_angle": "layout.bank_angle", "splay": "crank.splay"}
 SPANS = {"bank_angle": (0.0, 180.0), "splay": (-180.0, 180.0)}
-TEXT = """\
-[crank]
-stroke = 80
-throws = {throws}
-spacing = {spacing}
-splay = {splay}
-throw_mass = {throw_mass}
-[rod]
-length = {length}
-mass = 0.5
-cg = 40
-[piston]
-mass = 0.5
-[layout]
-bank_angle = {bank}
-stagger = {stagger}
-[operation]
-speed = 3000
-"""
 
 
-def vee(**changes: object) -> EngineFile:
-    plain = {"throws": [0], "spacing": 100, "splay": 0, "throw_mass": 0, "length": 150, "bank": 90, "stagger": 0}
-    return load(TEXT.format(**plain | changes))
-
-
-def in_line(throws: str) -> str:
-    return f"[crank]\nstroke = 80\nspacing = 100\nthrows = {throws}\n[rod]\nlength = 150\n[piston]\nmass = 0.5\n"
+def vee(
+    throws: Sequence[float], bank: float = 90, splay: float = 0, stagger: float = 0, throw_mass: float = 0
+) -> EngineFile:
+    text = engine_text(
+        crank=f"stroke = 80\nthrows = {throws}\nspacing = 100\nsplay = {splay}\nthrow_mass = {throw_mass}",
+        rod="length = 150\nmass = 0.5\ncg = 40",
+        piston="mass = 0.5",
+        layout=f"bank_angle = {bank}\nstagger = {stagger}",
+        operation="speed = 3000",
+    )
+    return load(text)
 
 
 # ------------------------------------------------------------------ engines against dense sweeps
@@ -127,9 +114,7 @@ def test_the_angle_at_which_a_vee_fires_evenly(pairs: int, over: str) -> None:
     file = vee(throws=throws, bank=bank)
     results = search_least(file, over, "moment.1.major", count=100, even_firing=True).results
     found = [r.design[over] for r in results]
-    for angle in found:
-        engine = build(file, {PATHS[over]: angle})
-        assert bool(fires_evenly(engine, file))
+    assert all(fires_evenly(build(file, {PATHS[over]: angle}), file) for angle in found)
     slots = np.mod(np.arange(2 * pairs) * interval, 360)
     expected = {
         round(float(angle), 6)
@@ -181,65 +166,27 @@ def test_even_firing_and_a_limit() -> None:
         search_arrangements(file, "splay", impossible, even_firing=True)
 
 
-@pytest.mark.parametrize("cylinders", range(4, 29, 2))
-def test_four_strokes_of_any_even_number_have_firing_orders(cylinders: int) -> None:
-    """In line: each throw twice, 720/n apart; as a vee: each pin once, the banks 720/n apart."""
-    interval = 720 / cylinders
-    half = cylinders // 2
-    once = [k * interval for k in range(half)]
-    found = search_least(
-        load(in_line(str([*once, *reversed(once)]))), "firing_order", "moment.1.major", count=1
-    ).results
-    assert sorted(found[0].design["firing_order"]) == list(range(1, cylinders + 1))
-    twice = [2 * interval * k for k in range(half)]
-    file = vee(throws=twice, bank=interval % 360)
-    (best, *_) = search_least(file, "firing_order", "moment.1.major", count=1).results
-    ordered = file.layout.model_copy(update={"firing_order": tuple(best.design["firing_order"])})
-    built = build(file.model_copy(update={"layout": ordered}))
-    fires = np.sort(np.mod([float(v) for v in built.fires_deg.values()], 720))
-    assert np.diff(fires) == pytest.approx(interval, abs=1e-6)
-
-
-# ------------------------------------------------------------------ angles as the file gave them
 def test_sevenths_of_a_turn_stay_such() -> None:
-    turns = [f"{k}/7 turn" for k in range(7)]
-    text = in_line(str(turns).replace("'", '"'))
-    (best, *_) = search_least(load(text), "throws", "moment.1.major", count=1).results
+    text = engine_text(crank=f"stroke = 80\nspacing = 100\nthrows = {[f'{k}/7 turn' for k in range(7)]}")
+    found = search_least(load(text), "throws", "moment.1.major", count=1)
+    (best,) = found.results
     assert sorted(best.design["throws"]) == [k * 360 / 7 for k in range(7)]
     written = build(load(write_design(text.encode(), best.design)))
-    found = search_least(load(text), "throws", "moment.1.major", count=1)
     (line,) = rows(found, SYSTEMS["si"]).lines
     assert list(map(float, line[0].split("-"))) == list(best.design["throws"])
     verdicts = [reason.verdict for reason in explain_symmetry(written, [1, 2], ["force"]).reasons]
     assert verdicts == ["symmetry", "symmetry"]
 
 
-# ------------------------------------------------------------------ throws and firing orders
-
-
-# ------------------------------------------------------------------ bank angles that lock
-LOCKING = """\
-[crank]
-stroke = 120
-throws = [0, 120, 240]
-spacing = 160
-[rod]
-length = 200
-mass = 1.9
-cg = 55
-[piston]
-mass = 1.3
-[layout]
-bank_angle = 60
-[articulation]
-knuckle_radius = 90
-knuckle_angles = [0, 60]
-rod = { length = 115, mass = 0.62, cg = 60 }
-"""
-
-
 def test_bank_angles_at_which_articulated_rods_lock_are_no_candidates() -> None:
-    file, wanted = load(LOCKING), parse_objective("force.6.major")
+    text = engine_text(
+        crank="stroke = 120\nthrows = [0, 120, 240]\nspacing = 160",
+        rod="length = 200\nmass = 1.9\ncg = 55",
+        piston="mass = 1.3",
+        layout="bank_angle = 60",
+        articulation="knuckle_radius = 90\nknuckle_angles = [0, 60]\nrod = { length = 115, mass = 0.62, cg = 60 }",
+    )
+    file, wanted = load(text), parse_objective("force.6.major")
     found = search_arrangements(file, "bank_angle", wanted)
     low, high = 4.8, 93.8
     assert found.refused.startswith("layout.bank_angle = 0: ")

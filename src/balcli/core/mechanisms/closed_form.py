@@ -74,28 +74,18 @@ SERIES = frozenset(
 )
 
 
-def select_orders(harmonics: Harmonics, rows: slice) -> Harmonics:
-    """Return some orders of the series.
-
-    Args:
-        harmonics: Series by name, shape (orders, mechanisms, *trailing).
-        rows: Rows of the orders.
-    """
-    return {name: Series(series.c[rows], series.noise) for name, series in harmonics.items()}
-
-
-def select_cylinders(harmonics: Harmonics, which: Rows) -> Harmonics:
+def select_cylinders(harmonics: Harmonics, which: Rows, orders: slice = slice(None)) -> Harmonics:
     """Return the series of some mechanisms.
 
     Args:
-        harmonics: Series by name, shape (orders, mechanisms, *trailing).
+        harmonics: Series by name, shape (orders, mechanisms).
         which: Index of the mechanism of each cylinder.
+        orders: Rows of the orders.
     """
-
-    def select(noise: Array | float) -> Array | float:
-        return noise if np.ndim(noise) == 0 else np.asarray(noise)[which]
-
-    return {name: Series(s.c[:, which], select(s.noise)) for name, s in harmonics.items()}
+    return {
+        name: Series(s.c[orders][:, which], np.broadcast_to(s.noise, s.c.shape[1:])[which])
+        for name, s in harmonics.items()
+    }
 
 
 def find_harmonics(

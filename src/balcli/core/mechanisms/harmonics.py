@@ -10,7 +10,6 @@ order.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Collection, Sequence
 
 import numpy as np
@@ -39,20 +38,19 @@ def find_distinct(*figures: Numbers) -> tuple[tuple[Numbers, ...], Rows]:
             broadcast.
     """
     shape = np.broadcast_shapes(*(values.shape for values in figures))
-    starts: dict[tuple[tuple[tuple[int, ...], bytes], ...], int] = {}
+    indices: dict[tuple[object, ...], Rows] = {}  # mechanisms by the figures of a cylinder
     different: list[list[Numbers]] = []
     which = np.empty(shape, np.intp)
     count = 0
     for row in range(shape[0]):
-        own = [narrow(values[row if len(values) > 1 else 0]) for values in figures]
-        key = tuple((values.shape, values.tobytes()) for values in own)
-        own_shape = np.broadcast_shapes(*(values.shape for values in own))
-        own_count = math.prod(own_shape)
-        if key not in starts:
-            starts[key] = count
-            different.append([np.broadcast_to(values, own_shape).ravel() for values in own])
-            count += own_count
-        which[row] = starts[key] + np.arange(own_count).reshape(own_shape)
+        narrowed = (narrow(values[row if len(values) > 1 else 0]) for values in figures)
+        own = np.broadcast_arrays(*narrowed)
+        key = (own[0].shape, *(values.tobytes() for values in own))
+        if key not in indices:
+            indices[key] = count + np.arange(own[0].size).reshape(own[0].shape)
+            different.append([values.ravel() for values in own])
+            count += own[0].size
+        which[row] = indices[key]
     joined = tuple(np.concatenate(parts) for parts in zip(*different, strict=True))
     return joined, which
 

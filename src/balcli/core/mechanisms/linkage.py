@@ -248,16 +248,11 @@ class TurningMotion(Motion):
     ) -> None:
         vars(self).update(vars(inside))
         self._inside, self._turned = inside, on_circle(psi)
-        velocity, acceleration = (
-            np.asarray(figure, complex) for figure in (inside.velocity, inside.acceleration)
-        )
         place = compose(inside.place, np.asarray(offset))
-        piston = PointMass(place, velocity, acceleration)
-        if on_knuckle is None:
-            self.points = (self._see(piston, 1.0),)
-        else:
-            knuckle = self._see(inside.points[0], on_knuckle)
-            self.points = self._see(piston, 1 - on_knuckle), knuckle
+        z1, z2 = (np.asarray(rate, complex) for rate in (inside.velocity, inside.acceleration))
+        piston = PointMass(place, z1, z2)
+        shares = (1.0,) if on_knuckle is None else (1 - on_knuckle, on_knuckle)
+        self.points = tuple(map(self._see, (piston, *inside.points), shares))
 
     def _see(self, point: PointMass, share: Figure) -> PointMass:
         """Return a point of the mechanism relative to the direction of the pin."""

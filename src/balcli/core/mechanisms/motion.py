@@ -20,11 +20,9 @@ from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
-from ..phasors import Array, Complex, Figure
+from ..phasors import Array, Complex, Figure, Numbers
 
-# Sums for mechanisms without masses on curves.
-_NONE = np.zeros(())
-_NO_VECTOR = np.zeros((), complex)
+_NONE: Numbers = np.zeros(())  # sum for mechanisms without masses on curves
 
 
 class PointMass(NamedTuple):
@@ -104,12 +102,12 @@ class Motion:
     @property
     def velocity_of_mass(self) -> Complex:
         """Momentum of unit mass on the curves; the figures below are for unit mass as well."""
-        return sum((p.share * p.z1 for p in self.points), _NO_VECTOR)
+        return sum((p.share * p.z1 for p in self.points), _NONE)
 
     @cached_property
     def acceleration_of_mass(self) -> Complex:
         """Derivative of `velocity_of_mass` by the crank angle."""
-        return sum((p.share * p.z2 for p in self.points), _NO_VECTOR)
+        return sum((p.share * p.z2 for p in self.points), _NONE)
 
     @property
     def swirl(self) -> Array:

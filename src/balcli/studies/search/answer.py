@@ -262,13 +262,10 @@ def _search_numbers(
     refused = judge.refused
     if refused is not None and not np.isfinite(optima.costs).any():
         raise InputError(refused.problems)
-    designs, lines = (
-        [dict(zip(ranges, place, strict=True)) for place in places.tolist()]
-        for places in (optima.places, optima.lines)
-    )
+    designs = [dict(zip(ranges, place, strict=True)) for place in optima.places.tolist()]
     found: Iterator[Found] = iter(())
     if designs:
-        found = rank_designs(designs, judge.evaluate(optima.places), objective, lines)
+        found = rank_designs(designs, judge.evaluate(optima.places), objective)
     same = np.ptp(optima.costs) <= _ROUNDING * np.abs(optima.costs).max()
     why = "" if refused is None else f"{refused.file}: {refused.problems[0]}"
     return found, bool(not why and same and np.all(low < high)), why

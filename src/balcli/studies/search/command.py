@@ -56,19 +56,17 @@ def sheet(result: Search, _system: System) -> Sheet:
     has no column if it is a single quantity.
     """
     design, found = result.results[0].design, columns(result)
-    heads: list[str] = []
-    cells: list[list[str]] = []
+    shown: list[tuple[str, list[str]]] = []  # heading and cells of each column
     for name, column in found.values.items():
         unit = found.units.get(name, "")
         if name in design:
-            heads.append(name_with_unit(_in_words(name), unit))
-            cells.append([_setting(one.design[name]) for one in result.results])
+            settings = [_setting(one.design[name]) for one in result.results]
+            shown.append((name_with_unit(_in_words(name), unit), settings))
         elif name != "objective" or [*result.objective.weights.values()] != [1.0]:
             fit = unit_of_name(unit).fit(max(column))
-            heads.append(name_with_unit(name, fit.name))
-            cells.append([number(value / fit.size) for value in column])
-    columns_shown = zip(heads, cells, strict=True)
-    grid = Grid.of_columns(_title(result), columns_shown, " ".join(_notes(result)))
+            figures = [number(value / fit.size) for value in column]
+            shown.append((name_with_unit(name, fit.name), figures))
+    grid = Grid.of_columns(_title(result), shown, " ".join(_notes(result)))
     grid = grid._replace(words=tuple(range(len(design))))
     return Sheet(result.model.name or NAMELESS, (*assumed_facts(result.assumed), grid))
 
@@ -99,10 +97,6 @@ def _notes(result: Search) -> Iterator[str]:
     if result.constant:
         same = " and ".join(q.name for q in result.objective.weights)
         yield f"No effect on {same}, which is the same at every searched value."
-    for row, one in enumerate(() if result.constant else result.results, 1):
-        if one.line and one.line != one.design:
-            point = ", ".join(map(_setting, one.line.values()))
-            yield f"Row {row}: all points on the straight line to ({point}) are equally good."
     for key in result.at_ends:
         yield f"The best {key} is an end of its range; a wider range may contain a better value."
     names = (q.name for q in result.objective.quantities)

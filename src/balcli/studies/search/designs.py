@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from ...core.phases import TURN
 from ...core.phasors import Array, Figure
-from ...core.records import HIDDEN, INLINE
+from ...core.records import INLINE
 from ...engine.build import build
 from ...engine.engine import Engine, take_model
 from ...engine.figures import ranked
@@ -62,14 +62,11 @@ class Found:
             name of a number.
         objective: Value of the objective.
         quantities: Value of each quantity by its name.
-        line: Another design on a line of equally good ones; without such a line, the design itself
-            or None.
     """
 
     design: Annotated[Design, INLINE]
     objective: float
     quantities: Mapping[str, float]
-    line: Annotated[Design | None, HIDDEN] = None
 
 
 def list_changes(design: Design) -> dict[str, object]:
@@ -216,15 +213,12 @@ def parse_objective(
     """
     if (minimise is None) == (maximise is None):
         raise BalcliError("give exactly one of --minimise and --maximise")
-    goal = maximise or minimise or ""
+    terms = [term.partition("=") for term in (maximise or minimise or "").split(",")]
     weights: dict[AnyQuantity, float] = {}
-    all_weighted = True
-    for term in goal.split(","):
-        name, _, weight = term.partition("=")
-        share = _parse_positive(weight, term) if weight else 1.0
+    for name, _, weight in terms:
+        share = _parse_positive(weight, f"{name}={weight}") if weight else 1.0
         weights |= dict.fromkeys(_parse_sizes(name, with_gas), share)
-        all_weighted &= bool(weight)
-    if not all_weighted:
+    if not all(weight for *_, weight in terms):
         _refuse_several_units(weights, "maximise" if maximise else "minimise")
     bounds: dict[AnyQuantity, float] = {}
     for text in limits:
@@ -347,8 +341,7 @@ class NumbersJudge:
             InputError: A point makes no engine.
         """
         columns = dict(zip(self.paths, points.T, strict=True))
-        values = self._evaluator.evaluate(columns, (len(points),))
-        return dict(zip(self.objective.quantities, values, strict=True))
+        return self._evaluator.evaluate(columns, (len(points),))
 
 
 def find_unevenness(engine: Engine, model: EngineFile) -> Array:
@@ -394,15 +387,11 @@ def rank_throws(model: EngineFile, throws: Array, objective: Objective) -> Itera
     if not len(throws):
         return
     found = Evaluator(model, objective.quantities).evaluate(name_throws(throws), throws.shape[:1])
-    designs = [{"throws": row} for row in throws.tolist()]
-    yield from rank_designs(designs, dict(zip(objective.quantities, found, strict=True)), objective)
+    yield from rank_designs([{"throws": row} for row in throws.tolist()], found, objective)
 
 
 def rank_designs(
-    designs: Sequence[Design],
-    values: Mapping[AnyQuantity, Array],
-    objective: Objective,
-    lines: Sequence[Design] = (),
+    designs: Sequence[Design], values: Mapping[AnyQuantity, Array], objective: Objective
 ) -> Iterator[Found]:
     """Yield the designs that satisfy the limits, best first, with their quantities.
 
@@ -410,14 +399,13 @@ def rank_designs(
         designs: Arrangements.
         values: Values of each quantity, shape (designs,).
         objective: Objective of the search.
-        lines: `Found.line` of each design.
     """
     costs = objective.judge(values)
     for k in np.argsort(ranked(costs), kind="stable"):
         if costs[k] < BROKEN:
             figures = {q.name: float(value[k]) for q, value in values.items()}
             total = -costs[k] if objective.maximise else costs[k]
-            yield Found(designs[k], float(total), figures, lines[k] if lines else None)
+            yield Found(designs[k], float(total), figures)
 
 
 def rank_one_by_one(
@@ -436,16 +424,14 @@ def rank_one_by_one(
     """
     every = list(islice(designs, MOST_DESIGNS_ONE_BY_ONE + 1))
     refuse_many(len(every))
-    rows: list[list[Array]] = []
+    rows: list[dict[AnyQuantity, Array]] = []
     for k, design in enumerate(every, 1):
         changed = parse_dict(change_tables(model, list_changes(design)), model.folder)
         rows.append(Evaluator(changed, objective.quantities).evaluate({}, (1,)))
         if tell(k / len(every)):
             break
-    values = np.array(rows).reshape(-1, len(objective.quantities)).T
-    return rank_designs(
-        every[: len(rows)], dict(zip(objective.quantities, values, strict=True)), objective
-    )
+    values = {q: np.ravel([row[q] for row in rows]) for q in objective.quantities}
+    return rank_designs(every[: len(rows)], values, objective)
 
 
 def refuse_many(count: int) -> None:

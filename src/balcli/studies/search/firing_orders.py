@@ -30,7 +30,7 @@ from .throws import count_from
 
 @dataclass(frozen=True)
 class Slots:
-    """The firings of one cycle. The constructor raises BalcliError for too many cylinders.
+    """The firings of one cycle.
 
     Attributes:
         cells: Cylinders that fire.
@@ -44,17 +44,10 @@ class Slots:
     cycle: float
     sense: int = 1
 
-    def __post_init__(self) -> None:
-        if len(self.cells) > MOST_CYLINDERS_FIRED:
-            raise BalcliError(
-                f"firing orders of {len(self.cells)} cylinders are too many to search; at most "
-                f"{MOST_CYLINDERS_FIRED} cylinders are searched"
-            )
-
     @property
-    def first(self) -> int:
+    def first(self) -> Cell:
         """Cylinder with which firing orders begin: the lowest, 1 unless that is a dummy."""
-        return min(cell.number for cell in self.cells)
+        return min(self.cells, key=lambda cell: cell.number)
 
     def find_cranks(self) -> list[tuple[float, ...]]:
         """Return the throw angles of every crank that allows an even firing order; cylinder 1's
@@ -63,7 +56,7 @@ class Slots:
         Raises:
             BalcliError: There are more than MOST_EVEN_CRANKS cranks.
         """
-        first = next(c.throw for c in self.cells if c.number == self.first)
+        first = self.first.throw
         throws = [first, *({c.throw for c in self.cells} - {first})]
         every = self._place_throws({}, throws, Counter(self._slots))
         found = list(islice(every, MOST_EVEN_CRANKS + 1))
@@ -84,7 +77,7 @@ class Slots:
             yield tuple(throws[t] for t in sorted(throws))
             return
         cells = [c for c in self.cells if c.throw == free[0]]
-        lead = self.top[cells[0].number] - self.top[self.first]
+        lead = self.top[cells[0].number] - self.top[self.first.number]
         turns = [self.sense * 180.0 * slot / len(self.cells) for slot in sorted(left)]
         angles = [(lead - turn) % 360.0 for turn in turns]
         for angle in angles if throws else [0.0]:
@@ -96,17 +89,16 @@ class Slots:
         """Yield all even firing orders of a crank, which begin with the cylinder `first`. Cylinders
         that reach top dead centre together take their slots in any sequence.
         """
-        start = throws[next(c.throw for c in self.cells if c.number == self.first)]
+        start = throws[self.first.throw]
         ready: dict[int, list[int]] = {slot: [] for slot in self._slots}
         for cell in self.cells:
-            ready.setdefault(self._find_slot(cell, throws[cell.throw] - start), []).append(
-                cell.number
-            )
+            slot = self._find_slot(cell, throws[cell.throw] - start)
+            ready.setdefault(slot, []).append(cell.number)
         if {slot: len(numbers) for slot, numbers in ready.items()} == Counter(self._slots):
             for chosen in product(*map(permutations, ready.values())):
                 turns = dict(zip(ready, map(iter, chosen), strict=True))
                 order = tuple(next(turns[slot]) for slot in self._slots)
-                if order[0] == self.first:
+                if order[0] == self.first.number:
                     yield order
 
     @cached_property
@@ -122,7 +114,7 @@ class Slots:
         it has no slot there.
         """
         grain = 180.0 / len(self.cells)
-        ready = self.sense * (self.top[cell.number] - self.top[self.first] - throw)
+        ready = self.sense * (self.top[cell.number] - self.top[self.first.number] - throw)
         nearest = round(ready / grain)
         slot = nearest % (2 * len(self.cells))
         fires = abs(ready - nearest * grain) <= TOLERANCE_DEG and slot in self._slots
@@ -134,7 +126,8 @@ def find_slots(model: EngineFile) -> tuple[Slots, Array]:
     cranks with even firing orders; cylinder 1's throw is at 0.
 
     Raises:
-        BalcliError: A cylinder has its own throw angle, or there is no even firing order.
+        BalcliError: A cylinder has its own throw angle, there are too many cylinders, or there is
+            no even firing order. The error names a splay that would make the file's order even.
     """
     layout = plan_cylinders(model)
     top_deg = assemble(model).pins.tops_deg
@@ -150,21 +143,20 @@ def find_slots(model: EngineFile) -> tuple[Slots, Array]:
     sense = -1 if model.layout.rotary else 1
     order = model.layout.firing_order or layout.numbers  # without dummies
     firing = tuple(cell for cell in layout.cells if cell.number in order)
+    if len(firing) > MOST_CYLINDERS_FIRED:
+        raise BalcliError(
+            f"firing orders of {len(firing)} cylinders are too many to search; at most "
+            f"{MOST_CYLINDERS_FIRED} cylinders are searched"
+        )
     slots = Slots(firing, at_throw, cycle_deg(model.layout), sense)
     possible = [model.crank.throws] if model.crank.throws else slots.find_cranks()
     if not possible or next(slots.find_orders(possible[0]), None) is None:
-        raise BalcliError(_tell_that_none_is_even(model))
+        splay = find_fitting_splay(model.with_table("layout", firing_intervals=None))
+        hint = "" if splay is None else f"; with split pins they do: crank.splay = {splay:g}"
+        told = "crank.throws allow no even firing order, and only even ones are searched"
+        raise BalcliError(told + hint)
     throws = np.array(possible)
     return slots, count_from(throws[:, :1], throws)
-
-
-def _tell_that_none_is_even(model: EngineFile) -> str:
-    """Return the message, with a splay that would make the file's firing order even, if there is
-    one.
-    """
-    told = "crank.throws allow no even firing order, and only even ones are searched"
-    splay = find_fitting_splay(model.with_table("layout", firing_intervals=None))
-    return told if splay is None else f"{told}; with split pins they do: crank.splay = {splay:g}"
 
 
 def search_firing_order(model: EngineFile, objective: Objective, tell: Tell) -> Iterator[Found]:

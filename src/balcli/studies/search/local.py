@@ -104,13 +104,10 @@ class LocalOptima(NamedTuple):
     Attributes:
         places: Local optima that satisfy all limits, best first, shape (optima, numbers), rounded
             as far as the costs allow.
-        lines: For each optimum, the other end of a line of equally good points, or the optimum
-            itself, shape (optima, numbers).
         costs: Costs of the points that were spread over the box.
     """
 
     places: Array
-    lines: Array
     costs: Array
 
 
@@ -130,22 +127,18 @@ def find_local_optima(judge: Judge, box: Box, effort: Effort) -> LocalOptima:
         if cost < BROKEN
     ]
     noise = _ROUNDING * np.abs(costs[costs < BROKEN]).max(initial=0)
-    best, lines = _separate(judge, box, rounded, effort, noise)
+    best = _separate(judge, box, rounded, effort, noise)
     order = np.argsort(ranked(judge(best)), kind="stable")
-    return LocalOptima(best[order], lines[order], costs)
+    return LocalOptima(best[order], costs)
 
 
-def _separate(
-    judge: Judge, box: Box, found: list[Array], effort: Effort, noise: float
-) -> tuple[Array, Array]:
-    """Return the optima that are separated from all better ones by higher costs, and the ends of
-    lines of equally good points (`LocalOptima.lines`).
+def _separate(judge: Judge, box: Box, found: list[Array], effort: Effort, noise: float) -> Array:
+    """Return the optima that are separated from all better ones by higher costs.
 
     If a search stopped on a line, such as the edge of a limit, a better point of the line can be
     reached without higher costs.
     """
     best: list[Array] = []
-    lines: list[Array] = []
     points = np.reshape(found, (-1, box.size))
     for point in points[np.argsort(ranked(judge(points)), kind="stable")]:
         for n, other in enumerate(best):
@@ -156,15 +149,12 @@ def _separate(
             along = judge(box.bring_inside(line))
             level = along[-1] + _LEVEL * abs(along[-1]) + noise
             if along.max() <= level:
-                if along[0] >= 2 * along[-1] - level:
-                    lines[n] = point
-                else:
-                    best[n] = lines[n] = _slide(judge, box, other, way, effort)
+                if along[0] < 2 * along[-1] - level:
+                    best[n] = _slide(judge, box, other, way, effort)
                 break
         else:
             best.append(point)
-            lines.append(point)
-    return np.reshape(best, (-1, box.size)), np.reshape(lines, (-1, box.size))
+    return np.reshape(best, (-1, box.size))
 
 
 def _slide(judge: Judge, box: Box, point: Array, way: Array, effort: Effort) -> Array:
@@ -177,7 +167,8 @@ def _slide(judge: Judge, box: Box, point: Array, way: Array, effort: Effort) -> 
 
     finer = Effort(effort.steps, 2, effort.exact)
     places = find_local_optima(lambda along: judge(find(along)), line, finer).places
-    return find(places[0]) if len(places) else point
+    both = np.vstack([*map(find, places[:1]), point])
+    return np.asarray(both[judge(both).argmin()])
 
 
 def _find_starts(points: Array, costs: Array, box: Box) -> list[int]:
@@ -234,9 +225,8 @@ def _adapt(judge: Judge, box: Box, mean: Array, step: float, effort: Effort) -> 
         live = np.flatnonzero(size * widths[:, -1] > effort.exact)
         if not len(live):
             break
-        sizes = size[live, None] * np.exp(
-            random.standard_normal((len(live), drawn)) / math.sqrt(2 * k)
-        )
+        changes = random.standard_normal((len(live), drawn)) / math.sqrt(2 * k)
+        sizes = size[live, None] * np.exp(changes)
         z = random.standard_normal((len(live), drawn, k))
         moves = np.einsum("sij,slj->sli", axes[live], z * widths[live, None])
         points = box.bring_inside(mean[live, None] + sizes[..., None] * moves * box.span)

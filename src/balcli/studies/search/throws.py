@@ -239,9 +239,8 @@ def _list_sequences(left: Left) -> NDArray[np.int8]:
     """
     if not sum(left):
         return np.empty((1, 0), np.int8)
-    parts = [
-        np.insert(_list_sequences(fewer), 0, level, axis=1) for level, fewer in _take_one(left)
-    ]
+    starts = _take_one(left)
+    parts = [np.insert(_list_sequences(fewer), 0, level, axis=1) for level, fewer in starts]
     return np.concatenate(parts)
 
 
