@@ -41,8 +41,8 @@ SAME_IMEP = 0.03  # a larger relative difference from the stated imep gives a wa
 def build_diagram(
     gas: Gas, path: str, name: str, columns: NumberColumns, strokes: int
 ) -> tuple[PiecewiseCurve, list[str]]:
-    """Return the absolute pressure (Pa) over the cycle angle, and a note if the file has several
-    cycles.
+    """Return the absolute pressure (Pa) over the cycle angle, and warnings of rows that are not
+    used.
 
     Args:
         gas: Table of the engine file that describes the diagram.
@@ -67,7 +67,20 @@ def build_diagram(
         raise BalcliError(f"{name}: {line}{message}")
     firing = 360.0 if gas.zero == "gas-exchange" else 0.0
     curve = draw_diagram(angle, pressure, strokes=strokes, firing_deg=firing - gas.phase)
-    return curve, [f"{path}: {name}: has {count} cycles; their mean is used"] * (count > 1)
+    left = [f"{path}: {name}: has {count} cycles; their mean is used"] if count > 1 else []
+    first, last = (float(pressure[k]) / (columns.scales[1] * BAR) for k in (0, -1))
+    if first != last and _is_closed(angle, period):
+        unit = _name_unit(columns)
+        left.append(
+            f"{path}: {name}: the last row closes the cycle with {last:.4g} {unit}, but the first "
+            f"row has {first:.4g} {unit}; the first is used"
+        )
+    return curve, left
+
+
+def _name_unit(columns: NumberColumns) -> str:
+    """Return the unit of a diagram's pressures, without the g of gauge pressures."""
+    return columns.units[1].removesuffix("g")
 
 
 def _average_cycles(angle: Array, pressure: Array, period: float) -> tuple[Array, Array, int]:
@@ -163,7 +176,7 @@ def list_doubts(
         found: Pressure over the cycle angle, Pa.
         imep: Indicated mean effective pressure, Pa.
     """
-    unit, scale = columns.units[1].removesuffix("g"), columns.scales[1] * BAR  # absolute; Pa
+    unit, scale = _name_unit(columns), columns.scales[1] * BAR  # Pa
     top, value = find_highest(found)
     if abs(math.degrees(top)) > NEAR_DEG:
         yield (
