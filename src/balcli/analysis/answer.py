@@ -228,11 +228,16 @@ def analyze(
     of_gas = () if engine.gas is None else list_gas_orders(engine)
     due = DEFAULT_ORDERS if asked is None else asked
     every = merge_orders(find_relevant_orders(engine), of_gas, due)
-    # An engine close to locking has tens of thousands of orders, which only peaks need.
-    few = every[every <= HIGHEST_ORDER_UNASKED] if asked is None else asked
-    visible = compute_spectra(engine, few, shown)
+    computed = every if asked is None or "peak" in wanted else asked
+    peaked = {kind.name for kind in VECTORS} if "peak" in wanted else set()
+    if engine.gas is None or computed.max() <= HIGHEST_ORDER_UNASKED:
+        everything = compute_spectra(engine, computed, shown | peaked)
+        visible = everything.only(shown)
+    else:  # an engine close to locking has tens of thousands of orders, which only peaks need
+        few = every[every <= HIGHEST_ORDER_UNASKED] if asked is None else asked
+        visible = compute_spectra(engine, few, shown)
+        everything = compute_spectra(engine, computed, peaked) if peaked else visible
     visible = visible.select_orders(choose_orders(visible, of_gas) if asked is None else asked)
-    free = {kind.name for kind in VECTORS}
     has_linkage = engine.cylinders.linkage is not None and not engine.placed
     model = take_model(engine) if "parts" in wanted else None
     provable = shown if engine.places_known else shown - {"moment"}
@@ -242,7 +247,7 @@ def analyze(
         state=describe_state(engine),
         spectra=visible,
         assumed=engine.list_assumed("gas", without=list_idle_defaults(engine, wanted)),
-        peak=find_peaks(compute_spectra(engine, every, free)) if "peak" in wanted else None,
+        peak=find_peaks(everything) if peaked else None,
         sizing=_size(engine, ladder, asked, wanted) if ladder and "sizing" in wanted else None,
         ladder=ladder if "ladder" in wanted else None,
         cylinders=_analyze_cylinders(engine, visible.orders, shown) if by_cylinder else None,
