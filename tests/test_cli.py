@@ -425,8 +425,8 @@ def test_a_pipe_in_a_folder_is_passed_over(tmp_path):
 
 FAULT = (
     "balcli: internal error (ZeroDivisionError: by nought); this is a fault of balcli, do not trust "
-    "its figures: please report it with the command and its files (BALCLI_TRACEBACK=1 shows "
-    "where it is)\n"
+    "its figures: please report it with the command and its files (BALCLI_TRACEBACK=1 prints "
+    "a traceback)\n"
 )
 
 

@@ -96,7 +96,7 @@ def test_an_engine_without_a_recorded_result_is_a_difference(check, tmp_path):
     assert check(lonely) == (0, "1 engine, 0 differences\n", "")
 
 
-GONE = "its result is recorded in expected/{0}.json, but there is no {0}.toml; bring it back, or delete the record\n"
+GONE = "its result is recorded in expected/{0}.json, but there is no {0}.toml; restore it, or delete the record\n"
 
 
 def test_a_record_whose_engine_is_gone_is_a_difference(check, file, tmp_path):

@@ -31,9 +31,9 @@ and pistons with their joints and guides, and balancer shafts. All of them are m
 that one joint holds. Exudyn computes the motion in {fewest} to {most} time steps per revolution;
 the results are extrapolated to a step of zero. Orders 0 to {highest} of the force and moment on
 that joint, and of the torque of the drive, are compared with `balcli analyze`. Gas is left out, so
-that only inertia is compared. The table lists the largest difference of each group, rounded up to a
-power of ten. It is relative to the largest order of the group, or to a thousandth of one cylinder's
-force or moment if that is larger.
+that only inertia is compared. The table lists the largest difference in each column, rounded up to
+a power of ten. A difference is relative to the largest amplitude of all orders in its column, or to
+a thousandth of one cylinder's force or moment if that is larger.
 
 {engines}
 
@@ -42,8 +42,8 @@ force or moment if that is larger.
 [openTorsion](https://github.com/Aalto-Arotor/openTorsion) {opentorsion} computes natural
 frequencies, mode shapes, damped poles, and the torque in every shaft over a range of speeds. The
 difference of a frequency is relative to that frequency. A dash marks poles that cannot be compared,
-because openTorsion computes none for shafts with loss factors. For engines, balcli computes the
-torques that excite the throws.
+because openTorsion computes no poles for shafts with loss factors. In the rows of engines, both
+programs use the torques on the throws that balcli computes.
 
 {chains}
 """

@@ -45,20 +45,20 @@ answers. Of the {figures} printed figures,
 - {rounded} agree within the rounding of the source, or within the accuracy of its drawing
   ([reasons](#within-the-rounding-of-the-source)),
 - {definition} follow [another definition](#other-definitions), such as two terms of a series,
-- {wrong} are [wrong in the source](#wrong-in-the-source); {code} of these come from the code of a
+- {wrong} are [wrong in the source](#wrong-in-the-source); {code} of these come from a FOSSEE
   companion, not from its book.
 
-For each figure of the last two kinds, a second calculation without balcli reproduces the printed
-figure by the other definition, or gives the right value. A FOSSEE companion is code that solves the
-examples of a book; its authors compared its output with the book. Half of the problems come from
-these companions.
+A FOSSEE companion is code that solves the examples of a book; the authors of the code compared its
+output with the book. Half of the problems come from these companions. For each figure of the last
+two kinds, a second calculation without balcli reproduces the printed figure by the other
+definition, or gives the correct value.
 
 No printed answers were found for rotary, articulated and geared engines, for torsional dampers and
 pendulums, and for most schemes of `balance` (shafts, minimax, ellipse, compensators, couplings).
 For these, tests compare balcli with other calculations and [other programs](programs.md), and with
-the tables of five texts (`balcli tables`).
+the tables of five books and papers (`balcli tables`).
 
-The files with all data and commands are in `tests/published`, and tests run them. `balcli tables
+The data and commands of all problems are in `tests/published`; tests run them. `balcli tables
 published` lists the problems; with `--format csv`, it lists every figure."""
 
 

@@ -54,7 +54,7 @@ def __dir__() -> list[str]:
     return __all__
 
 
-if not TYPE_CHECKING:  # with __getattr__, a type checker accepts any name
+if not TYPE_CHECKING:  # a type checker that sees __getattr__ accepts any name
 
     def __getattr__(name: str) -> object:
         """Return the object of a public name; its module is imported at the first use."""

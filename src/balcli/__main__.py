@@ -14,10 +14,10 @@ def main() -> NoReturn:
     """Run the command line; an unexpected error becomes one sentence and exit status 70."""
     exit_on_signals()
     for name, mode in (("stdin", "w"), ("stdout", "r"), ("stderr", "w")):
-        if getattr(sys, name) is None:  # closed by the caller (`>&-`): using it raises OSError
+        if getattr(sys, name) is None:  # the caller closed the stream (`>&-`)
             setattr(sys, name, open(os.devnull, mode, encoding="utf-8"))  # noqa: SIM115
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # the matrices are too small for threads
-    os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "1")  # else pydantic searches all packages
+    os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "1")  # else pydantic searches for plugins
     status: int = Exit.DONE
     try:
         ignore_matplotlib_settings()
@@ -62,7 +62,7 @@ def _report_fault(error: Exception) -> None:
     what = ": ".join(filter(None, (type(error).__name__, str(error))))
     say(
         f"balcli: internal error ({what}); this is a fault of balcli, do not trust its figures: "
-        "please report it with the command and its files (BALCLI_TRACEBACK=1 shows where it is)"
+        "please report it with the command and its files (BALCLI_TRACEBACK=1 prints a traceback)"
     )
 
 

@@ -1,8 +1,8 @@
-"""Measure run time and error of several methods for the same figures, on this machine.
+"""Measure run time and error of several methods that compute the same forces, on this machine.
 
-The methods are the two-term formula, the series that books print, the closed form (balcli itself),
-the FFT of samples, and differences of the piston's position (time stepping). All but the closed
-form are plain numpy. Errors are relative to results in exact fractions.
+The methods are the two-term formula, the power series that books print, the closed form (balcli
+itself), the FFT of samples, and differences of the piston's position (time stepping). All methods
+but the closed form are written in plain numpy. Errors are relative to results from exact fractions.
 
 The result is shown as a table, JSON or CSV.
 """
@@ -87,7 +87,7 @@ class Row:
     Attributes:
         task: Name of the task.
         method: Name of the method.
-        seconds: Run time; in a sweep, the run time of one variant.
+        seconds: Run time of one computation, s.
         error: Largest relative error.
     """
 
@@ -102,7 +102,7 @@ class Ratio:
     """A run time as a multiple of another.
 
     Attributes:
-        what: Names of both runs.
+        what: Names of both runs, with a slash between them.
         value: The ratio.
     """
 
@@ -116,7 +116,7 @@ class Bench:
 
     Attributes:
         rows: Run time and error of every method.
-        ratios: Pairs of run times, measured in turn.
+        ratios: Ratios of run times; the two programs of a ratio are started alternately.
     """
 
     format: Literal["balcli.bench/1"] = "balcli.bench/1"
@@ -134,7 +134,7 @@ class Case(NamedTuple):
 
 
 def measure() -> Bench:
-    """Time every method and a cold start of the program; this takes about ten seconds."""
+    """Time every method and cold starts of the program; this takes about ten seconds."""
     rows = tuple(
         Row(task=case.task, method=case.method, seconds=time_run(case.run), error=case.error)
         for case in list_cases()
@@ -155,12 +155,12 @@ def list_cases() -> Iterator[Case]:
             yield Case(task, name, partial(way, engine, orders), error)
 
 
-# ------------------------------------------------------------------ coefficients A_n
+# ------------------------------------------------------------------ coefficients A_n of cos(n psi)
 Coefficients = Callable[[list[int], float], Array]
 
 
 def find_exactly(orders: list[int], lam: float) -> Array:
-    """Return A_n, exact to the last digit, from the series in exact fractions."""
+    """Return A_n, computed in exact fractions and rounded once to a float."""
     x = Fraction(lam)
     series = (power_series.piston(n, EXACT_POWER).items() for n in orders)
     return np.array([float(sum(c * x**p for p, c in terms)) for terms in series])
@@ -180,14 +180,14 @@ def _cut_series(power: int) -> Coefficients:
 
 
 def _accelerate(psi: Array, lam: float) -> Array:
-    """Return the acceleration of the piston, divided by crank radius and squared speed."""
+    """Return the acceleration of the piston, divided by crank radius times crank speed squared."""
     cosine, sine = np.cos(psi), np.sin(psi)
     cos_beta = np.sqrt(1 - (lam * sine) ** 2)
     return cosine - lam * sine**2 / cos_beta + lam * cosine**2 / cos_beta**3
 
 
 # ------------------------------------------------------------------ force and moment of an engine
-Way = Callable[[Engine, list[int]], Complex]  # shape (2, orders, 2): kind, order, direction
+Way = Callable[[Engine, list[int]], Complex]  # shape (force and moment, orders, directions)
 
 
 def _add_up(find: Coefficients) -> Way:
@@ -212,8 +212,8 @@ def use_balcli(engine: Engine, orders: list[int]) -> Complex:
 
 
 def _sample(points: int, force_of: Callable[[Array, float, float, float], Complex]) -> Way:
-    """Return a method that samples the cylinders' forces over a turn and takes the FFT of the
-    sums.
+    """Return a method that samples the cylinders' forces over a revolution and takes the FFT of
+    their sums.
     """
 
     def evaluate(engine: Engine, orders: list[int]) -> Complex:
@@ -224,7 +224,7 @@ def _sample(points: int, force_of: Callable[[Array, float, float, float], Comple
         curves = np.stack([force.sum(axis=0), 1j * (z[:, None] * force).sum(axis=0)])
         lines, n = np.fft.fft(curves) / points, np.array(orders)
         both = np.stack([lines[:, n % points], lines[:, -n % points]], axis=-1)
-        return np.where(2 * n[:, None] < points, both, 0)  # higher orders are out of its reach
+        return np.where(2 * n[:, None] < points, both, 0)  # too few points for higher orders
 
     return evaluate
 
@@ -234,15 +234,15 @@ def _force_at_angles(psi: Array, lam: float, reciprocating: float, rotating: flo
 
 
 def _force_of_steps(psi: Array, lam: float, reciprocating: float, rotating: float) -> Complex:
-    """Return the force by central differences of the position, over one turn."""
-    piston = np.cos(psi) + np.sqrt(1 - (lam * np.sin(psi)) ** 2) / lam  # from the crank's axis
+    """Return the force by central differences of the position, over one revolution."""
+    piston = np.cos(psi) + np.sqrt(1 - (lam * np.sin(psi)) ** 2) / lam  # position / radius
     place, step = reciprocating * piston + rotating * np.exp(1j * psi), 2 * np.pi / psi.shape[-1]
     return (2 * place - np.roll(place, -1, axis=-1) - np.roll(place, 1, axis=-1)) / step**2
 
 
 def _list_columns(engine: Engine) -> tuple[float, float, Array, Array, Array]:
-    """Return m r omega² of the reciprocating and of the rotating mass (N), then the axis (rad),
-    crank angle (rad) and arm (m) of each cylinder.
+    """Return m r omega² of cylinder 1 for the reciprocating and for the rotating mass (N); and of
+    each cylinder the axis (rad), the crank angle (rad) and z from the point of reference (m).
     """
     c = engine.cylinders
     scale = c.radius[0] * engine.omega**2
@@ -256,7 +256,7 @@ def _list_columns(engine: Engine) -> tuple[float, float, Array, Array, Array]:
 
 
 def find_error(engine: Engine, way: Way, orders: list[int]) -> float:
-    """Return the largest error of a method, relative to the largest exact value of each order."""
+    """Return the largest error of a method, relative to the largest exact vector of each order."""
     exact = _add_up(find_exactly)(engine, orders)
     scale = np.abs(exact).max(axis=(0, 2), keepdims=True)
     return float((np.abs(way(engine, orders) - exact) / scale).max())
@@ -273,7 +273,7 @@ WAYS: dict[str, Way] = {
 
 # ------------------------------------------------------------------ run times
 def time_run(run: Callable[[], object]) -> float:
-    """Return the time of the quickest of several runs, s; short runs are repeated to last 20 ms."""
+    """Return the time of a run, s, in the quickest of several batches of 20 ms or of one run."""
     timer = timeit.Timer(run)
     once = max(timer.timeit(1), _SHORTEST)
     number = max(int(0.02 / once), 1)
@@ -281,10 +281,10 @@ def time_run(run: Callable[[], object]) -> float:
 
 
 def compare_starts() -> Iterator[Ratio]:
-    """Yield the time of a cold `balcli analyze` as a multiple of other programs' times."""
+    """Yield the time of a cold start of `balcli analyze`, divided by that of each other program."""
     others = {
-        "importing numpy, typer and pydantic": LIBRARIES,
-        "a minimal program that uses them to read an option": SMALLEST,
+        "import of numpy, typer and pydantic": LIBRARIES,
+        "minimal typer program that imports numpy and pydantic": SMALLEST,
     }
     for what, program in others.items():
         pairs = [
@@ -292,7 +292,7 @@ def compare_starts() -> Iterator[Ratio]:
             for _ in range(_PAIRS)
         ]
         first, second = np.median(pairs, axis=0)
-        yield Ratio(what=f"cold balcli analyze to {what}", value=float(first / second))
+        yield Ratio(what=f"cold balcli analyze / {what}", value=float(first / second))
 
 
 def _start(*argv: str, text: str = "") -> float:
@@ -304,7 +304,7 @@ def _start(*argv: str, text: str = "") -> float:
     return time.perf_counter() - start
 
 
-ROUNDING = 1e-13  # smaller errors are rounding
+ROUNDING = 1e-13  # smaller relative errors are shown as rounding
 
 
 def rows(result: Bench, _system: System) -> Rows:

@@ -29,7 +29,7 @@ from .version import __version__
 if TYPE_CHECKING:
     from typer._click import Command, Context, HelpFormatter, Parameter
 
-# Summary of each command; the help of the command itself may say more.
+# Summary of each command; the help of the command itself is longer.
 GROUPS = {
     "Analyse": {
         "analyze": "Free forces and moments by order, and devices that balance them.",
@@ -48,20 +48,20 @@ GROUPS = {
         "field": "Balance a rotor on its machine, from readings with trial weights.",
     },
     "Study": {
-        "numbers": "List the numbers of an engine file that can vary, and its quantities.",
+        "numbers": "List the numbers that a study can vary, and the quantities it can compute.",
         "sweep": "Quantities of an engine whose numbers vary over ranges.",
-        "search": "Find the best crank, firing order, bank angle or splay, or any numbers.",
-        "scatter": "Spread of forces and moments, and the tolerances that matter most.",
+        "search": "Find the best crank, firing order, bank angle, splay, or other numbers.",
+        "scatter": "Spread of forces and moments by tolerances, and which of these matter most.",
         "mounts": "Vibration of an engine on its mounts, over a range of speeds.",
         "torsion": "Torsional vibration of a crankshaft or any shafts; dampers, barred speeds.",
     },
     "Files and tables": {
-        "new": "Write a commented, valid engine file (or file of runs, or chain file).",
+        "new": "Write a commented, valid engine file, or a file of balancing runs or shafts.",
         "engines": "List the example engines that come with balcli, print one, or copy it.",
         "schema": "Print the JSON Schema of a file (for editors) or of a command's output.",
-        "check": "Recompute engines and compare with their recorded results.",
+        "check": "Recompute engines and compare the results with recorded ones.",
         "tables": "Recompute the tables printed in five books and papers; list their errata.",
-        "bench": "Measure run time and error of several methods on this machine.",
+        "bench": "Measure run time and error of several methods of calculation.",
     },
 }
 COMMANDS = {name: text for group in GROUPS.values() for name, text in group.items()}
@@ -84,7 +84,7 @@ _COMMANDS_OF = {
 }
 MODULES = {name: module for module, names in _COMMANDS_OF.items() for name in names}
 
-IN_FULL_PRECISION = ("curves", "sweep", "tables")  # --digits does not change their figures
+IN_FULL_PRECISION = ("curves", "sweep", "tables")  # commands whose figures --digits does not change
 
 
 class _Command(TyperCommand):
@@ -100,7 +100,9 @@ class _Command(TyperCommand):
 
 
 class _OnDemand(TyperGroup):
-    """The group of all commands; a command's module is imported when it or its help is needed."""
+    """The group of all commands; a command's module is imported when the command runs or
+    its help is printed.
+    """
 
     def __init__(self, **attributes: Any) -> None:
         super().__init__(**attributes)
@@ -153,7 +155,7 @@ def _share(
         if option.name in ("quiet", "verbose") or (option.name == "digits" and tables):
             shared = copy(option)
             shared.opts = [word for word in option.opts if word not in taken]
-            shared.expose_value, shared.envvar = False, None  # the group reads the variable
+            shared.expose_value, shared.envvar = False, None  # the group reads BALCLI_DIGITS
             if shared.opts:
                 yield shared
 
@@ -255,21 +257,21 @@ def _run() -> int | None:
     return status
 
 
-# Name of the thing that failed, if a system error names no file; empty if its text is enough.
+# Name of the thing that failed if a system error names no file; empty if the error needs no name.
 _UNNAMED = {errno.ENOENT: "working folder", errno.EAGAIN: "", None: ""}
 
 
 def _tell_what_the_system_lacks(error: OSError | MemoryError | UnicodeEncodeError) -> str:
     if isinstance(error, OSError):
-        named = error.filename or _UNNAMED.get(error.errno, "standard output")  # such as help
+        named = error.filename or _UNNAMED.get(error.errno, "standard output")  # as for help
         return ": ".join(filter(None, (named, error.strerror or str(error))))
     if isinstance(error, MemoryError):
         return f"there is not enough memory for this{f' ({error})' if str(error) else ''}"
-    return f"{error.object}: no file can have this name here ({error})"  # text is UTF-8
+    return f"{error.object}: cannot be a file name on this system ({error})"  # text is UTF-8
 
 
 def _usage(error: Any) -> str:
-    """Return the usage and the mistake as plain text. (The box of typer would fold it.)"""
+    """Return the usage and the mistake as plain text. (Typer would fold the text in a box.)"""
     text = StringIO()
     error.show(text)
     return text.getvalue().rstrip("\n").replace("Value error, ", "")  # pydantic's prefix

@@ -187,8 +187,8 @@ def describe_document(name: str) -> Node:
 
 REPORTS = (Format.TABLE, Format.JSON, Format.JUNIT)
 REPORT = "junit: an XML report for continuous integration."
-UPDATE = "Record the present results in expected/ next to the engines."
-TOLERANCE = "Allowed change of a figure, as a share of the largest figure of its group."
+UPDATE = "Record the present results in the folder expected/ next to each engine file."
+TOLERANCE = "Allowed change of a figure, as a share of the largest figure of the same quantity."
 
 
 def check(
@@ -201,8 +201,8 @@ def check(
     changed.
 
     A record holds the result of `analyze` (orders, peaks, displacement, dead centres) and, if the
-    file has these chapters, torque, mounts and torsion. A record whose engine file is missing
-    counts as a difference. Files of runs and chain files in a folder are skipped.
+    file has tables for them, main figures of `torque`, `mounts` and `torsion`. A record whose
+    engine file is missing counts as a difference. Other kinds of files in a folder are skipped.
 
     \b
     Examples:
@@ -261,14 +261,14 @@ def _check_engine(path: Path, *, update: bool, tolerance: float) -> CheckedEngin
 
 
 def _list_lines(checked: CheckedEngine) -> Iterator[str]:
-    """Yield a line for each cause, followed by the figures that changed."""
+    """Yield a line for each quantity with changed figures, followed by these figures."""
     for cause in dict.fromkeys(each.cause for each in checked.differences):
         moved = [each for each in checked.differences if each.cause == cause]
         if cause is None:
             yield from (f"{checked.engine}: {each}" for each in moved)
             continue
         largest = max((each.share for each in moved if each.share is not None), default=None)
-        share = "" if largest is None else f", by up to {largest:.1e} of the largest"
+        share = "" if largest is None else f", by up to {largest:.1e} of the largest figure"
         yield f"{checked.engine}: {cause}: {counted(len(moved), 'figure')} changed{share}"
         yield from (f"  {each}" for each in moved)
 
@@ -292,7 +292,7 @@ def _write_junit(checked: Sequence[CheckedEngine]) -> str:
 
 
 def bench(form: FormatOption = None, output: Output = None) -> None:
-    """Measure run time and error of several methods for the same figures, on this machine.
+    """Measure run time and error of several methods that compute the same forces, on this machine.
 
     \b
     Example:

@@ -122,7 +122,7 @@ class BalcliError(Exception):
 
 
 def tell_unwritable(target: str | PathLike[str], error: OSError) -> BalcliError:
-    """Return the error for a file that cannot be written; its text names a missing folder.
+    """Return the error for a file that cannot be written; it names the folder if this is missing.
 
     Args:
         target: Path of the file.
@@ -173,7 +173,7 @@ def check_type(function: str, value: object, kind: type | tuple[type, ...], want
         function: Name of the function or argument.
         value: Value to check.
         kind: Allowed types.
-        wanted: A right value, in words.
+        wanted: Instruction for the message, such as "give words".
 
     Raises:
         TypeError: The value has another type.
@@ -189,7 +189,7 @@ def check_number(name: str, value: object, wanted: str) -> float:
     Args:
         name: Name of the argument.
         value: Value to check.
-        wanted: A right value, in words.
+        wanted: Instruction for the message, such as "give a share".
 
     Raises:
         TypeError: The value is not a number.
@@ -202,8 +202,8 @@ def check_number(name: str, value: object, wanted: str) -> float:
 
 
 def refuse_more(name: str, values: object, most: int) -> None:
-    """Raise an error if a list, range or array has more than `most` values. The first member of a
-    list is checked in the same way. Nothing is copied.
+    """Raise an error if a list, range or array has more than `most` values. In a list of lists,
+    the first inner list is checked as well. Nothing is copied.
 
     Args:
         name: Name of the argument.
@@ -211,7 +211,7 @@ def refuse_more(name: str, values: object, most: int) -> None:
         most: Largest number of values.
 
     Raises:
-        BalcliError: There are more values.
+        BalcliError: There are more than `most` values.
     """
     size = getattr(values, "size", None)
     try:
@@ -227,7 +227,7 @@ def refuse_more(name: str, values: object, most: int) -> None:
 
 
 def list_values(name: str, values: Iterable[T], most: int = MOST_LIST_VALUES) -> list[T]:
-    """Return an iterable argument as a list; reading ends once it has yielded too many values.
+    """Return an iterable argument as a list; reading ends once it has yielded more than `most`.
 
     Raises:
         BalcliError: There are more than `most` values.
@@ -246,7 +246,7 @@ def list_words(
     Args:
         name: Name of the argument.
         words: Value to check.
-        example: A right value, as it is typed.
+        example: A valid value, as a user types it.
 
     Raises:
         TypeError: A member is not a word.
@@ -261,12 +261,12 @@ def list_words(
 
 
 def wrong_type(function: str, value: object, wanted: str) -> TypeError:
-    """Return the error for an argument of a wrong type, with the value and a right one in its text.
+    """Return the error for an argument of a wrong type; its text has the value and `wanted`.
 
     Args:
         function: Name of the function or argument.
         value: Rejected value.
-        wanted: A right value, in words.
+        wanted: Instruction for the message, such as "give words".
     """
     try:
         text = repr(value)

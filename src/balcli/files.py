@@ -31,7 +31,7 @@ def replacing(target: Path) -> Iterator[Path]:
         real = Path(os.path.realpath(target))
         place = name_hidden(real)
         try:
-            # private if the target exists; it gets the target's mode later
+            # if the target exists, the file is private until it gets the target's mode
             flags, private = os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o600
             os.close(os.open(place, flags, 0o666 if mode is None else private))
             yield place
@@ -49,7 +49,7 @@ def replacing(target: Path) -> Iterator[Path]:
 
 
 def _read_mode(path: Path) -> int | None:
-    """Return the mode of the file or device at a path; None if there is none.
+    """Return the mode of the file or device at a path; None if nothing is there.
 
     If the system refuses access, this raises OSError, where `Path.exists` would report a missing
     file.

@@ -9,13 +9,13 @@ from __future__ import annotations
 
 # Text of an engine file ----------------------------------------------------------------------
 LARGEST_FILE_BYTES = 6_000_000  # reading stops here, even from an endless device
-MOST_TOML_MARKS = 180_000  # "[", "{", ".", ",", "=": each takes up to 1 kB in tomllib
-DEEPEST_KEY = 32  # parts of a dotted key: the memory of tomllib grows with their square
+MOST_TOML_MARKS = 180_000  # number of "[", "{", ".", ",", "=": each takes up to 1 kB in tomllib
+DEEPEST_KEY = 32  # parts of a dotted key; memory in tomllib grows with their number squared
 LONGEST_NAME = 200  # characters; every line of a CSV repeats the name
 LONGEST_FILE_NAME = 255  # name of a file in an engine file; the limit of file systems
 MOST_ROWS = 20_000  # rows of a CSV file: a diagram of 720 deg in steps of 0.05 has 14 400
 LONGEST_ROW = 10_000  # characters of a row in a CSV file: hundreds of columns
-LARGEST_IN_COLUMNS = 1e30  # magnitude of a figure in a CSV file: its products do not overflow
+LARGEST_IN_COLUMNS = 1e30  # figure in a CSV file: products of such figures do not overflow
 LONGEST_FIGURE = 100  # characters of a number with its unit, which a regular expression parses
 LONGEST_SHOWN = 60  # characters of a value that a message quotes
 MOST_MISTAKES_SHOWN = 20  # listed mistakes of one file: as many as fit on the screen
@@ -23,12 +23,12 @@ MOST_MISTAKES_SHOWN = 20  # listed mistakes of one file: as many as fit on the s
 # What an engine may have ---------------------------------------------------------------------
 MOST_PARTS = 1000  # cylinders, or devices of one kind
 MOST_ENGINES = 12  # engines geared together; the largest built have three or four cranks
-MOST_LIST_VALUES = 10_000  # length of a list; largest number of a bank, cylinder or order
+MOST_LIST_VALUES = 10_000  # length of a list; highest bank number, cylinder number or order
 MOST_KEY_VALUES = 2 * MOST_LIST_VALUES  # values of a key, inner lists included
-HIGHEST_RIPPLE_ORDER = 256  # order of the uneven speed; raises the engine's highest order as much
+HIGHEST_RIPPLE_ORDER = 256  # order of the uneven speed; adds as much to the highest order
 MOST_RIPPLES = 256  # orders of the uneven speed
 HIGHEST_SHAFT_ORDER = 1000  # order of a balancer shaft; orders are computed up to it
-SMALLEST_POSITIVE = 1e-12  # figure that must be above 0: its square and cube do not underflow
+SMALLEST_POSITIVE = 1e-12  # least figure above 0: its square and cube do not underflow
 # lambda + |offset| / rod length, and the sine of an articulated rod's angle, must stay below 1 by
 # this distance. At 1 the mechanism locks; closer to 1 it has too many orders.
 NEAREST_TO_LOCK = 1e-6
@@ -54,7 +54,7 @@ MOST_LOADS_APART = 1_100_000  # loads x orders kept singly; half as many at unev
 FINEST_STEP_DEG = 1e-3  # step of the crank angle: 360 000 angles
 FARTHEST_DEG = 1e6  # phase and turn of a second engine, angles of torque curves: 10 digits remain
 FARTHEST_M = 1e6  # position of a second engine
-SMALLEST_FLUCTUATION = 1e-9  # wanted fluctuation of the speed: less is lost in rounding
+SMALLEST_FLUCTUATION = 1e-9  # wanted fluctuation of the speed: a smaller one is lost in rounding
 FLUCTUATION = "(highest - lowest)/mean speed, such as 1/200 or 0.5%"
 FARTHEST_DEVICE_M = 50.0  # position of a shaft or plane: the longest engines have 30
 SMALL = 0.05  # default share of one cylinder's first order below which vectors are left unbalanced
@@ -65,12 +65,12 @@ MOST_DIGITS = 15  # digits of figures in tables: those of a floating-point numbe
 MOST_FACTORS = 1000  # steps of a range of balance factors
 MOST_TABLE_VALUES = 100_000  # values in a range of a printed table, and figures in its body
 LARGEST_TABLE_VALUE = 10**9  # value in a range of a printed table
-HIGHEST_POWER = 200  # power of lambda in a table of series: exact fractions, a second or two
+HIGHEST_POWER = 200  # power of lambda in a table of series: exact fractions take 1 to 2 s
 
 # Variants ------------------------------------------------------------------------------------
 MOST_PARAMETERS = 16  # parameters of a sweep: each is an axis of an array (numpy allows 32)
 MOST_PARAMETER_VALUES = 10_000_000  # values of one parameter: all are kept (80 MB)
-MOST_THREADS = 64  # threads of a sweep: each computes a few boxes ahead, of about 10 MB each
+MOST_THREADS = 64  # threads of a sweep: each computes a few blocks of about 10 MB ahead
 MOST_KEPT_FIGURES = 100_000_000  # figures of a sweep in Python: all are kept, 0.8 GB
 MOST_ROWS_READ = 50  # rows in the table of a sweep; longer tables show the first ones
 MOST_PICTURE_VARIANTS = 4_000_000  # variants in a picture, which keeps all of them in memory
@@ -101,6 +101,6 @@ MOST_MOUNT_RESULTS = 4_000_000  # orders x speeds x mounts and points: 300 MB
 # Torsion -------------------------------------------------------------------------------------
 MOST_TORSION_NODES = 200  # nodes of a chain: all modes take a second
 LARGEST_INERTIA = 1e18  # inertia of a damper or flywheel, kg m2: its square does not overflow
-HIGHEST_TORSION_ORDER = 256  # order of an excitation: a cycle is sampled 16 times as often
+HIGHEST_TORSION_ORDER = 256  # order of an excitation: a cycle has 16 times as many samples
 MOST_TORSION_TORQUES = 10_000_000  # orders x speeds x shafts: all are kept, 8 bytes each
-HIGHEST_TORSION_ORDER_UNASKED = 32  # default; the firing order and its double are added
+HIGHEST_TORSION_ORDER_UNASKED = 32  # highest default order; `list_gas_orders` may add two

@@ -1,8 +1,8 @@
-"""Hold the names of modules that are imported on demand; no other module has such names as strings.
+"""Hold the names of modules that are imported on demand. Only this module has such names.
 
-It lists the package's public names, the renderers of results, the types of JSON documents, the
-tables of a chapter (such as torsion) in an engine file, and the quantities of chapters. It loads no
-library.
+They are the modules of the package's public names, the renderers of results, the types of JSON
+documents, the optional tables of an engine file (such as [torsion]), and the less common quantities
+of sweep, search and scatter. This module loads no library.
 """
 
 from __future__ import annotations
@@ -83,7 +83,7 @@ DOCUMENTS = {
     "torsion": "torsion.answer:TorsionAnalysis",
 }
 
-# The module of each chapter's table in an engine file; the class has the name of the key.
+# The module with the class of each optional table of an engine file; the key names the class.
 CHAPTERS = {
     "articulation": "file.model",
     "gas": "file.gas_tables",
@@ -93,14 +93,14 @@ CHAPTERS = {
     "body": "file.mount_tables",
     "locomotive": "file.locomotive_tables",
 }
-# Tables that a file may have several times.
+# Optional tables that a file may have several times.
 CHAPTER_LISTS = {
     "engine": "file.engine_tables",
     "mount": "file.mount_tables",
     "point": "file.mount_tables",
     "axle": "file.locomotive_tables",
 }
-# The module that computes the quantities of a chapter for sweep, search and scatter.
+# The module that computes each group of further quantities for sweep, search and scatter.
 QUANTITIES = {
     "guide": "forces.guide",
     "cycle": "torque.quantity",

@@ -34,13 +34,13 @@ def ignore_matplotlib_settings() -> None:
     """
     for name in ("MPLBACKEND", "MATPLOTLIBRC"):
         os.environ.pop(name, None)
-    if os.path.lexists("matplotlibrc"):  # matplotlib reads it when it is imported
+    if os.path.lexists("matplotlibrc"):  # matplotlib reads the file at its import
         with chdir(os.path.dirname(__file__)):
             import matplotlib  # noqa: F401
 
 
 def has_no_reader(error: OSError) -> bool:
-    """Return whether a pipe was closed by its reader; Windows reports an invalid argument."""
+    """Return whether a pipe was closed by its reader (for Windows, an invalid argument)."""
     return isinstance(error, BrokenPipeError) or (WINDOWS and error.errno == errno.EINVAL)
 
 

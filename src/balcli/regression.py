@@ -1,11 +1,11 @@
 """Compare recorded results of engines with what balcli computes now.
 
-A record is the JSON document of `analyze` (orders, peaks, displacement, dead centres) with the
-main figures of the further chapters that the engine file has: `torque`, `mounts` and `torsion`.
-Two records agree if every leaf agrees: texts and whole numbers exactly, figures within a share of
-the largest figure of their group. Axes, phases, peak angles and the balance of an order
-are not compared, because they follow from its vectors, which are. The angle of a peak over all
-orders may move to another peak that is equally high.
+A record is the JSON document of `analyze` (orders, peaks, displacement, dead centres) and the
+main figures of `torque`, `mounts` and `torsion` if the engine file has tables for them.
+Two records agree if every value agrees: texts and whole numbers exactly, figures within a share of
+the largest figure of the same quantity, such as `force_N`. Axes, phases, peak angles and the
+balance of an order are not compared, because they follow from its vectors, which are compared. The
+angle of a peak over all orders may move to another peak that is equally high.
 """
 
 from __future__ import annotations
@@ -32,8 +32,8 @@ from .mounts.answer import analyze_mounts
 from .torque.answer import analyze_torque
 from .torsion.answer import analyze_torsion
 
-TOLERANCE = 1e-9  # share of the largest figure of a group; rounding is allowed in addition
-PEAK_ANGLE_DEG = 1e-3  # allowed change of a peak's angle; rounding affects it more than the value
+TOLERANCE = 1e-9  # share of the largest figure of a quantity; rounding is allowed in addition
+PEAK_ANGLE_DEG = 1e-3  # allowed change of a peak's angle; rounding changes it more than the value
 DEAD_CENTER_DEG = 1e-6
 RECORDED = (*KINDS, "peak")
 _LABELS = ("order", "mode", "name", "cylinder")  # keys by which members of lists are matched
@@ -47,12 +47,12 @@ class Difference:
     """A figure that differs from its record, or the reason why a record could not be compared.
 
     Attributes:
-        cause: Quantity or chapter of the figure, such as `force`; null for a missing or broken
-            record.
-        figure: The figure that changed, or the reason.
+        cause: Quantity (`force`) or part of the record (`torsion`) that has the figure; null for a
+            missing or broken record.
+        figure: Name of the figure that changed, or the reason.
         recorded: Recorded value; null if there is none.
         now: Present value; null if there is none.
-        share: Change over the largest figure of its group; null for angles and texts.
+        share: Change / largest figure of the same quantity; null for angles and texts.
     """
 
     cause: str | None
@@ -72,13 +72,13 @@ class Difference:
         values = " -> ".join(
             f"{v:.10g}" if isinstance(v, float) else str(v) for v in (self.recorded, self.now)
         )
-        share = "" if self.share is None else f" ({self.share:.1e} of the largest)"
+        share = "" if self.share is None else f" ({self.share:.1e} of the largest figure)"
         return f"{self.figure}: {values}{share}"
 
 
 @dataclass(frozen=True, kw_only=True)
 class CheckedEngine:
-    """An engine file and what differs from its record.
+    """An engine file and the differences from its record.
 
     Attributes:
         engine: Path of the engine file.
@@ -107,15 +107,15 @@ _Path = tuple[str, ...]  # keys from the top of the document, and labels such as
 
 
 def _find_group(path: _Path) -> str:
-    """Return the group of a figure: the first key of its path that has a unit. The tolerance is a
-    share of the largest figure of a group.
+    """Return the group of a figure: the first key of its path that ends in a unit. The tolerance
+    is a share of the largest figure of the group.
     """
     units = ("_N", "_Nm", "_Hz", "_mm", "_Pa", "_J", "_W", "_m", "_m3")
     return next((key for key in path if key.endswith(units)), path[-1])
 
 
 def _name_cause(path: _Path) -> str:
-    """Return the quantity or chapter of a figure, as messages name it."""
+    """Return the quantity of a figure, or the part of the record that has it, for messages."""
     names = {kind.key: kind.name for kind in (*KINDS.values(), *GAS_KINDS.values())}
     found = [names[key] for key in path if key in names]
     return found[0] if found else next((key for key in path if key != "orders"), "")
@@ -134,7 +134,7 @@ def find_abandoned(files: Iterable[Path]) -> Iterator[CheckedEngine]:
         if not engine_file.exists() and _is_record(record):
             reason = (
                 f"its result is recorded in {record.parent.name}/{record.name}, but there is no "
-                f"{engine_file.name}; bring it back, or delete the record"
+                f"{engine_file.name}; restore it, or delete the record"
             )
             found = (Difference.of_record(reason),)
             yield CheckedEngine(engine=str(engine_file), differences=found)
@@ -192,7 +192,7 @@ def _describe(engine: Engine, orders: Iterable[float] | None = None) -> tuple[No
 
 
 def _describe_chapters(engine: Engine) -> Node:
-    """Return the main figures of the chapters that the engine file has."""
+    """Return main figures of torque, mounts and torsion if the engine file has tables for them."""
     model: EngineFile | None = engine.model
     found: Node = {}
     if engine.gas is not None:
@@ -224,7 +224,7 @@ def find_differences(
     Args:
         engine: The engine.
         record: Path of the record.
-        tolerance: Allowed change, as a share of the largest figure of the group.
+        tolerance: Allowed change, as a share of the largest figure of the same quantity.
     """
     where = f"{record.parent.name}/{record.name}"
     if not record.exists():
@@ -301,7 +301,7 @@ def _compare(
     for path in dict.fromkeys((*new, *old)):
         before, after, shared = old.get(path), new.get(path), path in old and path in new
         if path[-1] == "order" and not shared and (before or after or 0) > 2:
-            continue  # the order's figures decide; orders 1 and 2 are always recorded
+            continue  # its figures are compared instead; orders 1 and 2 are always recorded
         group, is_angle = _find_group(path), path[-1].endswith("_deg")
         scale = largest.get(group, 0.0)
         order = next((part for part in path if part.startswith("order ")), "")
@@ -311,7 +311,7 @@ def _compare(
             allowed = max(least, tolerance * 360)
         sized = isinstance(before, (float, NoneType)) and isinstance(after, (float, NoneType))
         move = abs((after or 0.0) - (before or 0.0)) if sized else math.inf
-        if shared and None in (before, after):  # a figure that exists on one side only
+        if shared and None in (before, after):  # a figure that only one of the records has
             allowed = -math.inf
         if before != after and not move <= allowed:
             yield Difference(

@@ -16,6 +16,7 @@ from balcli.engine.parse import read
 from balcli.errors import BalcliError
 from balcli.forces.kinds import KINDS
 from balcli.forces.spectrum import SHOWN, compute_spectra, find_relevant_orders
+from balcli.forces.symmetry import find_textbook_units
 from balcli.limits import HIGHEST_ORDER
 
 NAMES = [file.relative_to(ENGINES).with_suffix("").as_posix() for file in ENGINE_FILES[::3]]
@@ -70,6 +71,11 @@ def test_nothing_beyond_the_relevant_orders(name):
         assert phasors.major.max() <= 1e-12 * analysed(name).spectra[q.name].major.max(), q
 
 
+def test_under_uneven_speed_orders_begin_at_0():
+    uneven = build_text(GOOD + "[[operation.speed_ripple]]\norder = 2\namplitude = 0.05\n")
+    assert list(analyze(uneven, only=["force"]).orders[:3]) == [0, 1, 2]
+
+
 @pytest.mark.parametrize("orders", [[1, 2, 3], [5], [0, 1], range(1, 9)])
 def test_exactly_the_orders_asked_for_are_shown(orders):
     assert list(analyze(example("i4"), orders).orders) == list(orders)
@@ -83,6 +89,16 @@ def test_orders_that_cannot_be(orders, told):
     with pytest.raises(BalcliError) as caught:
         analyze(example("i4"), orders)
     assert str(caught.value) == f"orders must be multiples of 1/2 from 0 to 4096, not {told}"
+
+
+@pytest.mark.parametrize(("name", "order", "factor"), [("i4", 14, 4), ("radial9", 10, 4.5), ("single", 20, 1)])
+def test_a_small_order_that_is_there_is_not_swallowed(name, order, factor):
+    """A_10 is 1e-7 of the first, A_20 1e-16."""
+    engine = example(name)
+    units = find_textbook_units(engine, np.array([float(order)]))
+    found = analyze(engine, [order], only=["force"]).spectra.force
+    assert not found.balanced[0]
+    assert found.major[0] == pytest.approx(factor * units.force * units.ratios[0], rel=1e-10)
 
 
 def test_a_high_order_beside_it_swallows_no_small_one():

@@ -39,6 +39,18 @@ def test_inner_and_guide_as_rows():
     assert not [key for key in single if key[1] == "guide_x"]
 
 
+def test_without_bearings_bending_ends_with_the_free_moment_about_the_last_place():
+    """An engine of two throws in phase has a free force, and so another moment about its middle."""
+    found, about_last = (analyze(inline_engine([0, 0], more=f"[frame]\nreference = [0, 0, {z}]\n")) for z in (0, 50))
+    asked = analyze(inline_engine([0, 0]), only=["inner"])
+    last = asked.to_dict()["inner"]["sections"][-1]
+    assert (last["position_mm"], last["bending_Nm"]["peak"]) == pytest.approx((50, about_last.peak.moment.value))
+    assert asked.to_dict()["inner"]["largest_bending_Nm"] == last["bending_Nm"]["peak"]
+    assert found.peak.moment.value == pytest.approx(0, abs=1e-6)
+    told = str(analysis.sheet(asked, SYSTEMS["si"]).parts)
+    assert "at the last position is therefore the free moment of all these loads about this position" in told
+
+
 def test_couples_of_single_cylinders():
     """They are shown where they are named; opposite throws make opposite couples of odd orders."""
     asked = ("analyze", ENGINES / "twin180.toml", "--orders", "1,3", "--by", "cylinder")

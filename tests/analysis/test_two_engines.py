@@ -159,6 +159,15 @@ def test_two_singles_with_gas_are_a_twin():
         assert all(agrees) == same
 
 
+def test_two_fours_that_fire_between_each_other_leave_what_an_even_eight_leaves():
+    four = with_gas("throws = [0, 180, 180, 0]\nspacing = 90", "firing_order = [1, 3, 4, 2]\n")
+    gas = combine_engines(four, four, Arrangement(90), HALVES).spectra.gas
+    assert gas.orders[~gas.balanced].tolist() == [0, 4, 8]
+    assert gas.forward[8] == pytest.approx(
+        2 * spectrum.compute_spectra(four, HALVES, ["gas"]).gas.forward[8], rel=1e-12
+    )
+
+
 @pytest.mark.parametrize("load", ["first", "second", "both"])
 def test_gas_of_different_cycles_against_curves(load):
     """A two-stroke single that turns against a four-stroke one: both torques over two turns."""

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from support.cases import cases
-from support.commands import ask, ask_json, run_here
+from support.commands import ask, ask_csv, ask_json, refusal, run_here
 from support.engines import build_text
 from support.paths import write
 
@@ -114,6 +114,16 @@ def test_two_engines_are_named_by_the_up_of_the_first(tmp_path):
     force = ask_json("sum", first, second)["orders"][0]["force_N"]
     assert _complex(force["vertical"]) == pytest.approx(_complex(force["y"]))
     assert "vertical" not in ask("sum", second, first, "--format", "json")
+
+
+def test_csv_names_components_like_json():
+    rows = ask_csv("analyze", "-", "--only", "force,moment", "--orders", "1", stdin=leaning(0, 0))
+    found = {(row["quantity"], row["figure"]): row["value"] for row in rows}
+    assert found["force", "vertical_amplitude"] == found["force", "x_amplitude"]
+    assert found["moment", "pitching_phase_deg"] == found["moment", "y_phase_deg"]
+    assert refusal("analyze", "-", stdin=leaning(0, 0).replace("up = 0", 'up = "up"')).startswith(
+        "standard input: frame.up:"
+    )
 
 
 @cases("analysis/verdict", "the_verdict_names_the_direction")

@@ -90,7 +90,7 @@ def test_the_couple_is_judged_with_force_and_moment(couple: float, told: str) ->
 
 HEAVY = {"crank.stroke": 90, "rod.length": 200, "rod.mass": 2, "rod.cg": 50, "rod.inertia": 15000, "piston.mass": 1}
 HEAVY["operation.speed"] = 2000
-NO_H = "; rods equal to two masses at their ends (H = 0) have none."
+NO_H = "; a rod dynamically equivalent to two masses at its ends has none."
 
 
 @pytest.mark.parametrize(
@@ -100,7 +100,7 @@ NO_H = "; rods equal to two masses at their ends (H = 0) have none."
         ({"rod.inertia": 9000}, f"the rods{NO_H}"),
         ({"piston.offset": 10}, "offset pistons."),
         ({"rod.inertia": 9000, "piston.offset": 10}, "the rods and offset pistons."),
-        ({"frame.reference": [0, 80, 0]}, "forces whose lines miss the reference."),
+        ({"frame.reference": [0, 80, 0]}, "forces whose lines miss the point of reference."),
         ({"operation.speed_ripple": "[{ order = 2, amplitude = 0.05 }]"}, "the acceleration of turning parts."),
     ],
 )

@@ -80,5 +80,5 @@ def test_refusals(options, message):
 
 def test_an_engine_without_articulated_rods():
     text = RADIAL.partition("[articulation]")[0]
-    told = "knuckles: needs articulated rods, and a crank that turns"
+    told = "scheme knuckles needs articulated rods, and a crank that turns"
     assert refusal("balance", "-", "--scheme", "knuckles", stdin=text) == told

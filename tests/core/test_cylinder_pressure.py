@@ -12,7 +12,8 @@ from support.pistons import slider_crank_piston
 from balcli import load
 from balcli.core.cylinder_pressure import crank_torque, find_highest, pistons, press
 from balcli.core.gas_cycle import Goal, Process, gas_cycle
-from balcli.core.piecewise import PiecewiseCurve
+from balcli.core.mechanisms.harmonics import find_harmonics
+from balcli.core.piecewise import PiecewiseCurve, polyline
 from balcli.engine.indicator import draw_diagram, find_diagram_mistakes
 
 OF_THE_LARGEST = 1e-12
@@ -73,6 +74,20 @@ def test_pistons_of_a_radial_with_a_master_rod():
 
 
 # ---------------------------------------------------------------- gas torque
+@pytest.mark.parametrize("offset", [0.0, 0.03])
+def test_a_constant_pressure_has_the_harmonics_of_the_piston(offset):
+    """-s''/r is Re sum c_n e^{i n psi}, so -s' is r Re sum c_n/(i n) e^{i n psi}."""
+    radius, rod, bore = LENGTHS
+    piston, cycle = slider_crank_piston(*LENGTHS, offset), np.array([0, 4 * np.pi])
+    found = press(piston, polyline(cycle, [7e5, 7e5]), cycle).harmonics(HALVES)
+    n = np.arange(1, 25)
+    mechanism = find_harmonics(n, np.array([radius / rod]), np.array([offset / rod]))
+    turned = mechanism["piston"].c[:, 0] / (1j * n) * np.exp(1j * n * piston.top)
+    expected = 6e5 * np.pi / 4 * bore**2 * radius * turned
+    assert np.abs(found[2::2] - expected).max() <= OF_THE_LARGEST * np.abs(expected).max()
+    assert np.abs(found[1::2]).max() <= OF_THE_LARGEST * np.abs(expected).max()
+
+
 CYCLE = gas_cycle(slider_crank_piston(*LENGTHS), Process(10.5, "wiebe"), Goal("imep", 10e5))
 TORQUE = press(slider_crank_piston(*LENGTHS), CYCLE.pressure, CYCLE.breaks)
 

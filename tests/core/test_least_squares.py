@@ -48,6 +48,8 @@ def test_weights_multiply_the_residuals():
     assert found.x == pytest.approx(exact(matrix, target, weights), rel=1e-9)
     weighed = np.linalg.norm(weights * found.residual) / np.linalg.norm(weights * target)
     assert found.left == pytest.approx(weighed, rel=1e-12)
+    read = weights > 0  # a weight of 0 is no reading
+    assert solve(matrix[read], target[read], weights[read]).x == pytest.approx(found.x, rel=1e-9)
 
 
 @pytest.mark.parametrize("condition", [1.0, 1e4, 1e8, 1e11])

@@ -133,6 +133,7 @@ def test_a_speed_of_half_orders_mixes_into_half_orders_as_the_curves_over_the_an
     direct = compute_engine_curves(single, angles)
     spectra = compute_spectra(single, find_relevant_orders(single), ["force", "torque"])
     assert spectra.force.balanced.sum() == 0
+    assert spectra.force.orders[:3].tolist() == [0, 0.5, 1]
     for name, phasors in (("force_x_N", spectra.force), ("inertia_torque_Nm", spectra.torque)):
         found = phasors.values(np.radians(angles)).real
         assert found == pytest.approx(direct[name], abs=1e-11 * np.abs(direct[name]).max())

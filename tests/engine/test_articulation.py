@@ -137,6 +137,15 @@ def test_variants_on_a_trailing_axis():
 
 
 # ------------------------------------------------------------------ what articulated rods may say
+def test_a_pendulum_test_of_an_articulated_rod_is_its_inertia():
+    old = "cg = 90 }"
+    period = 2 * math.pi * math.sqrt((3.5e-3 + 0.62 * 0.09**2) / (0.62 * 9.80665 * 0.09))
+    swung = built((old, f'cg = 90, pendulum = {{ pivot = "big_end", period = {period!r} }} }}'))
+    assert swung.cylinders.couple == pytest.approx(
+        built((old, "cg = 90, inertia = 3500 }")).cylinders.couple, rel=1e-12
+    )
+
+
 @cases("engine/articulation", "mistakes_of_articulated_rods")
 def test_mistakes_of_articulated_rods(rod, message):
     assert mistakes(("{ length = 188, mass = 0.62, cg = 90 }", rod)) == [message]

@@ -36,6 +36,12 @@ def test_a_cylinder_left_out_that_has_gas_is_refused():
     assert "write [cylinder.2] gas = 0 if cylinder 2 is a dummy piston" in str(refused(**parts))
 
 
+def test_displacement_of_an_offset_crank_is_that_of_its_torque():
+    made = engine(crank={"stroke": 90}, rod={"length": 150}, piston={"bore": 90, "mass": 0.5, "offset": 10}, gas=WIEBE)
+    swept = made.gas.cylinders[0].piston.swept
+    assert (float(made.displacement_m3), 573.96e-6) == (pytest.approx(swept, rel=1e-14), pytest.approx(swept, rel=1e-5))
+
+
 @pytest.mark.parametrize(("share", "balanced"), [(1, True), (1.01, False), (1 + 1e-12, False)])
 @pytest.mark.parametrize(("mass", "cg", "length"), [(1.2, 60, 240), (0.3, 33.3, 111.1)])
 def test_a_rod_of_just_that_inertia_has_no_couple(share, balanced, mass, cg, length):

@@ -174,7 +174,7 @@ def test_a_crank_that_nobody_builds_is_doubted_in_one_line(order, doubted):
 def test_a_long_wait_is_doubted():
     doubts = load(tables("1-2-3", None, throws=[0, 240, 120])).doubts
     assert len(doubts) == 1
-    assert "after 120, 120, 480 deg" in doubts[0]
+    assert "the intervals 120, 120, 480 deg" in doubts[0]
     said = tables("1-2-3", None, throws=[0, 240, 120], firing_intervals=[120, 120, 480])
     assert load(said).doubts == ()
 

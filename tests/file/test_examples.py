@@ -50,7 +50,7 @@ def test_a_copy_of_geared_engines_comes_with_their_files(tmp_path):
 
 @pytest.mark.parametrize("name", ["v8crossplane", "../engines/i4", "expected"])
 def test_unknown_names(name):
-    told = f'^there is no example "{name}": (balcli engines lists them|did you mean v8_crossplane)'
+    told = f'^there is no example "{name}": (balcli engines lists all examples|did you mean v8_crossplane)'
     with pytest.raises(BalcliError, match=told):
         examples.text(name)
 

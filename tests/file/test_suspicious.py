@@ -11,8 +11,8 @@ from balcli.file.doubts import find_suspicious
 
 FREE = ("firing_order = [1, 3, 4, 2]\n", "")  # no firing order, which throws would have to fit
 DEGREES = (
-    'bare numbers are degrees; give another unit as in "1/2 turn" or "3.1416 rad"; numbers of '
-    "cylinders belong in layout.firing_order"
+    'bare numbers are degrees; give another unit as in "1/2 turn" or "3.1416 rad"; a sequence '
+    "of cylinders belongs in layout.firing_order"
 )
 LAMBDA = (
     "where 0.15 to 0.4 is usual; crank.stroke is twice the crank radius, rod.length the distance between its centres"

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from support.engines import INLINE, alone, build_text, inline_engine
 from support.paths import ENGINES
+from support.remedies import weigh
 
 from balcli.engine.load import load
 from balcli.errors import BalcliError
@@ -25,6 +26,21 @@ def test_the_first_order_along_an_inline_four():
     for got, pattern, factor in ((found.shear, [1, 0, -1, 0], 1), (found.bending, [0, -0.1, -0.1, 0], 1j)):
         assert got.phasors.forward[0] == pytest.approx(np.array(pattern) * factor * ahead, rel=1e-12, abs=1e-9)
         assert got.phasors.backward[0] == pytest.approx(np.array(pattern) * factor * against, rel=1e-12, abs=1e-9)
+
+
+def test_an_inline_six_has_a_large_inner_moment_and_counterweights_take_most_of_it():
+    """0-120-240-240-120-0: nothing is free, but the middle carries what three throws on one side make."""
+    throws, places = [0, 120, 240, 240, 120, 0], range(-250, 251, 100)
+    size = (ROTATING + RECIPROCATING / 2) / OMEGA**2 * 1e6
+    weights = "".join(weigh(size, angle + 180, place) for angle, place in zip(throws, places, strict=True))
+    engines = [inline_engine(throws, more=more) for more in ("", weights)]
+    assert all(spectrum.compute_spectra(each, [1.0], ["moment"]).moment.balanced[0] for each in engines)
+    before, after = (compute_inner_loads(each, ORDERS).bending for each in engines)
+    statics = abs(sum((z + 50) * np.exp(1j * np.radians(a)) for z, a in ((-250, 0), (-150, 120), (-50, 240)))) / 1e3
+    middle = abs(before.phasors.forward[0, 2])
+    assert middle == pytest.approx(statics * (ROTATING + RECIPROCATING / 2), rel=1e-12)
+    assert np.abs(after.phasors.forward[0]).max() < 1e-9 * middle
+    assert before.peaks[before.largest].value > 3 * after.peaks[after.largest].value
 
 
 @pytest.mark.parametrize("layout", ["", "bank_angle = 70\nstagger = 20"])

@@ -123,3 +123,11 @@ def test_a_misfire_leaves_what_the_cylinder_would_have_made():
     left = compute_gas_torque(missing, ORDERS).forward
     assert left == pytest.approx(compute_gas_torque(whole, ORDERS).forward - gone, abs=1e-11)
     assert np.all(explain_symmetry(missing, [0.5, 1], ["gas"]).reasons[0].size > 0.9)
+
+
+def test_totals_are_sums_of_inertia_and_gas():
+    found = compute_spectra(draw_engine(3), ORDERS, ["couple", "torque", "gas", "torque_total", "roll_total"])
+    couple, torque, gas = (scalar(found[name]) for name in ("couple", "torque", "gas"))
+    slack = 1e-13 * np.abs(gas).max()
+    assert scalar(found.torque_total) == pytest.approx(torque + gas, abs=slack)
+    assert scalar(found.roll_total) == pytest.approx(couple - torque - gas, abs=slack)

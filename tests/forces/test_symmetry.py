@@ -32,7 +32,7 @@ def test_the_inline_four():
         "orders 1, 2 moment: balanced by symmetry of the layout",
         "orders 1, 2 couple: zero in every cylinder",
         "order 1 torque and roll: balanced by symmetry of the layout",
-        "order 2 torque and roll: unbalanced: 4 of one cylinder",
+        "order 2 torque and roll: unbalanced: 4 times that of one cylinder",
         "firing: even, every 180 deg",
     )
 

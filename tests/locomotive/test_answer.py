@@ -122,6 +122,14 @@ def test_wheels_and_track_feel_what_particles_do(parts):
     assert [np.abs(part).max() for part in along] == pytest.approx(peaks, rel=1e-3, abs=1e-6 * size)
 
 
+@given(st.floats(0, 1), st.floats(100, 600))
+def test_two_cranks_at_right_angles_are_those_of_textbooks(factor, apart):
+    made = engine(**changed(crank={"positions": [-apart / 2, apart / 2]}))
+    found, one = analyze_locomotive(made, factor), (1 - factor) * 300 * 0.3 * float(made.omega) ** 2
+    assert found.tractive_variation_N == pytest.approx(math.sqrt(2) * one, abs=1e-6)
+    assert found.swaying_couple_Nm == pytest.approx(one * apart / 1e3 / math.sqrt(2), abs=1e-6)
+
+
 COUPLED = {
     "axle": [
         {"name": "leading", "cylinders": [2], "coupling_mass": 110, "part": 0.5},
@@ -263,7 +271,11 @@ def test_what_the_command_refuses_and_doubts(tmp_path):
     for old, new, message in (
         ("[locomotive]", "[loco]", "locomotive: is missing; write [locomotive] with planes and factor"),
         ("wheel_diameter =", "#", "locomotive.wheel_diameter: is missing; a speed in km/h needs it"),
-        ("speed  ", "# speed", "locomotive.speed: is missing; give km/h (with wheel_diameter), or operation.speed"),
+        (
+            "speed  ",
+            "# speed",
+            "locomotive.speed: is missing; give it in km/h (with wheel_diameter), or give operation.speed",
+        ),
         ("positions  =", "# ", "crank.spacing: moments are not known, because crank.spacing is missing"),
     ):
         file.write_text(text.replace(old, new) if new != "[loco]" else text.partition(old)[0])

@@ -11,6 +11,8 @@ from support.gas_engines import WIEBE
 from support.mounts import ENGINE, block
 from support.paths import write
 
+from balcli.file.examples import template
+
 DAMPED = ENGINE + block("loss = 0.1") + '[[point]]\nname = "lever"\nat = [100, 0, 300]\n'
 
 
@@ -198,6 +200,11 @@ def test_what_is_refused(four):
     text = ENGINE + block("loss = 1", count=0) + mounts
     told = refusal("mounts", "-", "--speeds", "1:19000:1", "--orders", "1-3", stdin=text)
     assert "3 orders at 19000 speeds of 100 mounts and 0 points are 5700000 results" in told
+
+
+def test_the_starting_file_runs():
+    assert "Largest mount force" in ask("mounts", "-", stdin=template("mounts"))
+    assert ask("analyze", "-", stdin=template("mounts"))
 
 
 def test_a_mount_that_nothing_moves_has_no_force(tmp_path):

@@ -34,7 +34,7 @@ def four(tmp_path):
 
 
 def test_plot_refuses_a_scheme_where_nothing_is_compared(tmp_path):
-    for what, more in (("bank", "; it takes only --scheme two-shaft with --order"), ("modes", ""), ("pressure", "")):
+    for what, more in (("bank", "; bank takes only --scheme two-shaft with --order"), ("modes", ""), ("pressure", "")):
         wanted = f"--what {what} shows the engine as it is: leave --scheme and its options out{more}"
         for option in ("--scheme=factor", "--factor=51%", "--planes=ends"):
             told = refusal("plot", ENGINES / "i6_diesel.toml", tmp_path / "x.svg", "--what", what, option)

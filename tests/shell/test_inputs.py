@@ -35,6 +35,6 @@ gas = { cycle = "otto", compression_ratio = 9, imep = 8 }
 @cases("shell/inputs", "a_firing_order_is_doubted_unless_it_is_searched_for")
 def test_a_firing_order_is_doubted_unless_it_is_searched_for(args, doubted):
     status, _, err = run_here(*args, stdin=ALONG)
-    told = "warning: standard input: layout.firing_order: 1-2-3 fires after 120, 120, 480 deg"
+    told = "warning: standard input: layout.firing_order: 1-2-3 has the intervals 120, 120, 480 deg"
     assert (status, err.startswith(told)) == (0, doubted)
     assert bool(err) == doubted

@@ -154,3 +154,11 @@ def test_the_command_prints_the_schema_with_its_address_and_units(name: str) -> 
     assert schema["properties"]["format"]["const"] == f"balcli.{name}/1"
     assert {"format", "version"} <= {*schema["required"]}
     assert "additionalProperties" not in schema  # new keys may be added
+
+
+def test_units_come_from_the_names() -> None:
+    node = describe_document("torsion")["$defs"]
+    shown = {key: field.get("description", "") for part in node.values() for key, field in part["properties"].items()}
+    assert shown["inertia_kg_m2"].endswith("[kg·m²]")
+    assert shown["stiffness_Nm_per_rad"].endswith("[N·m/rad]")
+    assert "[" not in shown["node_in"]

@@ -132,8 +132,8 @@ def test_what_is_missing_is_told_where_the_counterweights_of_the_file_stand():
     assert chosen.devices == asked.devices
     assert [need.position_mm for need in chosen.needs] == [-228.6, 228.6]
     assert chosen.note == (
-        "these are the planes of the counterweights of the file; --planes throws computes "
-        "weights at every throw instead"
+        "the weights are in the planes of the file's counterweights; --planes throws computes "
+        "weights for every throw instead"
     )
     assert asked.note == ""
     assert len(fit(FORD + ends, planes="throws").devices) == 4

@@ -216,7 +216,7 @@ def test_a_step_is_named_or_numbered(step, right):
 
 
 def test_scheme_step_without_a_step_is_refused():
-    assert "scheme step: give one" in refusal("balance", ROOT / "engines" / "i3.toml", "--scheme", "step")
+    assert "scheme step: give a step" in refusal("balance", ROOT / "engines" / "i3.toml", "--scheme", "step")
     with pytest.raises(TypeError, match="step"):
         balance(load(ROOT / "engines" / "i3.toml"), "step", SchemeOptions(step=1.5))
 

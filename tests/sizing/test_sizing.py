@@ -80,7 +80,7 @@ def test_planes_are_named_or_given():
         size_scheme(engine, "couple-shaft", planes=(-0.1, 0.0, 0.1))
     ends = [devices(size_scheme(engine, "couple-shaft", planes=planes)) for planes in (None, "ends", (-0.05, 0.05))]
     assert ends[0] == ends[1] == ends[2]
-    with pytest.raises(BalcliError, match=r"--at: this scheme fits its devices at one place; give one$"):
+    with pytest.raises(BalcliError, match=r"--at: this scheme fits its devices at one place; give one place$"):
         size_scheme(engine, "slider", at=(0j, 1j))
 
 

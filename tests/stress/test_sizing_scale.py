@@ -123,7 +123,7 @@ def test_planes_next_to_each_other(apart):
 def test_hopeless_planes_are_refused(apart):
     """A nanometre, or a micrometre: rounding alone would leave more than the promised 1e-12."""
     engine = build_text(engine_text(crank="stroke = 100\nthrows = [0, 240, 120]\nspacing = 100"))
-    with pytest.raises(BalcliError, match=r"work against each other .* choose planes farther apart"):
+    with pytest.raises(BalcliError, match=r"work against each other, .* choose planes farther apart"):
         size_scheme(engine, "counterweights", planes=(0.05, 0.05 + apart))
 
 

@@ -1,10 +1,15 @@
 """sweep, search, scatter, compare and bench as commands."""
 
+import signal
+import subprocess
+import sys
+import time
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 import pytest
-from support.commands import ask, ask_json, refusal, run_here
+from support.commands import HANGS, ask, ask_json, refusal, run_here, start_command
 from support.engines import GOOD
 from support.paths import write
 
@@ -95,6 +100,34 @@ def test_a_terminal_shows_a_table_and_a_pipe_csv(engine: str) -> None:
     piped = run_here(*asked).out
     assert piped.startswith("crank.stroke,force.1.major,")
     assert run_here(*asked, "-f", "csv", terminal=True).out == piped
+
+
+def test_doubts_are_of_what_does_not_vary(tmp_path: Path) -> None:
+    file = write(tmp_path / "heavy.toml", GOOD.replace("mass = 0.5", "mass = 51"))
+    for vary, doubted in (("rod.length=150,160", True), ("piston.mass=0.5,0.6", False)):
+        assert ("piston.mass is 51 kg" in run_here("sweep", file, "--vary", vary, "-q", "force.2.major").err) is doubted
+
+
+@pytest.mark.stress
+@pytest.mark.skipif(sys.platform == "win32", reason="signals")
+def test_ctrl_c_leaves_the_older_file_and_what_others_wrote(engine: str, tmp_path: Path) -> None:
+    target, other = write(tmp_path / "x.json", "old"), write(tmp_path / "x.json.part", "mine")
+    process = start_command(
+        *("sweep", engine, "-q", "force.2.major", "-f", "json", "-o", target),
+        *("--vary", "rod.ratio=0.2:0.3:0.00001", "--vary", "crank.stroke=80:90:0.001"),
+        stderr=subprocess.PIPE,
+        encoding="utf-8",
+        preexec_fn=partial(signal.signal, signal.SIGINT, signal.SIG_DFL),  # jobs in the background ignore it
+    )
+    end = time.monotonic() + HANGS
+    while not any(path.stat().st_size > 100_000 for path in tmp_path.glob(".x.json*")):
+        assert process.poll() is None
+        assert time.monotonic() < end
+        time.sleep(0.02)
+    process.send_signal(signal.SIGINT)
+    errors = process.communicate(timeout=HANGS)[1]
+    assert (process.returncode, errors.startswith("balcli: stopped after ")) == (130, True)
+    assert (target.read_text(), other.read_text(), len(list(tmp_path.iterdir()))) == ("old", "mine", 3)
 
 
 def test_search_writes_the_best(engine: str, tmp_path: Path) -> None:

@@ -131,7 +131,7 @@ def test_the_load_takes_its_share_wherever_its_rows_begin(curve, tmp_path):
     assert energy["work_J"] == pytest.approx(250 * 2 * np.pi), "that of the torque"
     other = write(tmp_path / "l.csv", "angle_deg,torque_Nm\n0,250\n720,250\n")
     told = refusal("torque", "--curve", curve, "--load", other)
-    assert "--load: has a period of 720 deg, the torque 360: give both over the same angle" in told
+    assert "--load: has a period of 720 deg, the torque 360 deg; give both over the same angle" in told
 
 
 IN_OTHER_UNITS = {  # NIST SP 811 (2008), appendix B.8, but for the last: pound times square inch

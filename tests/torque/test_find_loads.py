@@ -163,7 +163,7 @@ def test_forces_make_the_torque_of_virtual_work(name):
 
 
 def test_loads_that_are_not_known():
-    with pytest.raises(BalcliError, match="the crank stands still"):
+    with pytest.raises(BalcliError, match="the crank of a rotary engine stands still"):
         analyze_loads(build_text(write_mechanism("rotary, offset")), ("main",))
     with pytest.raises(BalcliError, match="main bearings: a crank with one throw does not determine"):
         analyze_loads(build_text(write_mechanism("radial with a master rod")), ("main",))

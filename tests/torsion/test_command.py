@@ -1,6 +1,7 @@
 """`balcli torsion` of chains: every format says the same figures, and they are right."""
 
 import re
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -53,6 +54,16 @@ def test_forced_vibration_against_50_digits(kind):
         assert found == pytest.approx(np.abs(torques), rel=1e-9, abs=1e-12 * np.abs(torques).max())
         swing = np.degrees(abs(angle[0]))
         assert said["free_end_deg"][k] == pytest.approx(swing, rel=1e-9, abs=1e-15)
+
+
+def test_holzers_table_leads_to_the_clamped_end():
+    """Of equal discs, one end fixed: `2 sqrt(k/J) sin((2 i - 1) pi/(2 (2 n + 1)))`."""
+    nodes = {str(k): 1 if k == 1 else 20 for k in range(1, 7)}
+    said = ask_torsion(chain_text(nodes, dict.fromkeys(pairwise(nodes), 125), fixed=["1"]), "--holzer", "2")
+    exact = [2 * np.sqrt(125 / 20) * np.sin((2 * i - 1) * np.pi / 22) for i in range(1, 6)]
+    assert [2 * np.pi * mode["frequency_Hz"] for mode in said["modes"]] == pytest.approx(exact, rel=1e-13)
+    first, *_, last = said["holzer"][0]["rows"]
+    assert (first["angle"], last["angle"]) == (pytest.approx(0, abs=1e-12), 1)
 
 
 def test_csv_lists_the_figures_of_json():
@@ -179,7 +190,7 @@ def test_a_node_alone_swings_rigidly(tmp_path):
     assert "None: no inertia can swing on a shaft." in out
     assert "a swings by ±1.567 deg at 100 rpm." in out
     assert refusal("torsion", "-", "--holzer", "1", stdin=LONE) == (
-        "standard input: has 0 modes, but --holzer asks for 1"
+        "standard input: has 0 modes, but --holzer asks for mode 1"
     )
     asked = ("torsion", "-", "--speeds", "100,200")
     told = refusal(*asked, "--damper", "viscous", stdin=LONE)

@@ -367,7 +367,7 @@ def test_pictures_leave_out_orders_that_are_small(what):
 
 def test_pictures_over_speed_need_a_range(tmp_path):
     told = refusal("plot", "-", "--what", "response", "-o", tmp_path / "x.svg", stdin=SINGLE)
-    assert told == "--what response: give the range, such as --speeds 1000:2500"
+    assert told == "--what response: give the range of speeds, such as --speeds 1000:2500"
 
 
 @pytest.mark.parametrize(("times", "ring", "heat"), [(1, r"100000 kg·mm²", "W"), (1e4, r"1000 kg·m²", "MW")])

@@ -201,6 +201,11 @@ def test_half_of_a_plain_shaft_turns_with_either_end():
     assert np.subtract(heavy, bare) == pytest.approx([0] * 7 + [4 * half, 0, half], abs=1e-15)
 
 
+def test_plain_shafts_without_a_density_are_named():
+    pump = '[[torsion.rear]]\nname = "pump"\ngear = 2\nof = "throw 6"\ninertia = 1000\nlength = 1000\ndiameter = 40\n'
+    assert '1 plain shaft without a density ("pump")' in run_here("torsion", "-", stdin=write_diesel() + pump).err
+
+
 def test_a_rigid_part_adds_to_its_neighbour():
     apart = write_diesel().replace(f"inertia = {INERTIAS[8] * 1e6}", "inertia = 2000000")
     rest = '[[torsion.rear]]\nname = "clutch"\ninertia = 75000\nstiffness = "rigid"\n'

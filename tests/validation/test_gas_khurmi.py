@@ -11,7 +11,7 @@ from support import two_term
 from support.pistons import slider_crank_piston
 
 from balcli.core.mechanisms import slidercrank
-from balcli.core.piecewise import resolved
+from balcli.core.piecewise import polyline, resolved
 from balcli.core.speed_ripple import small_fluctuation, speed_variation, surplus
 
 G = 9.81
@@ -23,6 +23,45 @@ def rpm(speed):
 
 def percent(value, digits=0):
     return round(100 * value, digits)
+
+
+def crank(radius, rod, degrees):
+    """Of a force on the piston: its torque arm, m, and its share along the crank; and the two-term acceleration over
+    omega^2, m.
+    """
+    psi, lam = np.array(np.radians(degrees)), radius / rod
+    sine, cosine = slidercrank.rod_angle(psi, lam)
+    arm = slider_crank_piston(radius, rod, 0.1).rate(psi)
+    along = np.cos(psi + np.arctan2(sine, cosine)) / cosine
+    return float(arm), float(along), radius * float(two_term.acceleration(psi, lam))
+
+
+def area(bore, rod=0.0):
+    return np.pi / 4 * (bore**2 - rod**2)
+
+
+def test_speeds_at_which_the_thrust_reverses():
+    """Examples 15.9 and 15.11, pages 534 and 537. 10 mm down the stroke the author of 15.9 measures 33 deg."""
+    gas, (*_, two_terms) = 700e3 * area(0.08), crank(0.05, 0.2, 33)
+    assert round(np.sqrt(gas / two_terms) * 30 / np.pi) == 2612
+    exact = float(slider_crank_piston(0.05, 0.2, 0.08).angle_of(0.01))
+    assert np.degrees(exact) == pytest.approx(33.12294021, rel=1e-9)
+    force = gas - 0.05 * rpm(1800) ** 2 * float(slidercrank.acceleration(exact, 0.25))
+    assert force == pytest.approx(1844.165642, rel=1e-9)
+    weighed, (*_, two_terms) = 700e3 * area(0.1) + 1.1 * G, crank(0.06, 0.25, 20)
+    assert np.sqrt(weighed / (1.1 * two_terms)) * 30 / np.pi == pytest.approx(2606, abs=4)  # rounded on the way
+
+
+def test_thrust_on_the_bearings_and_acceleration_of_the_flywheel():
+    """Examples 15.12 and 15.13, pages 538 and 540: 2.1972 MPa are rounded to 2.2 before they are used."""
+    arm, along, two_terms = crank(0.2, 0.6, 45)
+    force = 550e3 * area(0.25) - 70e3 * area(0.25, 0.05) - 60 * rpm(120) ** 2 * two_terms
+    assert round(force * along / 1e3, 2) == 11.98
+    assert round((force * arm - 20e3 / rpm(120)) / (60 * 0.6**2), 1) == 108.2
+    arm, along, two_terms = crank(0.25, 4.5 * 0.25, 45)
+    force = 2.1e6 * area(0.3) + 280 * G - 280 * rpm(180) ** 2 * two_terms
+    assert round(force * along / 1e3, 3) == 79.438
+    assert round(force * arm / 0.25 / 1e3, 3) == 109.501
 
 
 def test_example_15_20():
@@ -64,6 +103,16 @@ def test_example_16_4():
     assert percent(found, 1) == 0.3
     assert 100 * found == pytest.approx(0.2986732566, rel=1e-9)
     assert percent(small_fluctuation((285 + 690) * unit, inertia, rpm(1800)), 1) == 0.3
+
+
+def test_example_16_8():
+    """Page 580: three cranks 120 deg apart, each with a triangle from 0 over 60 to 180 deg; 292 rad/s^2 at most."""
+    one = polyline(np.radians([0, 60, 180, 360]), [0, 90, 0, 0])
+    torque = resolved(lambda c: sum(one.at(c - k * 2 * np.pi / 3) for k in range(3)), np.radians(np.arange(0, 361, 60)))
+    lowest, highest = torque.extremes()
+    fastest = max(highest.value - torque.mean, torque.mean - lowest.value) / (12 * 0.08**2)
+    assert int(fastest) == 292
+    assert fastest == pytest.approx(292.96875, rel=1e-9)
 
 
 def test_example_16_12():

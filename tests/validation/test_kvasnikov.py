@@ -1,6 +1,6 @@
 """A. V. Kvasnikov: Determination of the unbalance of piston engines (in Russian), Tomsk, 1920.
 
-Which orders remain in radial, V and in-line engines.
+Ratios of the orders, and which orders remain in radial, V and in-line engines.
 """
 
 from math import sqrt
@@ -9,7 +9,23 @@ import numpy as np
 import pytest
 
 from balcli.books.answer import tables as recompute
+from balcli.core.mechanisms import closed_form
 from balcli.core.phasors import unit
+
+
+@pytest.mark.parametrize(
+    ("coefficients", "n", "percent"),
+    [  # after Table I: 17 to 25 %, 0.1 to 0.4 %, 0.00 to 0.01 %; after (32): 1 to 2.4 %, 0.00 to 0.04 % (in truth 0.05)
+        (closed_form.piston, 2, [16.78, 25.40]),
+        (closed_form.piston, 4, [0.1182, 0.4098]),
+        (closed_form.piston, 6, [0.0009, 0.0074]),
+        (closed_form.rod, 3, [1.055, 2.410]),
+        (closed_form.rod, 5, [0.0093, 0.0485]),
+    ],
+)
+def test_orders_relative_to_the_first(coefficients, n, percent):
+    first, found = coefficients([1, n], np.array([1 / 6, 1 / 4]))
+    assert 100 * abs(found / first) == pytest.approx(percent, abs=5e-3 if n == 2 else 6e-4 if n == 3 else 6e-5)
 
 
 def test_wrong_coefficients_of_the_series():

@@ -88,6 +88,20 @@ def test_a_single_plane_does_what_it_can():
 
 
 # ------------------------------------------------------------------ factor and bobweight
+def test_factor_leaves_what_it_does_not_take():
+    """Half balance leaves half, turning against the crank, and exactly nothing with it (Wang, (36))."""
+    for share in (0, 0.4, 0.5, 0.66, 1):
+        e = engine([0])
+        after, unit = left(fit_scheme(e, "factor", factor=(share,)), [1]).force, M * R * e.omega**2
+        assert after.forward[0].real == pytest.approx((0.5 - share) * unit, rel=0, abs=1e-13 * unit * (share != 0.5))
+        assert after.backward[0] == pytest.approx(unit / 2, rel=1e-14)
+
+
+def test_bobweight_cards_of_a_cross_plane_v8_are_of_pairs_and_take_its_moment():
+    assert [entry.cylinders for entry in size(CROSS_V8, "factor").card] == [(1, 5), (2, 6), (3, 7), (4, 8)]
+    assert left(fit_scheme(CROSS_V8, "factor"), [1]).moment.balanced.all()
+
+
 def test_split_pins_have_a_card_each():
     e = engine([0, 240, 120], layout="bank_angle = 60")
     assert [len(entry.cylinders) for entry in size(e, "factor").card] == [2, 2, 2]

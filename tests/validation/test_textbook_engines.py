@@ -97,7 +97,10 @@ def test_forces(throws, layout, vectors):
     """Order n adds up where all n phi_i agree; everything else is balanced, and said to be so."""
     found = of(INLINE.get(str(throws), throws), **layout)
     assert free(found, "force") == list(vectors)
+    assert not found.force.major[found.force.balanced].any()
     for n, (forward, backward) in vectors.items():
+        assert forward != backward or found.force.minor[n - 1] == 0, n
+        assert backward or found.force.backward[n - 1] == 0, n
         assert units(found, "force", n, "forward") == pytest.approx(forward, rel=RELATIVE)
         assert units(found, "force", n, "backward") == pytest.approx(backward, rel=RELATIVE)
         if layout == V90 and n > 1:  # across the bisector or along it
@@ -139,6 +142,9 @@ def test_moments(throws, layout, first, second):
         parts = [units(found, "moment", order, part) for part in ("forward", "backward")]
         assert parts == pytest.approx(vectors, rel=RELATIVE, abs=1e-14), order
         assert (order in free(found, "moment")) is any(vectors), order
+        if layout == BOXER and any(vectors):  # about x
+            assert found.moment.axis_deg[order - 1] == pytest.approx(0, abs=1e-10), order
+    assert (round(five(1), 3), round(five(2), 3)) == (0.449, 4.980)
 
 
 # ------------------------------------------------------------------ other vees

@@ -1,4 +1,4 @@
-"""Analyze an engine: forces and moments by order, peaks, devices, and further parts on request."""
+"""Analyze an engine: forces and moments by order, peaks, devices, and other results on request."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ UNASKED = (*KINDS, "peak")  # default quantities of every engine
 QUANTITIES = (*UNASKED, "sizing", "ladder")
 EXTRAS = ("inner", "guide", "journals", "masses", "parts", "pru")  # computed only on request
 
-# All quantities that depend on the default of a key or table, by its name.
+# Quantities that depend on the default of a file key or table, by the name of this key or table.
 _WITH_FORCES = {"force", "moment", "peak", "sizing", "ladder", "inner", "pru"}
 _WITH_PLACES = (_WITH_FORCES - {"force"}) | {"guide"}
 _ALL_BUT_MASSES = {*QUANTITIES, *GAS_KINDS, "inner", "guide", "journals", "pru"}
@@ -74,7 +74,8 @@ _DEPENDENT = {
     "flywheel.inertia": _WITH_UNEVEN_SPEED,
     **dict.fromkeys(("crank.throws", "piston.offset", *_OF_FIRING), _ALL_BUT_MASSES),
     "layout.stagger": _WITH_PLACES,
-    "crank.spacing": _WITH_PLACES | {"force", "journals"},  # force: why moments are missing
+    # Forces do not depend on the spacing; its listed default explains why no moments are printed.
+    "crank.spacing": _WITH_PLACES | {"force", "journals"},
 }
 DEFAULT_ORDERS = (1.0, 2.0)
 _OF_ONE_CRANK = ("inner", "guide", "journals", "masses", "parts")
@@ -87,25 +88,26 @@ class Analysis(OrdersAndPeaks, Result):
 
     Attributes:
         engine: Analyzed engine.
-        state: Speed, cylinders without gas and point of reference.
+        state: Speed, numbers of cylinders without gas, and point of reference of the moments.
         spectra: Orders shown.
         assumed: Values that are used because the engine file leaves them out.
-        peak: Largest values over a revolution, all orders together.
-        sizing: Devices of the scheme `auto`, and the forces left with them.
+        peak: Largest force and moment over a revolution, all orders added up.
+        sizing: Devices of the scheme `auto`, and the forces and moments that remain with them.
         ladder: Devices that balance the engine, step by step.
-        cylinders: Each cylinder alone, without devices.
+        cylinders: Forces and moments of each single cylinder, without devices.
         inner: Shear force and bending moment along the crankshaft; for an engine with gas, also
             loads of bearings and block.
         guide: H- and X-type guide-force moments.
         travel: Strokes and dead centres of all cylinders; left out unless rods are articulated or
-            cylinders turn.
+            the engine is rotary.
         journals: Torque in main journals and crank pins.
         masses: Masses of pistons, rods and throws.
         parts: Bearing loads of balancer shafts and shapes of counterweights.
         power_related_unbalance: Free moments divided by the power.
         why: Whether the orders shown are balanced by symmetry or by chance.
-        stars: Phasor stars of the cylinders, for orders 1 and 2 or for the requested orders.
-        small: Share of one cylinder's first order below which a part is small.
+        stars: Phasor stars of the cylinders, for the requested orders (default: 1 and 2).
+        small: Share of one cylinder's first order. The verdict calls a rotating force or moment
+            below this share small.
     """
 
     format: Literal["balcli.analysis/1"] = "balcli.analysis/1"
@@ -148,7 +150,7 @@ class Analysis(OrdersAndPeaks, Result):
 
     @property
     def of_one_cylinder(self) -> dict[str, float]:
-        """Largest force and moment of one cylinder, by kind, with which values are compared."""
+        """Largest first-order force, moment and roll of one cylinder, by the name of each kind."""
         scales = self.scales
         return {kind.name: scales.roll for kind in SCALARS} | scales._asdict()
 
@@ -166,11 +168,11 @@ def shorten(analysis: Analysis) -> PeaksAndOrders:
 
 @dataclass(frozen=True)
 class Sizing:
-    """Devices of the scheme `auto`, and the forces left with them.
+    """Devices of the scheme `auto`, and the forces and moments that remain with them.
 
     Attributes:
         remedy: New devices.
-        after: Analysis with the devices.
+        after: Analysis of the engine with these devices.
     """
 
     remedy: Annotated[Remedy, WrittenAs(name_devices), INLINE]
@@ -190,24 +192,25 @@ def analyze(
     """Return the free forces and moments of an engine, order by order.
 
     Args:
-        engine: Engine without trailing axes.
-        orders: Orders to show; default: 1 and 2 (at uneven speed also 0), and all up to 512 in
-            which a quantity exceeds 1e-6 of its largest order.
+        engine: One engine, not an array of variants.
+        orders: Orders to show; default: 1 and 2 (at uneven speed also 0), and each order up to 512
+            at which the amplitude of some quantity exceeds 1e-6 of this quantity's largest
+            amplitude at any order.
         only: Any of force, moment, couple, torque, roll, peak, sizing, ladder, inner, guide,
-            journals, masses, parts, pru and gas, as a list or a text with commas; default: force
-            to peak, and gas if the engine has some.
+            journals, masses, parts, pru and gas, as a list or a text with commas; default: the
+            first six (force to peak), and gas if the engine has gas.
         by_cylinder: Whether to compute the phasors of each single cylinder as well.
-        reasons: Whether to find out why each order is balanced or not, with phasor stars.
+        reasons: Whether to find out why each order is balanced or not, and to compute phasor stars.
         guide_height_m: Distance from the crankshaft to the middle of the guides, m, for the X-type
-            guide moment; default: the rods' lengths.
-        beside: Further engines that are analyzed for the same orders; half orders are allowed if
-            one of them has some.
-        small: Share of one cylinder's first order below which ladder and sizing leave a part
-            unbalanced.
+            guide moment; default: the length of each rod.
+        beside: Other engines with which the result is to be compared. `orders` may contain half
+            orders if `engine` or one of these engines has half orders.
+        small: Share of one cylinder's first order. Ladder and sizing leave a rotating force or
+            moment below this share unbalanced.
 
     Raises:
-        BalcliError: A quantity is unknown, an order is negative or above 4096, there are too many
-            orders of too many cylinders, or a height is not above 0.
+        BalcliError: A quantity is unknown, an order is negative or above 4096, `by_cylinder` would
+            give too many results, `guide_height_m` is not above 0, or `small` is not 0 to 0.5.
         TypeError: An argument has the wrong type.
 
     Example:
@@ -298,7 +301,7 @@ def list_idle_defaults(engine: Engine, wanted: Collection[str]) -> set[str]:
     quantities.
 
     Args:
-        engine: Engine without trailing axes.
+        engine: One engine, not an array of variants.
         wanted: Quantities to compute.
     """
     due = {*wanted}
@@ -326,7 +329,7 @@ def _analyze_cylinders(
 
 
 def _size(engine: Engine, ladder: Ladder, asked: Array | None, wanted: Collection[str]) -> Sizing:
-    """Return the devices that the ladder fits, and the forces left with them."""
+    """Return the devices of the ladder's default step, and the forces and moments they leave."""
     remedy = ladder.fit()
     left = {*wanted, "force", "moment", "peak"} - {"sizing", "ladder"}
     return Sizing(remedy, analyze(fit_devices(engine, remedy), asked, left))
@@ -341,18 +344,20 @@ def _list_strokes(engine: Engine) -> tuple[Stroke, ...]:
 def _find_stars(
     engine: Engine, orders: Iterable[float], kinds: Collection[str]
 ) -> tuple[Star, ...] | None:
-    """Return the stars of force, and of moment if it is known and wanted; None without force."""
+    """Return the phasor stars of the force and, if moments are known and wanted, of the moment;
+    None if the force is not wanted.
+    """
     shown = {"force"} | ({"moment"} if engine.places_known else set()) & set(kinds)
     return tuple(find_stars(engine, orders, shown)) if "force" in kinds else None
 
 
 def find_inner_loads(engine: Engine, asked: Array | None = None) -> InnerLoads:
-    """Return shear, bending and bearing loads along the crankshaft. Loads with gas are included if
-    they are known.
+    """Return shear, bending and bearing loads along the crankshaft. For an engine with gas, loads
+    with gas are included if they can be computed.
 
     Args:
-        engine: Engine without trailing axes.
-        asked: Orders to show, shape (orders,); None: the default ones.
+        engine: One engine, not an array of variants.
+        asked: Orders to show, shape (orders,); None: the default orders.
     """
     inner = compute_inner_loads(engine, asked)
     return inner if engine.gas is None else add_gas_loads(inner, engine, asked)

@@ -1,5 +1,5 @@
 """Answer a request of `balcli analyze`: analyze files at one speed, at several speeds, or for the
-sheet that marine builders use, and print the results.
+sheet that builders of marine engines use, and print the results.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ def sheet(one: NamedResult[Analysis], system: System) -> Sheet:
 
 
 def rows(one: NamedResult[Analysis], system: System) -> Rows:
-    """Return the rows of CSV: those of the analysis, each with the engine's name first.
+    """Return the rows of CSV: the rows of the analysis, each preceded by the engine's name.
 
     Args:
         one: Analysis with the engine's name.
@@ -73,7 +73,7 @@ def answer(
     """
     view = View(asked.whole, asked.parts, asked.orders is not None)
     rpm = asked.speeds_rpm[0] if asked.speeds_rpm else None
-    words = None if asked.quantities is None else asked.parts  # parts that need warnings
+    words = None if asked.quantities is None else asked.parts  # warnings concern only these
     for_people = form in (Format.TABLE, Format.MARKDOWN)
     find, renderer = _choose_result(asked, for_people)
 
@@ -122,8 +122,8 @@ def _choose_result(
 
 
 def _ask(asked: Request, engine: Engine, for_people: bool) -> Callable[..., Analysis]:
-    """Return a function that analyzes an engine, at any speed, for given orders with the requested
-    options.
+    """Return a function with the arguments engine and orders, which analyzes this engine with the
+    requested options. If no quantities are requested, it computes the default ones of `engine`.
     """
     if asked.quantities is None:
         wanted = list(list_usual_quantities(engine))

@@ -123,10 +123,10 @@ def compare(
 
 
 def _refuse_parts(words: Sequence[str], paths: Sequence[str]) -> None:
-    """Reject parts of `analyze` that describe a single engine.
+    """Reject words of `--only` that ask for results on a single engine.
 
     Raises:
-        BalcliError: There is such a part; the error names the command that shows it.
+        BalcliError: There is such a word; the error names the command that shows its results.
     """
     if of_one := [word for word in words if word in OF_ONE]:
         command = shlex.join(["balcli", "analyze", *paths, "--only", of_one[0]])
@@ -134,7 +134,7 @@ def _refuse_parts(words: Sequence[str], paths: Sequence[str]) -> None:
 
 
 Cylinder = Annotated[
-    str | None, optional("N|NAME.N", "Motion of this piston; with [gas], also the pressure.")
+    str | None, optional("N|NAME.N", "Motion of one cylinder's piston; with [gas], also pressure.")
 ]
 Step = Annotated[str, typer.Option("--step", metavar="DEG", help="Step of the crank angle.")]
 SumOrders = Annotated[str | None, optional("1-8|1,3", "Only the sum of these orders.", "--orders")]
@@ -210,16 +210,16 @@ Phase = Annotated[
     str,
     typer.Option(
         metavar="DEG",
-        help="Crank angle by which the second engine leads, measured from its own x axis: "
-        "with --turn 90, the cranks point the same way at --phase -90.",
+        help="Angle of the second crank, from its own engine's x axis, when the first crank is at "
+        "0: with --turn 90, both cranks point the same way at --phase -90.",
     ),
 ]
-At = Annotated[str, typer.Option(metavar="X,Y,Z", help="Origin of the second engine, mm.")]
+At = Annotated[str, typer.Option(metavar="X,Y,Z", help="Place of the second engine's origin, mm.")]
 Turn = Annotated[
     str, typer.Option(metavar="DEG", help="Angle by which the second engine is turned about z.")
 ]
 Reverse = Annotated[bool, typer.Option("--reverse", help="The second crank turns the other way.")]
-Write = Annotated[Path | None, optional("OUT.toml", "Write the sum as a file with [[engine]].")]
+Write = Annotated[Path | None, optional("OUT.toml", "Write both to a file with [[engine]].")]
 LoadOption = Annotated[
     str, typer.Option(metavar="first|second|both", help="With --reverse: the crank with the load.")
 ]
@@ -240,8 +240,8 @@ def sum(  # noqa: A001 (the command's name)
     units: UnitsOption = Units.SI,
     output: Output = None,
 ) -> None:
-    """Two engines on one frame, geared one to one: H, U and opposed-piston engines. This is a short
-    form of a file with [[engine]].
+    """Two engines on one frame, geared one to one: H, U and opposed-piston engines. A file with
+    [[engine]] can describe the same two engines; --write writes this file.
 
     \b
     Examples:

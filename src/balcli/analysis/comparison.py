@@ -65,13 +65,13 @@ class Line:
     revolution.
 
     Attributes:
-        quantity: Name of the figure, which ends in its unit.
+        quantity: Name of the figure, with the unit at its end.
         order: Order; null for a peak.
         values: Value for each engine; null for moments that are not known.
         ratios: Ratios to the first engine's value; null if that value is 0.
         kind: Kind of force or moment.
-        single: Scale with which each value is compared, such as the value of one cylinder; 0 if
-            there is none.
+        single: Scale of each value, such as the value of one cylinder; a value is negligible if it
+            is below 0.1 % of its scale. 0: there is no scale.
     """
 
     quantity: str
@@ -88,7 +88,7 @@ class Line:
 
     @property
     def negligible(self) -> list[bool]:
-        """Whether each value is 0, or negligible against its scale."""
+        """Whether each value is 0, or below 0.1 % of its scale `single`."""
         pairs = zip(self.values, self.single, strict=True)
         return [value == 0 or value < NEGLIGIBLE * single for value, single in pairs]
 
@@ -107,10 +107,10 @@ class Comparison(Result):
         engines: Names of the engines.
         speeds_rpm: Speed of each engine.
         assumed: Values that are used because the files leave them out, with the engine's name if
-            they do not hold for all.
+            they do not hold for all engines.
         figures: Figures of all engines.
         ladders: Devices that balance each engine, step by step.
-        compared: Engines.
+        compared: Engines that are compared.
         whole: Whether tables show negligible orders as well.
     """
 
@@ -134,11 +134,11 @@ def analyze_alike(
     orders: Iterable[float] | None,
     analyze_one: Callable[[Engine, Iterable[float] | None], Analysis],
 ) -> tuple[Analysis, ...]:
-    """Return analyses of several engines, or of one at several speeds, all for the same orders.
+    """Return analyses of several engines, or of one engine at several speeds, for the same orders.
 
     Args:
-        engines: Engines without trailing axes.
-        orders: Orders to show; None: all that any of the analyses shows by default.
+        engines: Single engines, not arrays of variants.
+        orders: Orders to show; None: all orders that at least one analysis shows by default.
         analyze_one: Function that analyzes an engine for given orders.
     """
     analyses = tuple(analyze_one(engine, orders) for engine in engines)
@@ -157,7 +157,7 @@ def make_line(
         kind: Kind of force or moment.
         order: Order; None for a peak.
         values: Values, SI, one for each engine.
-        single: Scale with which each value is compared.
+        single: Scale of each value, as in `Line`.
     """
     name = f"peak_{kind.key}" if order is None else kind.key
     ratios = tuple(value / values[0] if values[0] else nan for value in values)
@@ -250,22 +250,22 @@ def compare(
 
     Args:
         engines: Two or more engines from `load`.
-        names: Names of the engines; default: those in their files, or numbers if a name is missing
-            or occurs twice.
-        orders: Orders to show; default: all that are not negligible in at least one engine.
+        names: Names of the engines; default: the names in their files, or "engine 1", "engine 2",
+            ... if a name is missing or occurs twice.
+        orders: Orders to show; default: all orders that `analyze` shows for at least one engine.
         only: Any of force, moment, couple, torque, roll, peak, sizing, ladder, inner, guide, gas;
-            default: force to peak, and gas if all engines have some.
-        whole: Whether tables show negligible orders as well; they do if orders are given.
-        small: Share of one cylinder's first order below which ladder and sizing leave a part
-            unbalanced.
+            default: the first six (force to peak), and gas if all engines have gas.
+        whole: Whether tables show negligible orders as well; if `orders` is given, they always do.
+        small: Share of one cylinder's first order. Ladder and sizing leave a rotating force or
+            moment below this share unbalanced.
 
     Returns:
-        Every figure in `result.figures`, with the values of all engines in SI units and their
-        ratios.
+        The comparison. Its `figures` have the values of all engines in SI units, and the ratios of
+        these values to the first engine's.
 
     Raises:
-        BalcliError: There are fewer than two engines, not one name for each, or a quantity is
-            unknown.
+        BalcliError: There are fewer than two engines, there are more or fewer names than engines,
+            or a quantity is unknown.
         TypeError: An argument is not an engine, or names are not texts.
 
     Example:
@@ -299,7 +299,7 @@ def compare(
 
 def rows(result: Comparison, system: System) -> Rows:
     """Return the rows of CSV: a line for each figure, a column for each engine. Figures of ladder
-    steps come last, in SI; they are empty for an engine without the step.
+    steps come last, in SI units; a cell is empty if the engine's ladder does not have this step.
 
     Args:
         result: Comparison of the engines.
@@ -357,15 +357,15 @@ def fit_unit(kind: Kind, lines: Iterable[Line], system: System) -> ShownUnit:
 
     Args:
         kind: Kind of force or moment.
-        lines: Lines with its values.
+        lines: Lines with values of this kind.
         system: System of units.
     """
     return system.unit(kind).fit(max((line.largest for line in lines), default=0.0))
 
 
 def find_lines_that_matter(lines: list[Line]) -> list[Line]:
-    """Return the lines with a value that is not negligible, compared both with the largest value of
-    all lines and with one cylinder. Orders up to 2 and the peak are also kept if a value is not
+    """Return the lines with a value that is not negligible, either compared with the largest value
+    of all lines or with its own scale. Orders up to 2 and the peak are also kept if a value is not
     known.
     """
     least = NEGLIGIBLE * max((line.largest for line in lines), default=0.0)
@@ -393,7 +393,7 @@ def show_sizes(line: Line, unit: ShownUnit, *, every: bool, digits: int | None =
 
 
 def _row(line: Line, unit: ShownUnit, *, every: bool) -> tuple[str, ...]:
-    """Return the row of a line: values, and ratios to the first value unless that is negligible."""
+    """Return a table row: values and, unless the first value is negligible, ratios to it."""
     first, *others = show_sizes(line, unit, every=every)
     ratios = (UNKNOWN if line.negligible[0] else number(ratio) for ratio in line.ratios[1:])
     return (

@@ -2,10 +2,11 @@
 cylinders (`--only masses`), and the free moments divided by the power (`--only pru`).
 
 The crankshaft is rigid, turns at the steady mean speed and delivers its torque at the flywheel end.
-If T_i is the torque of the cylinders on throw i, main journal j (1 to n + 1) carries the torque of
-all throws before it, `M_j = sum T_i, i < j`. The pin of throw i carries `M_i + T_i/2`, because the
-bearing before the throw takes half of the tangential force, at the arm r from the pin. The nominal
-shear stress of a hollow journal under the torque T is `16 T D/(pi (D^4 - d^4))`.
+If T_i is the torque of the cylinders on throw i (1 to n), main journal j (1 to n + 1) carries the
+torque of all throws before it, `M_j = sum T_i, i < j`. The pin of throw i carries `M_i + T_i/2`,
+because the bearing before the throw takes half of the tangential force, at the distance of the
+crank radius from the pin. Under the torque T, a journal with the outer diameter D and the bore d
+has the nominal shear stress `16 T D/(pi (D^4 - d^4))`.
 
 Let l be the length of a rod, m its mass, and a and b the distances of its centre of mass from the
 piston pin and the crank pin. The rod is represented by two masses: m b/l at the small end and m a/l
@@ -62,7 +63,7 @@ def find_journals(engine: Engine) -> tuple[Journal, ...]:
     """Return the torque in every main journal and crank pin, from the free end.
 
     Args:
-        engine: Engine without trailing axes.
+        engine: One engine, not an array of variants.
 
     Raises:
         BalcliError: The engine is rotary: its crank is at rest.
@@ -86,9 +87,9 @@ def find_journals(engine: Engine) -> tuple[Journal, ...]:
 
 
 def weigh_cylinders(engine: Engine) -> dict[tuple[str, int], Array]:
-    """Return the share of each cylinder's torque, shape (cylinders,), in every main journal and
-    crank pin from the free end: ("main", 1), ("pin", 1), ("main", 2), ...; errors as for
-    `find_journals`.
+    """Return which share of each cylinder's torque every main journal and crank pin carries, shape
+    (cylinders,). The keys run from the free end: ("main", 1), ("pin", 1), ("main", 2), ... Errors
+    are those of `find_journals`.
     """
     if engine.rotary:
         raise BalcliError("journals: the crank of a rotary engine stands still")
@@ -105,8 +106,8 @@ class CrankTorques(NamedTuple):
     """Torque of each cylinder on the crank.
 
     Attributes:
-        orders: Orders of inertia, shape (orders,).
-        each: Phasors of inertia torque, N m, shape (orders, cylinders).
+        orders: Orders of the inertia torque, shape (orders,).
+        each: Phasors of each cylinder's inertia torque, N m, shape (orders, cylinders).
         gas: Gas of the cylinders; None: the engine has no gas.
     """
 
@@ -124,14 +125,14 @@ class CrankTorques(NamedTuple):
         return cls(orders, each, engine.gas)
 
     def measure(self, weights: Array) -> JournalTorque:
-        """Return the inertia torque of the cylinders, weighted by `weights`, shape (cylinders,)."""
+        """Return the extremes of the inertia torque; `weights` are factors as in `sample`."""
         series = self.each @ weights
         if np.abs(series).sum() <= _ROUNDING * np.abs(self.each).sum():
             return _NONE
         return _write(*find_swing(self.orders, series))
 
     def measure_total(self, weights: Array) -> JournalTorque | None:
-        """Return the torque of gas and inertia of the weighted cylinders; None without gas."""
+        """Return the extremes of gas plus inertia torque, as `measure` does; None without gas."""
         if self.gas is None:
             return None
         if (gas := self._find_gas(weights)) is None:
@@ -141,7 +142,9 @@ class CrankTorques(NamedTuple):
         return _write(high, low, curve.mean)
 
     def sample(self, angle: Array, weights: Array) -> Array:
-        """Return the torque of the weighted cylinders, N m, at an array of crank angles, rad."""
+        """Return the sum of the cylinders' torques, N m, at an array of crank angles, rad. Each
+        torque is multiplied by its entry of `weights`, shape (cylinders,).
+        """
         gas, inertia = self._find_gas(weights), self._sum(angle, weights)
         return inertia if gas is None else inertia + gas.at(angle)
 
@@ -151,7 +154,7 @@ class CrankTorques(NamedTuple):
         return np.asarray((turned @ (self.each @ weights)).real)
 
     def _find_gas(self, weights: Array) -> PiecewiseCurve | None:
-        """Return the gas torque of the weighted cylinders over the cycle; None if there is none."""
+        """Return the gas torque of the weighted cylinders over the cycle; None if no gas acts."""
         if self.gas is None or not weights.any():
             return None
         pairs = zip(self.gas.cylinders, weights.tolist(), strict=True)
@@ -161,8 +164,14 @@ class CrankTorques(NamedTuple):
 
 def _write(high: CyclePeak | Extreme, low: CyclePeak | Extreme, mean: float = 0.0) -> JournalTorque:
     highest, lowest = float(high.value), float(low.value)
-    angles = (math.degrees(float(each.angle)) for each in (high, low))
-    return JournalTorque(highest, lowest, highest - lowest, mean, *angles)
+    return JournalTorque(
+        max_Nm=highest,
+        min_Nm=lowest,
+        range_Nm=highest - lowest,
+        mean_Nm=mean,
+        max_deg=math.degrees(float(high.angle)),
+        min_deg=math.degrees(float(low.angle)),
+    )
 
 
 def _find_stress(engine: Engine, torque: JournalTorque, kind: str) -> ShearStress | None:
@@ -267,7 +276,7 @@ def list_masses(engine: Engine) -> tuple[Masses, ...]:
     number.
 
     Args:
-        engine: Engine without trailing axes.
+        engine: One engine, not an array of variants.
     """
     c, count = engine.cylinders, len(engine.numbers)
     figures = [np.broadcast_to(np.ravel(v), count) for v in (c.radius, c.rod_length, c.couple)]
@@ -275,8 +284,14 @@ def list_masses(engine: Engine) -> tuple[Masses, ...]:
     found: dict[tuple[Masses, float], list[int]] = {}
     for number_, weighed, radius, length, couple in sorted(each, key=lambda row: row[0]):
         small, big = float(weighed.small_end), float(weighed.big_end)
-        moving = weighed.piston, weighed.crosshead, weighed.reciprocating
-        one = Masses((), *map(float, (*moving, weighed.rotating, weighed.share)))
+        one = Masses(
+            cylinders=(),
+            piston_kg=float(weighed.piston),
+            crosshead_kg=float(weighed.crosshead),
+            reciprocating_kg=float(weighed.reciprocating),
+            rotating_kg=float(weighed.rotating),
+            throw_kg=float(weighed.share),
+        )
         if (mass := small + big) > 0:
             one = one._replace(rod_kg=mass, rod_small_end_kg=small, rod_big_end_kg=big)
         if mass > 0 and math.isfinite(length):
@@ -299,11 +314,11 @@ _LABELS = {
     "rod_small_end_kg": "rod at the small end",
     "rod_big_end_kg": "rod at the big end",
     "reciprocating_kg": "reciprocating",
-    "rotating_kg": "rotating without throw",
+    "rotating_kg": "rotating without the throw",
     "throw_kg": "share of the throw",
     "rod_inertia_kg_m2": "inertia of the rod",
-    "radius_of_gyration_m": "its radius of gyration",
-    "couple_constant_kg_m2": "H",
+    "radius_of_gyration_m": "radius of gyration",
+    "couple_constant_kg_m2": "couple constant H",
     "reduced_length_m": "reduced length",
 }
 
@@ -339,7 +354,7 @@ def relate_to_power(engine: Engine) -> PowerRelatedUnbalance:
     file.
 
     Args:
-        engine: Engine without trailing axes.
+        engine: One engine, not an array of variants.
 
     Raises:
         BalcliError: No power is known.
@@ -380,4 +395,4 @@ def lay_out_related(related: PowerRelatedUnbalance, system: System) -> Grid:
         for order, moment, ratio, need in related.orders
     )
     heads = ("order", f"M, {unit.name}", "PRU, N·m/kW", "compensator")
-    return Grid(title, heads, rows, "At the speed of the file.", words=(3,))
+    return Grid(title, heads, rows, "Moments and power at the speed of the file.", words=(3,))

@@ -81,7 +81,7 @@ def compute_engine_curves(engine: Engine, crank_deg: Array) -> dict[str, Array]:
     devices; force and moment also as vertical and horizontal components, if `frame.up` is given.
 
     Args:
-        engine: Engine without trailing axes.
+        engine: One engine, not an array of variants.
         crank_deg: Crank angles, shape (angles,).
     """
     curves = _sum_parts(engine, crank_deg, lambda angles: _compute_engine_parts(engine, angles))
@@ -95,12 +95,12 @@ def compute_order_curves(
     only the given orders.
 
     Args:
-        engine: Engine without trailing axes.
+        engine: One engine, not an array of variants.
         orders: Orders to add up, multiples of 1/2.
         crank_deg: Crank angles, shape (angles,).
 
     Raises:
-        BalcliError: A number is not an order.
+        BalcliError: A number is not a multiple of 1/2 from 0 to 4096.
     """
     kinds = EVERY_KIND if engine.gas is not None else KINDS
     spectra = compute_spectra(engine, check_orders(orders), tuple(kinds))
@@ -132,11 +132,11 @@ def _find_upright(engine: Engine, curves: Mapping[str, Array]) -> dict[str, Arra
 def compute_cylinder_curves(
     engine: Engine, number: CylinderNumber, crank_deg: Array
 ) -> dict[str, Array]:
-    """Return piston travel from top dead centre (m), velocity and acceleration away from it (m/s,
-    m/s2) and rod angle (deg) of one cylinder.
+    """Return piston travel from top dead centre (m), velocity and acceleration away from top dead
+    centre (m/s, m/s2) and rod angle (deg) of one cylinder.
 
     Args:
-        engine: Engine without trailing axes.
+        engine: One engine, not an array of variants.
         number: Number of the cylinder.
         crank_deg: Crank angles, shape (angles,).
 
@@ -244,8 +244,10 @@ def _force_of_cylinders(motion: EngineMotion) -> Complex:
 
 def _couple_of_cylinders(motion: EngineMotion) -> Array:
     """Return the free couple of each cylinder about the crank's axis, N m, shape (cylinders,
-    angles), from the moment of momentum h = -m_rec e s' + m_rot r^2 - H spin (+ masses of the
-    linkage), with s' = -r v.
+    angles), from the moment of momentum at unit crank speed, h = -m_rec e s' + m_rot r^2 - H spin
+    (+ masses of the linkage). e is the offset of the cylinder, s' the derivative of the piston's
+    distance from the crank axis by the crank angle, H the couple constant of the rod, and spin the
+    angular velocity of the rod.
     """
     c, r, m = motion.cylinders, motion.radius, motion.moved
     pull = as_rows(c.reciprocating) * as_rows(c.offset) * r
@@ -268,9 +270,9 @@ def _find_gas_torque(engine: Engine, crank_deg: Array) -> dict[str, Array]:
 
 
 def _find_cylinder_gas(engine: Engine, row: int, crank_deg: Array) -> dict[str, Array]:
-    """Return curves of the cylinder in a row, each of shape (angles,): pressure (Pa), volume (m3),
-    gas force, side thrust, force along the rod, force on the crank or knuckle pin along and across
-    the cylinder (N), and torque of gas and inertia (N m). Curves that are not known are omitted.
+    """Return curves of the cylinder in this row, each of shape (angles,): pressure (Pa), volume
+    (m3), gas force, side thrust, force along the rod, force on the crank or knuckle pin along and
+    across the cylinder (N), and torque of gas and inertia (N m). Unknown curves are omitted.
 
     Forces across the cylinder are positive towards the side to which the crank pin moves after top
     dead centre. (In a rotary engine, this side is behind the turning cylinder.)
@@ -317,9 +319,9 @@ def curves(
         engine: Engine from `load`.
         step_deg: Step of the crank angle, which runs from 0 over a revolution, or with gas over a
             cycle.
-        cylinder: Number of a cylinder (of geared engines "upper.3"). The curves are its piston
-            travel, speed, acceleration and rod angle, and its pressure if it has gas; default: the
-            whole engine.
+        cylinder: Number of a cylinder (for geared engines with the engine's name, "upper.3"), whose
+            piston travel, speed, acceleration and rod angle, and with gas pressure and forces, are
+            returned; default: curves of the whole engine.
         orders: Orders of the whole engine to add up; default: all.
 
     Returns:
@@ -352,7 +354,7 @@ def compute_curves_by_step(
     """Return the curves at equal steps over a cycle; errors as for `curves`.
 
     Args:
-        engine: Engine without trailing axes.
+        engine: One engine, not an array of variants.
         cylinder: Number of the cylinder whose motion is wanted; None: the whole engine.
         step_deg: Step of the crank angle, deg.
         orders: Orders whose sum is wanted; None: all.
@@ -373,10 +375,9 @@ def compute_curves_by_step(
         found = compute_engine_curves(engine, crank_deg)
         if engine.gas is not None:
             curves = compute_piecemeal(engine, crank_deg, partial(_find_gas_torque, engine))
-            torque, borne = map(_settle, curves.values())
-            found[GAS.key] = torque
-            found[TORQUE_TOTAL.key] = found[TORQUE.key] + torque
-            found[ROLL_TOTAL.key] = found[ROLL.key] - borne
+            found[GAS.key] = _settle(curves[GAS.key])
+            found[TORQUE_TOTAL.key] = found[TORQUE.key] + found[GAS.key]
+            found[ROLL_TOTAL.key] = found[ROLL.key] - _settle(curves["borne"])
     return Curves(
         engine=engine.name,
         speed_rpm=float(engine.speed_rpm),

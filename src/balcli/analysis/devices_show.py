@@ -35,11 +35,11 @@ if TYPE_CHECKING:
 
 
 _ROUNDING = 1e-12  # a smaller share of one cylinder's value is rounding
-_HARDLY = 0.05  # a smaller share of one cylinder, %, would be printed as 0.0
-_ORDER = ("ratio", "order", "unbalance", "angle", "direction", "position", "at")  # order in CSV
+_HARDLY = 0.05  # a smaller share of one cylinder's first order, %, would be printed as 0.0
+_ORDER = ("ratio", "order", "unbalance", "angle", "direction", "position", "at")  # sequence in CSV
 ANGLES = (
-    "Angles count in the sense of rotation, clockwise seen from the free end (front): from "
-    "cylinder 1's crank pin for counterweights, from x for shafts."
+    "Angles count in the direction of rotation, clockwise seen from the free end (front). Angles "
+    "of counterweights count from cylinder 1's crank pin, those of shafts from x."
 )
 
 
@@ -85,7 +85,7 @@ def ladder_grid(
         tell_fitted: Whether a sentence names the step that `balcli balance` fits.
     """
     steps, scale = ladder.steps, ladder.scale
-    columns = [("step", [f"{k} {step.step}" for k, step in enumerate(steps)])]
+    columns = [("step", [f"{k} {step.title}" for k, step in enumerate(steps)])]
     for name, kind, key, of_one in (
         ("force", FORCE, "peak_force_N", scale.force_N),
         ("moment", MOMENT, "peak_moment_Nm", scale.moment_Nm),
@@ -142,14 +142,14 @@ def _tell_left_out(out: LeftOut, ladder: Ladder, system: System) -> str:
 
 
 def _explain_places(devices: Sequence[DeviceTable], free: Sequence[bool]) -> Iterator[str]:
-    """Yield notes on shafts and sliders: how angles count, and where a shaft may be."""
+    """Yield notes on shafts and sliders: where their angles count from, and where they may be."""
     if any(isinstance(device, Shaft) for device in devices):
         yield (
-            "Angles of shafts are those at crank angle 0. They count in the sense of the crank, "
-            "even if a shaft turns against it."
+            "Angles of shafts are those at crank angle 0, and count in the direction in which the "
+            "crank turns, even if a shaft turns against the crank."
         )
     if any(isinstance(device, Slider) for device in devices):
-        yield "Sliders: phase at crank angle 0, and direction of the path from x."
+        yield "Angles of sliders: phase at crank angle 0, and direction of the path from x."
     if any(free):
         yield "free: the shaft may be anywhere, because it makes only a moment."
     shafts = zip(devices, free, strict=True)
@@ -180,9 +180,9 @@ def practical_grid(remedy: Remedy, practical: tuple[Practical, ...], system: Sys
     """
     length, mass, force = system.length, system.mass, system.force
     radius = list_radii(practical, length)
-    note = f"Centrifugal force; mass at a radius of {radius}; disc: semicircular, of steel."
+    note = f"Force: centrifugal. Mass: at a radius of {radius}. Disc: semicircular, of steel."
     if remedy.sliders:
-        note = f"Largest force of a stroke; mass at an amplitude of {radius}."
+        note = f"Force: largest over a stroke. Mass: at an amplitude of {radius}."
     rows = []
     for k, (device, p) in enumerate(zip(remedy.devices, practical, strict=True), 1):
         disc = [UNKNOWN, UNKNOWN]
@@ -199,7 +199,7 @@ def practical_grid(remedy: Remedy, practical: tuple[Practical, ...], system: Sys
 def holes_grid(
     remedy: Remedy, practical: tuple[Practical, ...], tools: Tools, system: System
 ) -> Grid:
-    """Return a table of the holes to drill for each device or its slugs: angle, number and depth.
+    """Return a table of the holes to drill, for slugs or instead of weights: a row for each device.
 
     Args:
         remedy: Devices.

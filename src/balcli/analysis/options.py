@@ -20,22 +20,22 @@ AnalysisFormatOption = Annotated[
     format_option(
         (*TEXTS.values(), Format.MARINE),
         "Format of the result; default: by the ending of -o, else table. marine: table of external "
-        "forces and moments, guide moments and torque by order; add `-f csv` for CSV.",
+        "forces and moments, guide moments and torque by order; in CSV with `-f marine -f csv`.",
     ),
 ]
 SpeedsOption = Annotated[
     str | None,
     optional(
         "RPM|RPM:RPM:STEP|RPM,...",
-        "Crank speed instead of the file's, rpm, or several, such as 60:124:8. The last speed of a "
-        "range is always computed.",
+        "Crank speed, rpm, instead of the speed in the file; or several, such as 60:124:8 (first, "
+        "last, step). The last speed of a range is always computed.",
         "--speed",
         "--rpm",
     ),
 ]
 By = Annotated[
     Literal["cylinder"] | None,
-    optional("cylinder", "Also show the share of each cylinder.", "--by"),
+    optional("cylinder", "Also show forces and moments of each single cylinder.", "--by"),
 ]
 Why = Annotated[
     bool, typer.Option("--why", help="Print why orders are balanced or not, and phasor stars.")
@@ -43,21 +43,21 @@ Why = Annotated[
 
 
 class Request(NamedTuple):
-    """Options of an analysis, the same for every engine.
+    """Options of `balcli analyze`, which hold for every engine.
 
     Attributes:
         speeds_rpm: Crank speeds; empty: the speed of the file.
-        orders: Orders to show; None: the default ones of each engine.
-        quantities: Quantities to compute; None: the default ones of each engine.
+        orders: Orders to show; None: the default orders of each engine.
+        quantities: Quantities to compute; None: the default quantities of each engine.
         parts: Words of `--only`; empty if it is not given.
         whole: Whether every table and every order is shown.
-        by_cylinder: Whether each cylinder's share is shown.
-        why: Whether reasons are shown.
-        height_m: Distance from the crankshaft to the middle of the guides; None: the rods' lengths.
+        by_cylinder: Whether forces and moments of each single cylinder are shown.
+        why: Whether to show why orders are balanced or not, and phasor stars.
+        height_m: Distance from the crankshaft to the middle of the guides; None: each rod's length.
         misfires: Numbers of the cylinders without gas.
         marine: Whether the sheet of marine builders is wanted.
-        small: Share of one cylinder's first order below which ladder and sizing leave a part
-            unbalanced.
+        small: Share of one cylinder's first order. Ladder and sizing leave a rotating force or
+            moment below this share unbalanced.
     """
 
     speeds_rpm: tuple[float, ...]

@@ -59,14 +59,14 @@ def order_tables(
     with_gas: bool = False,
     every: bool = False,
 ) -> Iterator[Grid]:
-    """Yield a table of each vector, a table of the torques about z, and a further one with gas.
+    """Yield a table of each vector, a table of the torques about z, and one of torques with gas.
 
     Args:
         spectra: Spectra to show.
         system: System of units.
         pivot: Axis of couple and roll, in words.
         roll: Sentence that defines the roll, if it is not the couple C minus the torque T.
-        with_gas: Whether the engine has gas; torques of inertia are then labelled.
+        with_gas: Whether the engine has gas; torques of inertia alone are then labelled as such.
         every: Whether to show orders above 2 that are balanced as well.
     """
     for kind, phasors in spectra.vectors():
@@ -112,7 +112,7 @@ def direction_tables(spectra: Spectra, system: System, *, every: bool = False) -
         [phasors for _, phasors, _ in vectors],
         cells,
         every,
-        f"Value = amplitude · cos(order · θ − angle). {levers}",
+        f"At crank angle θ: amplitude · cos(order θ − angle). {levers}",
     )
 
 
@@ -131,7 +131,7 @@ def textbook_tables(book: Textbook, system: System, *, every: bool = False) -> I
         cylinder = "one cylinder" if units.equal else f"cylinder {units.cylinder}"
         note = (
             f"F1 = m r ω² = {size_text(units.force, system.force, 5)} "
-            f"(m: reciprocating mass of {cylinder}); order n is Fn = A_n F1. {_AS_BUILT}"
+            f"(m: reciprocating mass of {cylinder}); unit of order n: Fn = A_n F1. {_AS_BUILT}"
         )
         yield _textbook_table(FORCE, book, note, every)
     if built.moment is not None and not math.isnan(units.arm):
@@ -165,7 +165,7 @@ def cylinder_tables(
         yield Grid.of_columns(title, vectors)
         title += ", about the crank"
     if len(scalars) > 1:
-        yield Grid.of_columns(title, scalars, "Value = amplitude · cos(order · θ − angle).")
+        yield Grid.of_columns(title, scalars, "At crank angle θ: amplitude · cos(order θ − angle).")
 
 
 def _column(name: str, values: Complex, unit: ShownUnit) -> tuple[str, list[str]]:
@@ -186,7 +186,7 @@ def peak_facts(
         result: Result with peaks.
         system: System of units.
         title: Title of the block.
-        single: Size of each kind for one cylinder, with which peaks are compared.
+        single: Value of each kind for one cylinder; peaks below 0.1 % of it are negligible.
     """
     pairs = []
     for kind, peak in result.peaks:
@@ -330,7 +330,7 @@ def gas_grid(spectra: Spectra, system: System, pivot: str, view: View) -> Iterat
 
 
 def tell_rocking(spectra: Spectra, system: System, pivot: str) -> str:
-    """Return a sentence on the order that rocks the engine most; empty if it is not known.
+    """Return a sentence on the order with the largest roll; empty if no roll with gas is known.
 
     Args:
         spectra: Spectra with roll.

@@ -77,7 +77,7 @@ def vectors_grid(spectra: Spectra, shown: list[float], system: System, *, hints:
 
 
 def name_column(kind: Kind) -> str:
-    """Return the name of a kind in heads of columns and in sentences."""
+    """Return the name of a kind for headings of columns and for sentences."""
     return "roll with gas" if kind is ROLL_TOTAL else kind.name
 
 
@@ -105,7 +105,7 @@ def tell_others(spectra: Spectra, shown: list[float], system: System, *, hints: 
     more = ", …" if len(others) > 6 else ""
     plural = "s" * (len(others) > 1)
     told = f"Negligible: order{plural} {names}{more} (at most {', '.join(sizes)})."
-    return f"{told} All: --all." if hints else told
+    return f"{told} --all shows them." if hints else told
 
 
 def roll_and_peaks(result: Analysis, system: System, *, every_order: bool) -> Facts:
@@ -142,7 +142,7 @@ def _tell_roll(result: Analysis, roll: Phasors, system: System, *, every_order: 
 
 
 _NAMES = ("First", "Second", "Third", "Fourth", "Fifth", "Sixth", "Seventh", "Eighth")
-_ROUNDING = 1e-9  # a sum of opposite vectors below this share of one of them is 0
+_ROUNDING = 1e-9  # a smaller share of the vectors that should cancel is rounding
 _MOST_WORDS = 25  # largest number of words in a sentence
 _MOST_NAMED = 5  # largest number of orders that a sentence names
 _AXES = {"0.0": "x", "90.0": "y"}
@@ -150,12 +150,12 @@ _NAMED = {"moment": "longitudinal moment"}  # distinguishes it from the couple, 
 _SENSES = {1: "with the crank", -1: "against the crank"}
 _UNEVEN = (
     "Uneven speed mixes the orders. Devices are sized at steady speed; a device that cancels an "
-    "order at steady speed also cancels what this order adds to others."
+    "order at steady speed also cancels what this order adds to other orders at uneven speed."
 )
 
 
 class _Vector(NamedTuple):
-    """Free force or moment of all orders; `scale` is its size for one cylinder (0: not known)."""
+    """Free force or moment of all orders; `scale` is that of one cylinder (0: not known)."""
 
     kind: Kind
     phasors: Phasors
@@ -169,7 +169,7 @@ class _Vector(NamedTuple):
         return float(abs(turning[k]))
 
     def tell_size(self, k: int, sense: int = 0) -> str:
-        """Return in words the largest value of an order, or the size of its vector in one sense."""
+        """Return in words the largest value of an order or, with `sense`, of the vector `part`."""
         size = self.part(k, sense) if sense else float(self.phasors.major[k])
         return size_text(size, self.unit)
 
@@ -199,10 +199,11 @@ class _Order(NamedTuple):
     Attributes:
         k: Index of the order in the spectra.
         order: Order.
-        large: Force and moment of this order if they are not small.
-        rest: Force and moment of this order if they are small.
+        large: Force, moment or both, whichever are not small at this order.
+        rest: Force, moment or both, whichever are small at this order.
         couple: Whether the transverse couple of this order was computed and is balanced.
-        cures: Devices that would cancel the parts that are not small, by sense of rotation.
+        cures: Devices that would cancel the vectors that are not small, by the direction in which
+            these vectors turn: 1 with the crank, -1 against it.
     """
 
     k: int
@@ -236,8 +237,8 @@ class _Order(NamedTuple):
         return told
 
     def _tell_cure(self, sizes: bool) -> str:
-        """Return in words the devices that cancel the order. With `sizes`, and if only one vector
-        is large, the size of the part that each device cancels is stated.
+        """Return in words the devices that cancel the order. If `sizes` is true and either only the
+        force or only the moment is large, the size that each device cancels is stated.
         """
         if not self.cures:
             return ""
@@ -279,11 +280,12 @@ def verdict(
         spectra: Spectra to judge.
         system: System of units.
         scales: Force and moment of one cylinder; None: not known, so that no order is small.
-        small: Share of one cylinder's force or moment below which a part is small.
-        engine: Engine with these spectra; None: one crank without devices at steady speed. A cure
-            that turns like one of the engine's devices is called a further one. At uneven speed no
-            cure is named, because most of an order may come from another order, and would vanish
-            with that order.
+        small: Share of one cylinder's force or moment. The force or moment of an order is small
+            if both its vectors (with the crank and against it) are below this share.
+        engine: Engine with these spectra; None: one crank without devices at steady speed. A named
+            device that turns like one of the engine's devices is called a further one. At uneven
+            speed no device is named, because most of an order may come from another order, and
+            would vanish with that order.
     """
     of_one = {} if scales is None else scales._asdict()
     steady = engine is None or not engine.ripple
@@ -328,7 +330,7 @@ def verdict(
     small_ones = _tell_largest(
         [(one, vector) for one in every if one.order not in compensated for vector in one.rest]
     )
-    if told or small_ones or min(balanced, default=3) <= 2:  # then name only orders 1 and 2
+    if told or small_ones or min(balanced, default=3) <= 2:  # name no higher balanced orders
         usual = [order for order in balanced if order in (1, 2)]
         balanced = usual or [order for order in balanced if order < 2 and not told]
     if all(one.couple for one in every if one.order in balanced):
@@ -391,7 +393,7 @@ def find_couple(result: Analysis) -> Phasors | None:
 
 def tell_couple(result: Analysis, system: System) -> str:
     """Return a sentence on the largest transverse couple and, for a single crank, its causes; empty
-    if all orders of it are negligible.
+    if the couple is negligible at all orders.
     """
     if (couple := find_couple(result)) is None:
         return ""
@@ -403,17 +405,17 @@ def tell_couple(result: Analysis, system: System) -> str:
     causes = _find_causes(result.engine, couple.orders, NEGLIGIBLE * result.scales.moment)
     told += f", from {join_words(causes)}"
     alone = causes == [_RODS] and result.engine.cylinders.linkage is None
-    return f"{told}{'; rods equal to two masses at their ends (H = 0) have none' * alone}."
+    return f"{told}{'; a rod dynamically equivalent to two masses at its ends has none' * alone}."
 
 
 def _find_causes(engine: Engine, orders: Array, least: float) -> list[str]:
-    """Return in words the causes of the transverse couple in some orders. Parts are added to the
-    rods one after the other; each part that changes the couple is a cause.
+    """Return in words the causes of the transverse couple at some orders. The couple is computed
+    for the rods alone, then with one further cause after the other. Those that change it are named.
 
     Args:
         engine: Engine.
         orders: Orders, shape (orders,).
-        least: Smallest couple that counts, N m.
+        least: Smallest change of the couple that makes a cause worth naming, N m.
     """
     c, z = engine.cylinders, engine.reference_m[2]
     steady = replace(engine, ripple=())
@@ -423,7 +425,7 @@ def _find_causes(engine: Engine, orders: Array, least: float) -> list[str]:
     steps = {
         _RODS: rods,
         pistons: about_crank,
-        "forces whose lines miss the reference": steady,
+        "forces whose lines miss the point of reference": steady,
         "the acceleration of turning parts": engine,
     }
     before: Complex = np.zeros(len(orders), complex)
@@ -439,8 +441,8 @@ def _find_causes(engine: Engine, orders: Array, least: float) -> list[str]:
 def _find_cures(
     order: float, due: Collection[int], devices: Sequence[Device], turning: Collection[int]
 ) -> dict[int, str]:
-    """Return in words the device that would cancel the part of an order that turns in each of the
-    senses `due`, by sense.
+    """Return in words, for each direction of rotation in `due` (1: with the crank, -1: against it),
+    the device that would cancel the vector of this order that turns in this direction.
     """
     if order % 1:
         return {}  # no device turns at half orders

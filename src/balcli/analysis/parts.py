@@ -1,10 +1,11 @@
 """Compute the bearing loads and bending of balancer shafts, and the shapes of counterweights
 (`analyze --only parts`).
 
-The load `F_i = U_i k^2 omega^2 e^{i angle_i}` of an eccentric at z_i turns with its shaft, which
-turns k times as fast as the crank. Bearing A of the shaft takes `sum F_i (z_B - z_i)/(z_B - z_A)`,
-and bearing B takes the rest. The bending moment at a section is the sum of all loads and bearing
-forces before it, each times its arm; it is largest at a load or bearing.
+An eccentric with the unbalance U_i at z_i loads its shaft, which turns k times as fast as the crank
+(omega), with the force `F_i = U_i k^2 omega^2 e^{i angle_i}`. This load turns with the shaft.
+Bearing A at z_A takes `sum F_i (z_B - z_i)/(z_B - z_A)`, and bearing B at z_B takes the rest. The
+bending moment at a section is the sum of all loads and bearing forces before the section, each
+times its distance from the section. It is largest at a load or bearing.
 
 A gear may drive the shaft against a drag torque T. If the mesh is in direction d from the axis of
 the shaft, R is the pitch radius and alpha the pressure angle, the gear presses on the shaft with
@@ -41,7 +42,7 @@ def find_parts(
     """Return bearing loads of balancer shafts, at the mean speed, and shapes of counterweights.
 
     Args:
-        engine: Engine without trailing axes.
+        engine: One engine, not an array of variants.
         shafts: The `[[shaft]]` tables of the engine.
         counterweights: The `[[counterweight]]` tables of the engine.
     """
@@ -80,7 +81,8 @@ def _describe_shaft(name: str, entries: Sequence[Shaft], omega: float) -> Balanc
     turning = _share(loads, places, planes)
     gear, fixed = _describe_gear(entries, order * omega, planes)
     borne = tuple(map(_describe_bearing, bearings, turning.tolist(), fixed.tolist()))
-    return BalancerShaft(*shaft, borne, *_find_bending(loads, places, turning, planes), gear)
+    bending, place = _find_bending(loads, places, turning, planes)
+    return BalancerShaft(*shaft, borne, bending, place, gear)
 
 
 def _describe_gear(
@@ -165,7 +167,7 @@ _BEARINGS_NOTE = (
     "Moving weights so that both resultants stay the same changes only the bending."
 )
 _RADIUS_NOTE = "Radius: distance of the centre of mass from the crank axis."
-_CLEARANCE_NOTE = "Clearance: gap to the lowest piston, as if it stood over the counterweight."
+_CLEARANCE_NOTE = "Clearance: gap to the piston that comes lowest, as if it were above the weight."
 
 
 _BEARING = {
@@ -192,6 +194,9 @@ def lay_out_parts(parts: BalanceParts, system: System) -> Iterator[Grid | Facts 
     if parts.shafts:
         pairs = tuple((shaft.name, _tell_shaft(shaft, system)) for shaft in parts.shafts)
         yield Facts(pairs, "Bending, inertia and drag of shafts")
+    if bare := [shaft.name for shaft in parts.shafts if not shaft.bearings]:
+        told = f"Loads are not known: the file gives no bearings for {', '.join(bare)}."
+        yield Text("Balancer shafts", (told,))
     if parts.counterweights:
         yield _lay_out_counterweights(parts.counterweights, system)
     if not (parts.shafts or parts.counterweights):
@@ -214,7 +219,7 @@ def list_columns(
     Args:
         records: Records, one for each row.
         labels: Labels of the figures, by their keys.
-        units: Further units, by their SI names.
+        units: Units in addition to those of the system, by their SI names.
         system: System of units.
     """
     length, angle = system.length, ShownUnit("deg", 1)

@@ -1,7 +1,7 @@
 """Compute the motion of the pistons: strokes, dead centres, mean and largest speed, and
 accelerations; exactly, and by the two terms that textbooks use.
 
-Angles named "own" are crank angles of one cylinder: 0 means that its pin points along its axis.
+Angles named "own" are crank angles of one cylinder: 0 means that its crank pin is on its axis.
 The acceleration towards the crank is a series of cosines (`core.mechanisms.closed_form`), and the
 velocity is its integral. The extremes are those of these series.
 """
@@ -33,8 +33,8 @@ from ..show.result import Result
 from ..show.sheet import NAMELESS, UNKNOWN, Facts, Grid, Sheet, assumed_facts, number
 from ..show.units import IMPERIAL, INCH, ShownUnit, System, name_with_unit
 
-# Rod ratio of a centred slider-crank for which the fourth derivative of s at 180 deg is 0:
-# 3 lam^3 - 4 lam + 1 = 0. Above it, the acceleration has two minima.
+# Rod ratio lam of a centred slider-crank for which the fourth derivative of the piston travel, by
+# crank angle, is 0 at 180 deg: 3 lam^3 - 4 lam + 1 = 0. Above it, the acceleration has two minima.
 TYPE_LIMIT = (math.sqrt(7 / 3) - 1) / 2
 _TWO_TERM_LIMIT = 1 / 4
 _USUAL = (  # Lu and Meng, Automobile Engine Design, 1990, section 1.1.1.1 and Table 1-5
@@ -83,7 +83,8 @@ class Acceleration:
 
 @dataclass(frozen=True, kw_only=True)
 class TwoTerm:
-    """Velocity and acceleration by the first two terms: v = r w (sin psi + lam/2 sin 2 psi).
+    """Velocity and acceleration by the first two terms of their series. The velocity at crank angle
+    psi is r omega (sin psi + lam/2 sin 2 psi); r: crank radius, omega: crank speed, lam: rod ratio.
 
     Attributes:
         velocity_max_m_per_s: Highest velocity.
@@ -253,7 +254,7 @@ def _find_extremes(
 
 
 def _use_two_terms(lam: float, radius: float, omega: float) -> TwoTerm:
-    """Return the figures of the first two terms of a centred slider-crank.
+    """Return velocity and acceleration of a centred slider-crank by their first two terms.
 
     The minimum of `cos psi + lam cos 2 psi` is at `cos psi = -1/(4 lam)` if there is such an angle,
     otherwise at 180 deg.

@@ -53,8 +53,8 @@ def draw_vector_bars(
         curve: Phasors of the vector, shape (orders,).
         what: Name of the quantity.
         unit: Unit of the quantity.
-        before: Earlier phasors of the same orders, whose largest values are drawn dashed; None if
-            there are none.
+        before: Phasors of the same orders before balancing, whose largest values are drawn dashed;
+            None if there are none.
     """
     shown = visible_rows(curve, before)
     s = fit_largest(unit, *(p for p in (curve, before) if p is not None))
@@ -89,7 +89,7 @@ def draw_scalar_bars(ax: Axes, curves: Mapping[str, Phasors], unit: ShownUnit) -
 
 
 def visible_rows(curve: Phasors, before: Phasors | None = None) -> list[int]:
-    """Return the rows of orders 1 and 2 and of orders large enough to be seen; at most ten.
+    """Return the row numbers of orders 1 and 2 and of orders large enough to be seen; at most ten.
 
     Args:
         curve: Phasors, shape (orders,).
@@ -126,7 +126,7 @@ def draw_curves(
         lines: Values by label, each of shape (angles,).
         what: Name of the quantity.
         unit: Unit of the quantity.
-        before: Earlier values of the last line, drawn dashed; None if there are none.
+        before: Values of the last line before balancing, drawn dashed; None if there are none.
     """
     values = [*lines.values(), *([] if before is None else [before])]
     s = unit.fit(float(np.abs(values).max()))
@@ -199,7 +199,7 @@ def draw_along(
 
     Args:
         ax: Axes to draw on.
-        curves: Loads; a second entry has the earlier loads, drawn dashed.
+        curves: Loads; a second entry has the loads before balancing, drawn dashed.
         what: "force" or "moment".
         system: System of units.
         steps: matplotlib's drawstyle of the line between the places; empty: vertical lines.
@@ -238,7 +238,7 @@ def draw_piston(fig: Figure, engine: Engine, number: int, system: System) -> Non
 
     Args:
         fig: Empty figure, whose height is set.
-        engine: Engine without trailing axes; the curves are those at its mean speed.
+        engine: One engine, not an array of variants; the curves are those at its mean speed.
         number: Number of the cylinder.
         system: System of units.
 
@@ -307,7 +307,7 @@ def draw_journals(fig: Figure, engine: Engine, unit: ShownUnit) -> None:
 
     Args:
         fig: Empty figure.
-        engine: Engine without trailing axes.
+        engine: One engine, not an array of variants.
         unit: Unit of the torques.
 
     Raises:

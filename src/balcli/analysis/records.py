@@ -193,8 +193,9 @@ class GuideOrder(NamedTuple):
     Attributes:
         order: Order.
         h_Nm: H-type: sum of the roll moments of all cylinders.
-        x_Nm: X-type: sum of roll moments times their axial distances, divided by the height of the
-            guides; left out if all cylinders have the same position, or positions are not known.
+        x_Nm: X-type: sum of the roll moments, each multiplied by the axial distance of its cylinder
+            from the point of reference and divided by the height of its guide; left out if all
+            cylinders have the same position, or positions are not known.
     """
 
     order: float
@@ -207,7 +208,7 @@ class Guide(NamedTuple):
 
     Attributes:
         includes: Whether the moments include the gas.
-        height_m: Height of each cylinder's guide, sorted by cylinder number.
+        height_m: Height of the middle of each guide above the crankshaft, by cylinder number.
         orders: Moments by order.
     """
 
@@ -236,8 +237,8 @@ class Stroke(NamedTuple):
         stroke_m: Stroke.
         top_deg: Crank angle at top dead centre, measured from the position in which the pin lies
             along the cylinder's axis.
-        bottom_deg: Crank angle at bottom dead centre, measured from half a turn after this
-            position.
+        bottom_deg: Crank angle at bottom dead centre, measured from the position half a turn after
+            the one in which the pin lies along the cylinder's axis.
     """
 
     cylinder: int
@@ -269,10 +270,10 @@ class Shaft(NamedTuple):
     Attributes:
         ratio: Speed over crank speed; negative: it turns against the crank.
         unbalance_kg_m: Unbalance.
-        angle_deg: Angle from x, in the sense in which the crank turns.
+        angle_deg: Angle from x, positive in the direction in which the crank turns.
         at_mm: Position of the shaft's axis: x, y.
         position_mm: Position along the crank.
-        free: Whether the shaft may be anywhere.
+        free: Whether the shaft may be at any x and y, because it makes only a moment.
         role: "compensator"; left out for balancer shafts.
     """
 
@@ -371,7 +372,7 @@ def find_value(device: DeviceTable, field: str) -> Any:
 
 
 class JournalTorque(NamedTuple):
-    """Torque over a cycle, positive in the sense of rotation.
+    """Torque over a cycle, positive in the direction of rotation.
 
     Attributes:
         max_Nm: Highest torque.
@@ -462,7 +463,7 @@ class BalancerShaft(NamedTuple):
         name: Name of the shaft.
         ratio: Speed over crank speed; negative: it turns against the crank.
         inertia_at_crank_kg_m2: Moment of inertia of the shaft times the square of the ratio.
-        bearings: Loads of the bearings; left out, with the figures below, if there are none.
+        bearings: Loads of the bearings; without bearings, left out with all later attributes.
         bending_Nm: Largest bending moment of the turning loads.
         bending_position_mm: Position of this bending moment; left out if nothing bends the shaft.
         gear: Gear of the shaft; left out if the file gives none.
@@ -478,7 +479,7 @@ class BalancerShaft(NamedTuple):
 
 
 class CounterweightPart(NamedTuple):
-    """A counterweight. Mass and the figures below it are known only for a sector.
+    """A counterweight. `mass_kg` and all later attributes are known only for a sector.
 
     Attributes:
         position_mm: Position along the crank.
@@ -565,15 +566,15 @@ class Masses(NamedTuple):
         crosshead_kg: Mass of the crosshead with piston rod and pin.
         reciprocating_kg: Mass of piston, crosshead and small end.
         rotating_kg: Mass of the big end with bearing shells and oil, without the throw.
-        throw_kg: Share of the throw's mass at the pin.
+        throw_kg: Share of the throw's unbalanced mass that counts for one cylinder.
         rod_kg: Mass of the rod; left out, with all figures that depend on it, if the file gives no
             mass.
         rod_small_end_kg: Share of the rod's mass at the piston pin.
         rod_big_end_kg: Share of the rod's mass at the crank pin.
         rod_inertia_kg_m2: Moment of inertia of the rod about its centre of mass.
         radius_of_gyration_m: Radius of gyration of the rod.
-        couple_constant_kg_m2: H: inertia of the two masses about the rod's centre of mass, minus
-            the inertia of the rod.
+        couple_constant_kg_m2: Couple constant H: moment of inertia of the two shares of the rod's
+            mass, at its two pins, about its centre of mass, minus the rod's moment of inertia.
         reduced_length_m: Length of a pendulum that swings like the rod about the piston pin.
     """
 

@@ -1,4 +1,4 @@
-"""Show parts of an analysis as tables and CSV: shear forces, bending moments and bearing loads
+"""Show results of an analysis as tables and CSV: shear forces, bending moments and bearing loads
 along the crankshaft, guide-force moments by order, strokes and dead centres, and the reasons why
 orders are balanced.
 """
@@ -39,17 +39,17 @@ if TYPE_CHECKING:
 
 
 _OPEN_END = (
-    "Without bearing forces: the value at the last position is the free moment of all these loads "
-    "about this position. The mounts carry it."
+    "Bearing forces are not included. The value at the last position is therefore the free moment "
+    "of all these loads about this position, which the mounts carry."
 )
 _TOGETHER = (
     "These are loads of inertia: gas presses equally on throw and cylinder head, so it does not "
     "bend crankshaft and block as a whole."
 )
-_BEHIND = "Values are those just behind each load."
+_BEHIND = "Values are those just behind each load, on its flywheel side."
 _CUT = (
-    "Main bearings are half-way between throws, and as far outside the end throws; the shaft is "
-    "taken as cut in each bearing."
+    "Main bearings are assumed half-way between throws, and at the same distance outside the end "
+    "throws. The crankshaft is treated as if cut in each bearing."
 )
 ORDERS_SHOWN = 6  # largest number of orders in a table, which has a column for each
 
@@ -173,9 +173,9 @@ def define_guide_moments(height_m: Array, system: System) -> str:
         system: System of units.
     """
     return (
-        "H-type: sum of the cylinders' guide-force couples. X-type: sum of each couple times its "
-        f"distance from the reference, divided by L = {_heights(height_m, system)} (crankshaft to "
-        "the middle of the guide; unless given, the length of the rod)."
+        "H-type: sum of the cylinders' guide-force couples. X-type: the same sum, with each couple "
+        "multiplied by the axial distance of its cylinder from the point of reference and divided "
+        f"by L = {_heights(height_m, system)} (crankshaft to middle of guide; default: rod length)."
     )
 
 

@@ -29,6 +29,7 @@ from ..show.sheet import (
     sentence,
 )
 from ..show.units import System
+from ..sizing.ladder import name_step
 from . import crank_drive, sections
 from .answer import EXTRAS, Analysis, Sizing
 from .devices_show import device_grid, device_rows, ladder_grid, list_ladder, number_devices
@@ -53,8 +54,8 @@ from .overview import (
 from .parts import lay_out_parts, list_part_rows
 
 _UNCOUNTED = (
-    "Couple and torque count pistons, rods and throw masses only; give [crank] inertia and "
-    "[flywheel] for all turning parts."
+    "Couple and torque include only pistons, rods and throw masses; give [crank] inertia and "
+    "[flywheel] to include all turning parts."
 )
 Part: TypeAlias = Grid | Facts | Text
 STEADY = ("journals", "masses", "parts", "pru")  # parts that are computed at the mean speed
@@ -191,7 +192,7 @@ def _sizing_parts(sizing: Sizing, system: System) -> Iterator[Part]:
         yield Text("Sizing", ("No counterweight and no shaft is worth fitting.",))
         return
     steady = ", at steady speed" if after.engine.ripple else ""
-    yield Text(f"Sizing: {remedy.step}{steady}", tuple(dict.fromkeys(remedy.reasons)))
+    yield Text(f"Sizing: {name_step(remedy)}{steady}", tuple(dict.fromkeys(remedy.reasons)))
     yield device_grid(remedy, system)
     yield peak_facts(after, system, "Largest with these devices")
 
@@ -228,7 +229,7 @@ def rows(
     Args:
         result: Analysis to show.
         system: System of units.
-        named: Which of sizing and ladder (SI) are included.
+        named: Which of "sizing" and "ladder" to include; figures of the ladder are in SI units.
     """
     header = ("cylinder", "quantity", "order", "figure", "value", "unit")
     return Rows(header, _all_rows(result, system, named))

@@ -1,7 +1,7 @@
-"""Analyze one engine at several speeds, and make the sheet of builders of large (marine) engines.
+"""Analyze one engine at several speeds, and make the sheet that builders of marine engines use.
 
-At several speeds, the printed sheet has a table for each kind with a row for each speed. JSON and
-CSV have the analyses of all speeds.
+At several speeds, the printed sheet has a table for each kind of force or moment, with a row for
+each speed. JSON and CSV have the analyses of all speeds.
 
 The marine sheet has external forces and moments by order, vertical and horizontal, guide-force
 moments and torque. Vertical is along x, horizontal along y. The moment of vertical forces, which is
@@ -92,8 +92,8 @@ class MarineOrder:
         order: Order.
         force_v_N: External force along x.
         force_h_N: External force along y.
-        moment_v_Nm: External moment of the forces along x.
-        moment_h_Nm: External moment of the forces along y.
+        moment_v_Nm: External moment of the forces along x (about y).
+        moment_h_Nm: External moment of the forces along y (about x).
         guide_h_Nm: H-type guide-force moment.
         guide_x_Nm: X-type guide-force moment.
         torque_Nm: Torque of inertia and, with [gas], of gas on the crank.
@@ -196,12 +196,12 @@ def find_marine_sheet(
     """Compute external forces and moments, guide-force moments and torque of an engine by order.
 
     Args:
-        engine: Engine without trailing axes.
-        speeds_rpm: Speeds; default: the engine's own.
-        orders: Orders; default: all that `analyze` shows at any of the speeds.
+        engine: One engine, not an array of variants.
+        speeds_rpm: Speeds; default: the speed of the engine.
+        orders: Orders; default: all orders that `analyze` shows at one or more of the speeds.
         guide_height_m: Distance from the crankshaft to the middle of the guides; default: each
             rod's length.
-        every_order: Whether tables show negligible orders; they do if orders are given.
+        every_order: Whether tables show negligible orders; if `orders` is given, they always do.
 
     Raises:
         BalcliError: An order is invalid or too high.
@@ -231,7 +231,7 @@ def _list_lines(
     found: Sequence[Analysis], listed: Sequence[Sequence[MarineOrder]]
 ) -> tuple[Line, ...]:
     """Return amplitudes by order and figure. Forces and moments are compared with those of one
-    cylinder, other figures with the largest of all orders.
+    cylinder, other figures with their largest amplitude at any order.
     """
     figures = np.array([[astuple(one)[1:] for one in orders] for orders in listed])
     single = np.nan_to_num(figures).max(axis=1)  # shape (speeds, figures)
@@ -331,7 +331,7 @@ def _kind_part(
 RENDERER = Renderer(sheet=sheet, document=write_named, rows=rows)
 
 
-_AXES = "V is along x (from which bank angles count), H is along y."
+_AXES = "V: vertical, along x, from which bank angles count. H: horizontal, along y."
 _NAMES = (
     "In FnV, FnH, MnV and MnH, n is the order: column MnV lists M1V, M2V and so on. Values are "
     "amplitudes. The moment of vertical forces is called vertical."

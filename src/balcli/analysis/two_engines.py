@@ -1,5 +1,5 @@
 """Combine two engines on one frame, geared one to one (`sum`: H, U and opposed-piston engines), and
-show the result. A file with [[engine]] describes the same.
+show the result. A file with [[engine]] can describe the same two engines.
 """
 
 from __future__ import annotations
@@ -59,7 +59,7 @@ class EngineOfTwo:
 
 
 def measure_engines(engines: tuple[Engine, ...]) -> tuple[EngineOfTwo, ...]:
-    """Return names and sizes of engines and, if any of them has gas, which ones have."""
+    """Return names and sizes of engines and, if any of them has gas, whether each has gas."""
     has_gas = [engine.gas is not None for engine in engines]
     sizes = map(measure_engine, engines)
     return tuple(map(EngineOfTwo, sizes, has_gas if any(has_gas) else [None] * len(has_gas)))
@@ -70,12 +70,12 @@ class Arrangement:
     """Arrangement of the second engine relative to the first, and the load of both.
 
     Attributes:
-        phase_deg: Crank angle by which the second engine leads, in its own sense of rotation.
+        phase_deg: Crank angle by which the second engine leads, in its own direction of rotation.
         at_m: Position of the second engine's origin (crank axis at z = 0) in the axes of the first.
         turn_deg: Angle by which the second engine is turned about z, with all its banks.
         reverse: Whether the second crank turns against the first. The second engine is then a
             mirror image of the engine in its file (y with opposite sign), so that angles in the
-            file still count in its own sense of rotation.
+            file still count in its own direction of rotation.
         load: Crank with flywheel and load, which carries the whole inertia torque; "both": each
             crank carries its own torque, and the gears carry none of it. If both cranks turn alike,
             the choice makes no difference.
@@ -112,20 +112,22 @@ class Arrangement:
 
 @dataclass(frozen=True, kw_only=True, repr=False)
 class Combined(OrdersAndPeaks, Result):
-    """Forces and moments of two engines on their common frame, about the first one's point of
+    """Forces and moments of two engines on their common frame, about the first engine's point of
     reference.
 
-    Geared one to one, the kinetic energies add. So the inertia torque at the first crank is T1 +
-    T2, each in the sense of its own crank, whichever way they turn. The torque that the load takes
-    does not act on the frame. With the load on the first crank, the roll is therefore C - (T1 +
-    T2). With the load on a second crank that turns against it, the roll is C + (T1 + T2). If each
-    crank has its own load, the roll is C - T1 + T2. Gas torques add in the same way, with the
-    orders of both cycles; an engine without gas adds no gas torque.
+    Because the cranks are geared one to one, the kinetic energies of both engines add up. The
+    inertia torque at the first crank is therefore T1 + T2, where each torque is positive in the
+    direction of rotation of its own crank, whichever way the cranks turn. C is the transverse
+    couple of both engines. The torque that the load takes does not act on the frame. With the load
+    on the first crank, the roll is therefore C - (T1 + T2). With the load on a second crank that
+    turns against the first, the roll is C + (T1 + T2). If each of two such cranks has its own load,
+    the roll is C - T1 + T2. Gas torques add in the same way, with the orders of both cycles; an
+    engine without gas adds no gas torque.
 
     Attributes:
         engines: Both engines, in the given order.
         arrangement: Position and phase of the second engine, and the crank with the load.
-        state: Speed and point of reference of both.
+        state: Speed and point of reference of both engines.
         spectra: Orders shown, sum of both engines.
         assumed: Values that are used because an engine file leaves them out.
         peak: Largest values over a revolution, sum of all orders.
@@ -155,17 +157,17 @@ class Combined(OrdersAndPeaks, Result):
 def combine_engines(
     first: Engine, second: Engine, arrangement: Arrangement, orders: Iterable[float] | None = None
 ) -> Combined:
-    """Return the sum of both engines at the (possibly uneven) speed of the first; with gas if one
-    of them has some.
+    """Return the sum of both engines at the (possibly uneven) speed of the first; with gas if at
+    least one engine has gas.
 
     Args:
-        first: Engine without trailing axes.
-        second: Engine without trailing axes.
+        first: One engine, not an array of variants.
+        second: One engine, not an array of variants.
         arrangement: Arrangement of the second engine.
         orders: Orders to show; default: as in `analyze`.
 
     Raises:
-        BalcliError: An order is negative or too high; an engine is made of several.
+        BalcliError: An order is negative or too high; an engine consists of several engines.
     """
     for engine in (first, second):
         refuse_geared(engine)
@@ -199,13 +201,13 @@ def combine(
     Args:
         first: Engine from `load`; both engines run at the speed of this one.
         second: Engine from `load`.
-        phase_deg: Crank angle by which the second engine leads, in its own sense of rotation; with
-            gas in a four-stroke engine up to two revolutions.
+        phase_deg: Crank angle by which the second engine leads, in its own direction of
+            rotation; with gas in a four-stroke engine up to two revolutions.
         at_m: Position x, y, z of the second engine's origin in the axes of the first, m.
         turn_deg: Angle by which the second engine is turned about z.
         reverse: Whether the second crank turns against the first.
         load: "first", "second" or "both": with `reverse`, the crank that has flywheel and load.
-        orders: Orders to show; default: 1, 2 and all that are not negligible.
+        orders: Orders to show; default: as in `analyze`.
 
     Returns:
         Forces and moments of both engines together (N, N m): orders in `spectra`, as for `analyze`,
@@ -261,7 +263,7 @@ def _name_beside(path: str, target: Path) -> str:
     return place.relative_to(home).as_posix()
 
 
-_GEARED = "Geared one to one, kinetic energies add: the first crank feels T = T1 + T2."
+_GEARED = "Geared one to one, the engines' kinetic energies add: the first crank feels T = T1 + T2."
 _ROLL = {
     "first": "The first crank drives the load: the roll is C − T.",
     "second": "The second crank drives the load in the opposite sense: the roll is C + T.",

@@ -65,7 +65,7 @@ class PermittedUnbalance:
 
 @dataclass(frozen=True, kw_only=True)
 class FittedRemedy:
-    """A remedy as documents show it.
+    """A remedy in the form of the JSON output.
 
     Attributes:
         scheme: Name of the scheme.
@@ -119,7 +119,8 @@ class Balance(Result):
             given.
         ladder: Devices that balance the engine, step by step; left out where articulated rods are
             changed.
-        parts: New shafts in their bearings and new counterweights as sectors, if shapes were given.
+        parts: Bearing loads of new shafts and shapes of new counterweights, if bearings or a sector
+            were given.
         tools: Tools of the workshop.
         every_order: Whether orders were given; then all of them are shown.
     """
@@ -158,7 +159,7 @@ def balance_engine(
     Devices are sized for a steady speed. If the speed is uneven, both analyses include that.
 
     Args:
-        engine: Engine without trailing axes.
+        engine: One engine, not an array of variants.
         scheme: Name of the scheme, such as "counterweights" or "factor"; `balcli balance --schemes`
             lists and explains all schemes.
         options: Options of the scheme, such as SchemeOptions(factor=(0.51,), planes="ends").
@@ -207,13 +208,13 @@ def balance_fit(
     Args:
         engine: Engine without these devices (`sizing.fit.remove_to_fit`).
         model: Engine file with these devices.
-        targets: Quantities to cancel, of "force", "moment", "roll" and "roll_total".
+        targets: Quantities to cancel: "force", "moment", "roll" or "roll_total".
         orders: Orders to show, as in `balance_engine`.
         tools: Tools of the workshop, as in `balance_engine`.
-        small: Share of one cylinder's first order below which the ladder cancels no part.
+        small: Share of one cylinder's first order; the ladder cancels no force or moment below it.
 
     Raises:
-        BalcliError: A target is unknown, or the file does not determine it.
+        BalcliError: A target does not exist, or the file lacks data for it.
     """
     ladder = find_ladder(engine, small)
     return _answer(engine, size_fit(engine, model, targets), orders, tools, ladder)
@@ -299,9 +300,9 @@ balance.__module__ = __name__  # where pickle finds it
 
 
 _STEP_DEG = 1e-3  # step of the difference quotient in Newton's method
-_STAYS_DEG = 1e-9  # a smaller turn of a pin is rounding
+_STAYS_DEG = 1e-9  # a smaller turn of a knuckle pin counts as 0
 _FARTHEST_DEG = 30.0  # largest turn of a knuckle pin
-# What can be made even: its tolerance, degrees or metres, and the result in words.
+# Goals of the scheme knuckles: tolerance (degrees or metres), and the result in words.
 _GOALS = {
     "dead-centres": (1e-9, "top dead centres at the same angle as the master's"),
     "strokes": (1e-12, "strokes equal to the master's"),
@@ -314,8 +315,8 @@ def balance_knuckles(
     orders: Iterable[float] | None = None,
     speed_rpm: float | None = None,
 ) -> Balance:
-    """Turn each knuckle pin about the crank pin, at the radius of the file, until its cylinders are
-    even with the master's.
+    """Turn each knuckle pin about the crank pin, at the radius of the file, until the dead centres
+    or strokes of its cylinders are those of the master cylinder.
 
     Args:
         model: Engine file.
@@ -349,13 +350,14 @@ def balance_knuckles(
 def _even_knuckles(
     engine: Engine, model: EngineFile, goal: str
 ) -> tuple[tuple[float, ...], tuple[str, ...]]:
-    """Return the angle of each bank's knuckle pin, and the changes in words. In a bank with several
-    rows, the first row counts. A bank keeps its angle if no turn of up to 30 degrees makes it even.
+    """Return the angle of each bank's knuckle pin, and the changes in words. If the bank has
+    cylinders in several rows, the angle is that of the first row. A bank keeps its angle if no turn
+    of up to 30 degrees reaches the goal.
     """
     refuse_geared(engine)
     c, linkage = engine.cylinders, engine.cylinders.linkage
     if not isinstance(linkage, Articulated) or engine.rotary:
-        raise BalcliError("knuckles: needs articulated rods, and a crank that turns")
+        raise BalcliError("scheme knuckles needs articulated rods, and a crank that turns")
     if len(set(Parts(model).find_master_places())) > 1:
         raise BalcliError(
             "knuckles: the master rods of all rows must be in the same bank, because the file has "
@@ -386,8 +388,8 @@ def _find_range(values: Array) -> dict[str, float]:
 
 
 def _solve(find_error: Callable[[Array], Array], count: int) -> Array:
-    """Return the turn of each cylinder's knuckle pin, degrees, at which its error vanishes (if it
-    can), by Newton's method for all at once.
+    """Return the turn of each cylinder's knuckle pin, degrees, at which its error vanishes (if
+    possible), by Newton's method for all pins at once.
     """
     turn_deg = np.zeros(count)
     for _ in range(20):
@@ -401,7 +403,7 @@ def _solve(find_error: Callable[[Array], Array], count: int) -> Array:
 
 
 def _find_first_rows(model: EngineFile, numbers: tuple[CylinderNumber, ...]) -> list[int]:
-    """Return the row of the first cylinder of each bank."""
+    """Return the row of the arrays that belongs to the first cylinder of each bank."""
     cells = plan_cylinders(model).cells
     first = {cell.bank: cell.number for cell in sorted(cells, key=lambda cell: -cell.throw)}
     return [numbers.index(first[bank]) for bank in sorted(first)]
@@ -437,7 +439,7 @@ def insert_remedy(text: bytes, remedy: Remedy, file: str = "") -> str:
     """
     old = text.decode("utf-8-sig")
     if angles := remedy.knuckle_angles_deg:
-        new = set_keys(old, "articulation", {"knuckle_angles": list(angles)}, "even, by balcli")
+        new = set_keys(old, "articulation", {"knuckle_angles": list(angles)}, "set by balcli")
         parse(new, file)
         return new
     if remedy.beyond:
@@ -458,12 +460,12 @@ def insert_remedy(text: bytes, remedy: Remedy, file: str = "") -> str:
         old = _insert_devices(remove_tables(old, "counterweight"), first)
     new = _insert_devices(old, remedy)
     if build(parse(new, file)).devices != fit_devices(base, remedy).devices:
-        raise BalcliError(f"{file}: written devices differ from the sized ones: please report it")
+        raise BalcliError(f"{file}: written devices differ from the sized ones: please report this")
     return new
 
 
 def _fill_in(text: str, remedy: Remedy, file: str) -> str:
-    """Return the text with fitted figures instead of each "fit"."""
+    """Return the text with the fitted unbalance in place of each "fit"."""
     for (name, _), device in zip(list_to_fit(parse(text, file)), remedy.devices, strict=True):
         keys = {"unbalance": device.unbalance, "angle": device.angle}
         text = set_keys(text, name, keys, "fitted by balcli")

@@ -103,28 +103,28 @@ Width = Annotated[
 Bearings = Annotated[str | None, optional("Z1,Z2", "Bearings of the new shafts, along z in mm.")]
 SectorOption = Annotated[
     str | None,
-    optional("INNER,OUTER,OPENING", "New counterweights as sectors: radii in mm, deg.", "--sector"),
+    optional("INNER,OUTER,OPENING", "New counterweights as sectors: mm, mm, deg.", "--sector"),
 ]
 Target = Annotated[
     str | None,
     optional(
         "NAME,...",
-        'Cancel these with devices of the file that have unbalance = "fit": force, moment, roll, '
+        'Quantities that devices with unbalance = "fit" are to cancel: force, moment, roll, '
         "roll_total; default: force,moment.",
     ),
 ]
 Direction = Annotated[str | None, optional("DEG", "ellipse: direction of the remaining force.")]
-Ratio = Annotated[str | None, optional("SHARE", "ellipse: smallest / largest remaining force.")]
+Ratio = Annotated[str | None, optional("SHARE", "ellipse: smallest over largest force left.")]
 Design = Annotated[str | None, optional("a|b", "Design of --scheme eccentric-slider; default: a.")]
 Criterion = Annotated[str | None, optional("largest|mean", "Force to minimise; default: largest.")]
 Even = Annotated[str | None, optional("dead-centres|strokes", "knuckles: what to make equal.")]
 Grade = Annotated[str | None, optional("G", "Balance grade of ISO 21940-11, such as G16.")]
 Mass = Annotated[str | None, optional("KG", "Mass of the crankshaft, for --grade.")]
-Write = Annotated[Path | None, optional("OUT.toml", "Write the engine with these devices.")]
+Write = Annotated[Path | None, optional("OUT.toml", "Write the engine with the new devices.")]
 
 
 def show_balance(result: Balance, form: Format, output: Path | None, units: Units) -> None:
-    """Print or write the balance, or its bobweight card, in this format."""
+    """Print or write a balance, or its bobweight card (format card)."""
     for reason in dict.fromkeys(result.remedy.reasons):
         note(f"scheme {result.remedy.scheme}: {reason}")
     from . import show as renderer
@@ -140,7 +140,7 @@ def parse_tools(units: Units, slug: str | None, **lengths: str | None) -> Tools:
 
     Args:
         units: Units of the command.
-        slug: A metal, or its density in g/cm3.
+        slug: Name of a metal, or a density in g/cm3.
         lengths: Texts of the options with lengths, by their names in `Tools`.
 
     Raises:
@@ -163,7 +163,7 @@ def parse_tools(units: Units, slug: str | None, **lengths: str | None) -> Tools:
 def parse_shapes(
     units: Units, bearings: str | None, sector: str | None
 ) -> tuple[tuple[float, ...] | None, tuple[float, ...] | None]:
-    """Return the shapes of new devices; each argument is the text of an option, or None.
+    """Return bearings and sector of new devices, read from the texts of options; None: not given.
 
     Args:
         units: Units of the command.
@@ -207,12 +207,12 @@ def _check_fit(name: str, scheme: str, options: SchemeOptions, open_devices: Seq
     if not open_devices:
         raise BalcliError(
             f'{name}: no device has unbalance = "fit", so --scheme fit and --target have nothing '
-            "to fit; write it into a [[counterweight]], [[shaft]] or [[slider]]"
+            "to fit; write this key into a [[counterweight]], [[shaft]] or [[slider]]"
         )
     if scheme != FIT or options != SchemeOptions(small=options.small):
         raise BalcliError(
-            f'{name}: {open_devices[0]}.unbalance is "fit", so balance fits only such devices and '
-            f"takes --target; scheme {scheme} and its options cannot be used"
+            f'{name}: {open_devices[0]}.unbalance is "fit", so balance fits only such devices; '
+            f"leave out scheme {scheme} and its options (--target is allowed)"
         )
 
 

@@ -1,4 +1,4 @@
-"""Show further figures of a scheme: details, bobweight card, balance factors."""
+"""Show further figures of a scheme: details, bobweight card, range of balance factors."""
 
 from __future__ import annotations
 
@@ -66,8 +66,8 @@ def _tell_compensators(result: Balance, system: System) -> Iterator[tuple[str, s
 
 
 def tell_change(result: Balance, system: System) -> str:
-    """Return in words the changes that a measured crankshaft needs; empty without a measured
-    mass.
+    """Return in words the changes to a measured crankshaft for the wanted factor; empty without a
+    measured mass or a wanted factor.
     """
     details, unit = result.remedy.details, system.unbalance
     if not (changes := details.get("change")):
@@ -122,7 +122,7 @@ def _choose_figures(result: Balance) -> Iterator[_Figure]:
             each = each._replace(key=each.key.replace("roll", "roll_of_inertia"))
         states = {"left", "before", "after"}.intersection(each.key.split("_"))
         if states and order and not each.group:
-            each = each._replace(group=f"order {order}")  # other orders may leave more
+            each = each._replace(group=f"order {order}")  # the figure is for this order only
         yield each
 
 
@@ -153,7 +153,7 @@ def _show(figure: _Figure, system: System) -> str:
 
 def tell_growing_rolls(result: Balance, system: System) -> Iterator[str]:
     """Yield a sentence for every order whose roll (of inertia and, if there is any, gas) is larger
-    with new devices than without them.
+    with the new devices than without them.
     """
     remedy, (x, y, _) = result.remedy, result.before.engine.reference_m
     pivot = "the point of reference" if x or y else "the crankshaft"
@@ -195,12 +195,12 @@ def _needs_grid(needs: Sequence[PlaneNeed], system: System) -> Grid:
 
 
 def card_grids(card: Sequence[Bobweight], *units: ShownUnit) -> Iterator[Grid]:
-    """Return the masses that each pin balances, as quantity x each = sum; pins that are alike share
-    a table.
+    """Yield tables of the masses in the bobweight of each pin, as quantity x each = sum; pins with
+    equal masses share a table.
 
     Args:
         card: Bobweights of all pins.
-        units: Units of mass, one column for each; terms of the sums are in the first unit.
+        units: Units of mass, one column for each; terms of the sums use the first unit.
     """
     alike: dict[tuple[CardLine, ...], list[Bobweight]] = {}
     for bobweight in card:
@@ -260,14 +260,14 @@ def _sweep_grid(sweep: tuple[FactorPeaks, ...], system: System) -> Grid:
         cells = map(number, (*weights, *forces, moment.of(row.peak_moment_Nm)))
         rows.append((percent(row.factor), *cells))
     note = (
-        "Bobweight: that of the first pin. Weight: largest counterweight to add. Force: largest "
-        "remaining force of all orders, and its components along and across the first bank."
+        "Bobweight: of the first pin. Weight: largest counterweight to add. Force: largest force "
+        "left, all orders added up. Along, across: its largest components along and across bank 1."
     )
     return Grid("Largest values by factor", heads, tuple(rows), note=note)
 
 
 def _optima_grid(optima: Sequence[Node]) -> Grid:
-    heads = ("design", "criterion", "engine force", "k", "μ", "largest/J", "mean/J")
+    heads = ("design", "criterion", "engine force", "k", "μ", "largest, mrω²", "mean, mrω²")
     cells = ["{design}", "{criterion}", "{engine_force}", "{k:.5f}"]
     cells += ["{mu:.6f}", "{largest:.6f}", "{mean:.6f}"]
     rows = tuple(tuple(cell.format(**optimum) for cell in cells) for optimum in optima)

@@ -46,7 +46,7 @@ from ..show.sheet import (
 )
 from ..show.units import IMPERIAL, SI, ShownUnit, System
 from ..sizing.factor import name_one_cylinder
-from ..sizing.ladder import AS_DRAWN, WEIGHTS_AT_THROWS
+from ..sizing.ladder import AS_DRAWN, WEIGHTS_AT_THROWS, name_step
 from ..sizing.planes import find_unbalance, name_kind
 from .answer import Balance
 from .scheme_show import (
@@ -90,7 +90,7 @@ def sheet(result: Balance, system: System) -> Sheet:
             parts += lay_out_parts(result.parts, system)
     elif remedy.beyond:
         parts.append(
-            Text("Fitted devices", ("Shafts that no engine file describes; see Details.",))
+            Text("Fitted devices", ("No engine file can describe these devices: see Details.",))
         )
     else:
         parts.append(Text("Nothing is fitted", ()))
@@ -110,7 +110,8 @@ def sheet(result: Balance, system: System) -> Sheet:
     parts += [*_permitted(result, system), *details_parts(result, system)]
     changes = [*_orders(result, system), *_peaks(result, system), *_crank_loads(loads, system)]
     parts += changes or [Text("Before and after", ("Nothing changes by 1 % or more.",))]
-    fitted = f"{remedy.step} ({remedy.scheme})" if remedy.step else f"{remedy.scheme}{order}"
+    step = name_step(remedy)
+    fitted = f"{step} ({remedy.scheme})" if step else f"{remedy.scheme}{order}"
     return Sheet(f"{engine.name or NAMELESS}: {fitted}", tuple(parts))
 
 
@@ -133,16 +134,16 @@ def _tell_left(result: Balance, system: System) -> str:
 
 
 def _tell_couple(result: Balance, system: System) -> str:
-    """Return words on the transverse couple that the devices leave as it was; empty if it is
-    negligible, or if they change it.
+    """Return words on the transverse couple if the devices do not change it; empty if the couple
+    is negligible, or if the devices change it.
     """
     before, after = (tell_couple(one, system) for one in (result.before, result.after))
     return f"{after} No scheme changes the couple." if after and after == before else ""
 
 
 def _tell_bearings(result: Balance, system: System) -> str:
-    """Return in words the effect of weights at every throw on the main bearings, if counterweights
-    have no other use.
+    """Return in words by how much counterweights at every throw lower the largest main bearing
+    load, if the scheme is counterweights and fits no counterweight; else return an empty text.
     """
     remedy, steps = result.remedy, () if result.ladder is None else result.ladder.steps
     loads = {step.step: step.main_bearing_N for step in steps}
@@ -157,8 +158,9 @@ def _tell_bearings(result: Balance, system: System) -> str:
 
 
 def _permitted(result: Balance, system: System) -> Iterator[Grid]:
-    """Yield the table of permitted unbalance if a grade was given. It is compared with the missing
-    unbalance of existing counterweights, or shown as the tolerance of new ones.
+    """Yield the table of permitted unbalance if a grade was given. The permitted unbalance is
+    compared with the missing unbalance of existing counterweights, or shown as the tolerance of new
+    counterweights.
     """
     if result.permitted is None:
         return
@@ -223,8 +225,8 @@ def card_sheet(result: Balance, system: System) -> Sheet:
 
 
 def _find_changes(before: ArrayLike, after: ArrayLike) -> NDArray[np.bool_]:
-    """Return whether each value changes by at least 1 % of the larger of both; False for nan (not
-    known).
+    """Return whether each value changes by at least 1 % of the larger one of before and after;
+    False for nan (not known).
 
     Args:
         before, after: Values of any shape, not negative.
@@ -239,7 +241,7 @@ def _tell_unchanged(told: Collection[str]) -> str:
 
 
 def _orders(result: Balance, system: System) -> Iterator[Grid]:
-    """Yield a table of the orders and kinds that change; given orders are all listed."""
+    """Yield a table of the orders whose force, moment or roll changes, or of all given orders."""
     has_gas = result.before.engine.gas is not None
     kinds = (FORCE, MOMENT, ROLL_TOTAL if has_gas else ROLL)
     states = [
@@ -247,7 +249,7 @@ def _orders(result: Balance, system: System) -> Iterator[Grid]:
     ]
     sizes = np.array([[state[kind.name].major for state in states] for kind in kinds])
     scales = dict(result.before.of_one_cylinder)
-    if has_gas:  # one cylinder gives no scale for the roll with gas
+    if has_gas:  # the roll with gas has no scale in one cylinder
         scales[ROLL_TOTAL.name] = float(sizes[2].max())
     every, least = result.every_order, [NEGLIGIBLE * scales[kind.name] for kind in kinds]
     small = (sizes < np.reshape(least, (-1, 1, 1))) & (not every)  # kind, state, order

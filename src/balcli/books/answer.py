@@ -107,7 +107,7 @@ TABLES: dict[str, Callable[[Print, Ranges], Table]] = {
     "layouts": tabulate_layouts,
 }
 NAMES = tuple(TABLES)
-TAKES = {  # option for another range: the tables that accept it
+TAKES = {  # option that gives another range: tables that accept this option
     "lambda": (
         *(f"tsinghua-1-{k}" for k in (2, 3, 4, 6)),
         *("tsinghua-two-terms", "wang-1", "kvasnikov-1", "kvasnikov-2"),
@@ -120,7 +120,7 @@ TAKES = {  # option for another range: the tables that accept it
 def select_tables(
     name: str | None, lam: str | None = None, angle: str | None = None, power: int | None = None
 ) -> list[Table]:
-    """Return the table of this name, or all of them.
+    """Return the table of this name, or all tables.
 
     Args:
         name: Name; None: all tables.
@@ -130,7 +130,7 @@ def select_tables(
 
     Raises:
         BalcliError: There is no such table, a range cannot be read, or a range is given without the
-            name of a table that takes it.
+            name of a table that takes this range.
     """
     lams = parse_crank_ratios(lam) if lam is not None else None
     angles = parse_range(angle, "--angle") if angle is not None else None
@@ -153,9 +153,9 @@ def tables(
 
     Args:
         name: Name of the table, such as "tsinghua-1-2" or "series"; `balcli tables` lists all.
-        ratios: Other crank ratios (crank radius over rod length) than the printed ones, where the
-            table has them as columns, such as "0.20:0.40:0.01" or "0.25,1/3".
-        angles: Other angles than the printed ones, deg, in the same form: crank angles, or bank
+        ratios: Crank ratios (crank radius over rod length) in place of the printed ones, for tables
+            by crank ratio, such as "0.20:0.40:0.01" or "0.25,1/3".
+        angles: Angles in place of the printed ones, deg, in the same form: crank angles, or bank
             angles in the tables of liu.
         power: Highest power of the crank ratio in "series", 0 to 200.
 
@@ -164,7 +164,7 @@ def tables(
         figure that differs from the rounded exact one.
 
     Raises:
-        BalcliError: There is no such table (the error names the nearest), or it does not take a
+        BalcliError: There is no such table (the error names the nearest), or it does not take this
             range.
         TypeError: The name or a range is not a text, or the power is not a whole number.
 

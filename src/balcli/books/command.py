@@ -37,7 +37,7 @@ Kind = Annotated[
     typer.Option(help="List only errata of this class.", show_default=False),
 ]
 Lam = Annotated[
-    str | None, optional("0.20:0.40:0.01", "Crank ratios; or a list: 0.25,1/3.", "--lambda")
+    str | None, optional("0.20:0.40:0.01", "Other crank ratios; as a list: 0.25,1/3.", "--lambda")
 ]
 Angle = Annotated[
     str | None, optional("0:180:5", "Other crank or bank angles (degrees).", "--angle")
@@ -58,7 +58,7 @@ def tables(
     output: Output = None,
 ) -> None:
     """Recompute the coefficient tables printed in five books and papers; list their errata by
-    class, also those of equations and text; list published problems with balcli's answers.
+    class, also errata of equations and text; list published problems with balcli's answers.
 
     \b
     Examples:

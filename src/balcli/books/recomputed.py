@@ -1,8 +1,8 @@
-"""Compare recomputed tables with their prints, and classify the printed figures that are wrong
+"""Compare recomputed tables with the printed ones, and classify the printed figures that are wrong
 (errata).
 
-Each print is a CSV file of the package whose first lines name source and title. The user may
-replace the rows and columns of a print by ranges such as `0.20:0.40:0.01` or `0.24,0.28,1/3`.
+Each printed table is a CSV file of the package whose first lines name source and title. The user
+may replace the rows and columns of a table by ranges such as `0.20:0.40:0.01` or `0.24,0.28,1/3`.
 """
 
 from __future__ import annotations
@@ -31,11 +31,11 @@ ErratumClass = Literal["misprint", "rounding", "approximation", "method", "error
 STATEMENT = "statement"  # column of errata that are equations or sentences
 ANSWER = "balcli"  # column of the answers to published problems
 CLASSES: dict[ErratumClass, str] = {
-    "misprint": "the print contradicts its own formula",
+    "misprint": "the printed figure or text contradicts the source's own formula",
     "rounding": "last digits are wrong: cut off, or computed from rounded figures",
-    "approximation": "a rounded constant or a shortened series of the author gives the print",
+    "approximation": "the figure follows from the author's rounded constant or shortened series",
     "method": "the author's method does not find the value that it searches for",
-    "error": "the statement itself is wrong, not its print",
+    "error": "the statement itself is wrong, not only its printing",
     "copy": "wrong in the scanned copy that was read; the print may be right",
 }
 
@@ -58,7 +58,7 @@ class Erratum(NamedTuple):
         column: Heading of the column.
         printed: Text in the source.
         exact: Right value or statement.
-        kind: Cause of the erratum; for a statement, the way in which its right form is known.
+        kind: Cause of the erratum; for a statement, the evidence for its right form.
         label: Name of the row.
         category: Class of the erratum, a key of `CLASSES`.
     """
@@ -113,7 +113,7 @@ def parse_decimal(text: str) -> Decimal | None:
 
 
 def parse_number(cell: Cell) -> Fraction | None:
-    """Return `0.24`, `1/4.5`, `.0048` or `15/128` exactly; None for any other text."""
+    """Return the exact number in `0.24`, `1/4.5`, `.0048` or `15/128`; None for other texts."""
     above, _, below = str(cell).replace(" ", "").partition("/")
     try:
         return Fraction(above) / Fraction(below or 1)
@@ -155,7 +155,7 @@ def _explain(
     value: Cell, text: str, supposed: Iterable[tuple[Explanation, Cell]]
 ) -> tuple[ErratumClass, str]:
     """Return the class and kind of an erratum: those of the first explanation whose figure leads to
-    the printed one; without such an explanation, the digits decide.
+    the printed one; without such an explanation, the class follows from the digits.
     """
     printed = parse_decimal(text)
     if printed is None or not isinstance(value, (int, float)):
@@ -267,7 +267,7 @@ class Print(NamedTuple):
 
 def tabulate_statements(printed: Print, ranges: Ranges) -> Table:
     """Return the table of wrong equations and sentences. Every row is an erratum whose `exact` is
-    the right form. The tests compute both forms of each.
+    the right form. The tests compute the printed and the right form of each statement.
     """
     rows = [tuple(map(str, row)) for row in printed.rows]
     cells = [(source, place, *others) for source, place, _, *others in rows]

@@ -1,17 +1,19 @@
 """Recompute printed tables of balancing schemes.
 
 Tables 1 to 3 of Liu Xianzhi (received 1979): second-order balance of the flat-plane V8 by two
-shafts or by sliders. The second-order force of the engine is the sum of two vectors, where gamma is
-the bank angle and K the force of one bank: K cos(gamma/2) turns with the crank, and K cos(3
-gamma/2) turns against it. Two shafts cancel these vectors without a roll moment if their radii b'''
-and b'' have the same ratio as the vectors. Sliders cancel the components Z_x and Z_y.
+shafts or by sliders. The second-order force of the engine is the sum of two vectors: a vector of
+size K cos(gamma/2) turns with the crank, and a vector of size K cos(3 gamma/2) turns against it
+(bank angle gamma, second-order force K of one bank). Two shafts cancel these vectors without a roll
+moment if their distances b'' and b''' from the crank axis are inversely proportional to these
+sizes. Sliders cancel the components Z_x and Z_y.
 
 Table 1 of Wang Yongding, Methods of balancing single-cylinder engines: a counterweight k m_j r
 stands at an angle alpha ahead of the point opposite the crank. The remaining force of orders 1 and
-2 is P = J (cos th + lam cos 2 th - k e^{i(th + alpha)}), and the table lists the counterweight for
-which the largest |P| is smallest. The author searched k in steps of 0.1, alpha in steps of 5
-degrees and theta in steps of 1 degree, but theta only over half a revolution. The best alpha is 0:
-the greatest |P| is convex in k e^{i alpha}, and changing the sign of alpha only mirrors the curve.
+2 is P = J (cos th + lam cos 2 th - k e^{i(th + alpha)}) with J = m_j r omega^2 (reciprocating mass
+m_j). The table lists the counterweight for which the largest |P| is smallest. The author searched k
+in steps of 0.1, alpha in steps of 5 degrees and theta in steps of 1 degree, but theta only over
+half a revolution. The best alpha is 0: the largest |P| is convex in k e^{i alpha}, and changing the
+sign of alpha only mirrors the curve of P.
 """
 
 from __future__ import annotations
@@ -62,9 +64,10 @@ def _rough(degrees: Array) -> Array:
 
 
 def tabulate_paths(printed: Print, ranges: Ranges) -> Table:
-    """Return Table 1: radii of the two shafts over gamma, the derivatives of the radii, and the
-    ratio of each pair. With other angles than the printed ones, two more columns have the lengths
-    of both paths; the text of the source gives them at 180 degrees: 3 b and b.
+    """Return Table 1: distances of the two shafts from the crank axis by bank angle gamma, the
+    derivatives of these distances, and the ratio of each pair. With other angles than the printed
+    ones, two more rows have the lengths of both paths; the text of the source gives the lengths for
+    180 degrees: 3 b and b.
     """
     headings = ranges.angle or printed.headings()
     gamma, stub = as_numbers(headings), list(printed.column(printed.columns[0]))
@@ -84,7 +87,7 @@ def _compare(
     cells: Sequence[Words],
     stub: int = 1,
 ) -> Table:
-    """Return the table of exact rows; rows computed with the rough cosine explain its errata."""
+    """Return the table of exact rows; rows computed with `_rough` explain its errata."""
     rough = Explanation(ROUGH, compute(_rough), "approximation")
     return printed.compare(columns, compute(_cos), cells, [rough], stub)
 
@@ -125,7 +128,7 @@ def _paths(gamma: Array, cosine: Cosine) -> Array:
 
 
 def _walk(angle: Array) -> Array:
-    """Return the total variation of the cosine from 0 to an angle, deg: 2 in each half turn."""
+    """Return the total variation of the cosine from 0 to an angle (deg): 2 for each half turn."""
     halves, rest = np.divmod(np.abs(angle), 180)
     return np.asarray(2 * halves + 1 - _cos(rest))
 
@@ -152,7 +155,7 @@ def _sliders(
 SEARCHED = tuple(
     f"half_cycle_{what}" for what in ("Pmax_min", "k0", "alpha0_deg", "phi0_deg", "theta0_deg")
 )
-SEARCH = "half-cycle search, theta to 180 deg only: larger forces follow"
+SEARCH = "the search ends at theta = 180 deg; larger forces occur at larger theta"
 _MOST_RATIOS = 1000  # limit, because each ratio takes a search of 40,000 forces
 FOLLOWED = ("printed_choice_Pmax", "printed_choice_theta_deg")
 

@@ -1,9 +1,9 @@
-"""Compute exact coefficients in powers of lambda, and compare them with those that the five sources
-print.
+"""Compute exact coefficients in powers of lambda, and compare them with the coefficients printed in
+the five books and papers of the tables.
 
 Kvasnikov, Determination of the unbalance of piston engines, Tomsk 1920, has Tables I and II
-(coefficients A_n of the piston's and D_k of the rod's acceleration) and statements on orders. The
-errata of the tables are recomputed from one and two terms of the series.
+(coefficients A_n of the piston's and D_k of the rod's acceleration) and statements on orders. One
+or two terms of the series explain the errata of these two tables.
 """
 
 from __future__ import annotations
@@ -78,8 +78,8 @@ def tabulate_series(printed: Print, ranges: Ranges) -> Table:
 
 
 def _list_rows(shown: list[Words], power: int) -> Iterator[tuple[Row, Words]]:
-    """Yield the printed coefficients with their prints, then the coefficients up to the power that
-    no source prints.
+    """Yield each printed coefficient with its printed texts, then the coefficients, up to the given
+    power, that no source prints.
     """
     for words in shown:
         function, order, exponent, _, source, equation = words
@@ -155,8 +155,8 @@ def _analyze(name: str, tables: Mapping[str, Any]) -> Textbook:
 
 
 def _find_order(book: Textbook, kind: str, place: int) -> float:
-    """Return the order of a force or moment at this place in ascending sequence (0: the lowest);
-    0 if there is none.
+    """Return an order that a force or moment has, by its place in the ascending list of the orders
+    (place 0: the lowest order); 0 if the list is shorter.
     """
     found = book.reciprocating[kind]
     orders = [*found.orders[~found.balanced].tolist(), 0.0, 0.0, 0.0]
@@ -170,7 +170,7 @@ def _find_share(book: Textbook, kind: str, order: int) -> float:
 
 
 def _find_force(book: Textbook, order: int, axis: str) -> float:
-    """Return the force of an order along x or y, divided by that of one cylinder."""
+    """Return the force of an order along x or y, divided by one cylinder's force of that order."""
     force = book.reciprocating["force"]
     along = np.abs(force.x if axis == "x" else force.y)[order - 1]
     return float(along / (book.units.force * book.units.ratios[order - 1]))

@@ -174,9 +174,9 @@ TABLE_LIST = Renderer(sheet=lay_out_list, document=describe_list, rows=list_tabl
 
 _SHOWN = ("F1", "F2", "M1", "M2")
 _NOTE = (
-    "Largest values: F1 in m r ω² of one cylinder's reciprocating mass, F2 in A2 m r ω² (A2 ≈ λ), "
-    "M1 and M2 in the units of F1 and F2 times the distance of neighbouring throws. Orders 4 and "
-    "6, smallest values: --format csv. As files: balcli engines."
+    "Largest values: F1 as a multiple of m r ω² (m: reciprocating mass of a cylinder), F2 of "
+    "A2 m r ω² (A2 ≈ λ), M1 and M2 of these forces times the distance between throws. --format "
+    "csv adds orders 4 and 6 and smallest values; balcli engines lists the engines as files."
 )
 
 
@@ -199,8 +199,8 @@ LAYOUTS = Renderer(sheet=lay_out_layouts, rows=rows)
 
 
 def lay_out_published(table: Table, _system: System) -> Sheet:
-    """Return a table for each chapter with a line for each problem, and the verdicts on its
-    figures.
+    """Return a table for each chapter (forces, balancing and so on), with a line for each problem
+    and the verdicts on its figures.
     """
     places = [table.columns.index(name) for name in ("chapter", "source", "title", "verdict")]
     chapters: dict[str, dict[str, Counter[str]]] = {}
@@ -214,7 +214,7 @@ def lay_out_published(table: Table, _system: System) -> Sheet:
     told = _tell_verdicts(Counter(str(row[places[-1]]) for row in table.exact))
     note = (
         f"{sum(map(len, chapters.values()))} problems, {len(table.exact)} figures: {told} "
-        "(--errata). Every figure: --format csv."
+        "(listed by --errata). --format csv lists every figure."
     )
     return Sheet(table.title, (*grids, Text("", (note,))))
 

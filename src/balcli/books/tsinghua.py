@@ -24,7 +24,7 @@ from .recomputed import (
     parse_number,
 )
 
-ByAngle: TypeAlias = Callable[[Array, Array], Array]  # rad, lambda
+ByAngle: TypeAlias = Callable[[Array, Array], Array]  # function of crank angle (rad) and lambda
 
 
 def tabulate_engines(printed: Print, ranges: Ranges) -> Table:
@@ -38,7 +38,7 @@ def tabulate_engines(printed: Print, ranges: Ranges) -> Table:
         exact = {"lambda": r / length, "Cm_m_per_s": stroke * rpm / 30e3, "xi": e / r}
         rows.append(tuple((given | exact).values()))
         supposed.append(tuple((given | {"lambda": r / 280}).values()))
-    shorter = Explanation("misprint, as with l = 280 mm", tuple(supposed), "misprint")
+    shorter = Explanation("misprint; the figure fits l = 280 mm", tuple(supposed), "misprint")
     return printed.compare(printed.columns, rows, explanations=[shorter], stub=2)
 
 
@@ -55,8 +55,8 @@ def tabulate_extremes(printed: Print, ranges: Ranges) -> Table:
 def tabulate_two_terms(printed: Print, ranges: Ranges) -> Table:
     """Return the errors of the two-term formulas of sections 1.1.1.1 to 1.1.1.3 over a revolution:
     the largest error, its share of the largest value and of the exact value at the same angle; and
-    the largest relative error (without bound for the acceleration, which has zeros between 0 and
-    180 degrees).
+    the largest relative error (not for the acceleration, whose relative error has no bound because
+    the acceleration has zeros between 0 and 180 degrees).
     """
     headings = ranges.lam or printed.headings()
     lam = as_numbers(headings)
@@ -69,8 +69,9 @@ def tabulate_two_terms(printed: Print, ranges: Ranges) -> Table:
 
 
 def _find_errors(approximate: Array, exact: Array) -> list[Array]:
-    """Return the largest error; this error in percent of the largest value, and in percent of the
-    smallest value at which it occurs; and the largest relative error, percent.
+    """Return the largest error; this error in percent of the largest exact value; this error in
+    percent of the exact value at the same angle (the smallest, if there are several such angles);
+    and the largest relative error, percent.
 
     Args:
         approximate: Approximate values, shape (angles, lambdas).
@@ -89,8 +90,8 @@ def tabulate_mean_speeds(printed: Print, ranges: Ranges) -> Table:
 
 
 def tabulate_by_angle(printed: Print, ranges: Ranges, function: ByAngle) -> Table:
-    """Return a row for each crank angle and a column for each lambda, with the margins of the
-    print.
+    """Return a row for each crank angle and a column for each lambda, with the printed columns of
+    signs and of the angles 360 degrees - alpha.
 
     Raises:
         BalcliError: The table has too many cells.
@@ -99,7 +100,7 @@ def tabulate_by_angle(printed: Print, ranges: Ranges, function: ByAngle) -> Tabl
     stub = ranges.angle or printed.column("alpha_deg")
     if (count := len(stub) * len(headings)) > MOST_TABLE_VALUES:
         raise BalcliError(
-            f"{len(stub)} angles of {len(headings)} crank ratios are {count} figures, and at most "
+            f"{len(stub)} angles by {len(headings)} crank ratios are {count} figures, and at most "
             f"{MOST_TABLE_VALUES} are tabulated: take larger steps of --angle or --lambda"
         )
     angles = as_numbers(stub)
@@ -126,6 +127,6 @@ def _extreme(lam: Array, psi: Array, value: Array) -> Array:
 
 
 def _given(text: str | None) -> Cell:
-    """Return the number in a given text; return other texts unchanged."""
+    """Return the number in a printed text; return other texts unchanged."""
     value = parse_number(text)
     return text if value is None else float(value)

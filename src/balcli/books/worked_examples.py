@@ -30,7 +30,7 @@ def tabulate_liang_examples(printed: Print, ranges: Ranges) -> Table:
     Section 1-3: reciprocating weight (with the rod's share by its centre of gravity), greatest
     acceleration and inertia force. Section 1-4: see `_second`. Section 2-1: rotating weight (throw
     and big end), reciprocating weight (piston and small end), and the weight at a radius of 3.5 in
-    that balances all of the first and half of the second at a crank radius of 3 in.
+    that balances the rotating and half of the reciprocating weight at a crank radius of 3 in.
     """
     mass, rotating, reciprocating = 1 + 2.75 * 2 / 7, 1.0 + 3.0, 6.0 + 2.0
     force = mass * _acceleration() * POUND * FOOT / POUND_FORCE
@@ -51,8 +51,10 @@ def _acceleration(omega: float = OMEGA) -> float:
 
 
 def _second(gravity: float = GRAVITY) -> tuple[float, ...]:
-    """Return the answers of section 1-4 for a rod with a triangular outline: hk, q^2, their
-    difference, the peak of beta''/p, and the residual couple in ft lb, both at 90 degrees.
+    """Return the answers of section 1-4 for a rod with a triangular outline: h k (distances of its
+    centre of gravity from both ends), q^2 (q: radius of gyration), their difference, the peak of
+    the rod's angular acceleration over lambda omega^2, and the residual couple in ft lb, both at
+    90 degrees.
     """
     lam, hk, q2 = CRANK / ROD, 1 / 3 * 2 / 3, 1 / 18  # over the length squared
     peak = float(SliderCrank(np.pi / 2, lam).spin_rate) / lam

@@ -1,1 +1,1 @@
-"""Kinematics, harmonics, phasors and inertia: numpy in, numpy out."""
+"""Kinematics, harmonics, forces and vibration, as functions of numpy arrays."""

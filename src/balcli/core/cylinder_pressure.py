@@ -1,15 +1,15 @@
 """Compute torque, work and harmonics of the gas in a cylinder from its pressure over the cycle.
 
-Angles are cycle angles in radians: 0 at the cylinder's own firing dead centre, a period of 4 pi
-(four-stroke) or 2 pi (two-stroke). A mechanism with an offset or an articulated rod does not reach
-its dead centres at crank angles 0 and 180 degrees.
+Angles are cycle angles in radians. They are 0 at the cylinder's own firing dead centre, and a cycle
+is 4 pi (four-stroke) or 2 pi (two-stroke). A piston with an offset or an articulated rod does not
+reach its dead centres at crank angles of 0 and 180 degrees from the cylinder's axis.
 
 With c the cycle angle, x the piston's travel from its upper dead centre, and P the gas force,
 virtual work gives the torque `P dx/dc` for every mechanism; x' = -s', where s is the position of
 the piston pin (docs/theory.md).
 
-Pressures are absolute. They are measured (`engine.indicator`) or computed (`gas_cycle`). Builders'
-tables give only harmonics of the torque, without a pressure.
+Pressures are absolute. They are measured (`engine.indicator`) or computed (`gas_cycle`). Tables of
+engine builders give only harmonics of the torque, without a pressure.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from .mechanisms.linkage import Articulated, Rotary
 from .phasors import Array, Complex
 from .piecewise import Extreme, PiecewiseCurve, merged_breaks, resolved
 
-_SAME = 1e-8  # rad; a highest pressure this close to a breakpoint counts as at the breakpoint
+_SAME = 1e-8  # rad; a pressure peak this close to a breakpoint is placed at the breakpoint
 
 
 class GasError(ValueError):
@@ -46,13 +46,14 @@ class GasPiston:
     Attributes:
         area: Area of the bore, m2.
         stroke: Distance between the dead centres, m.
-        top: Crank angle of the mechanism (0: pin along the axis) at its upper dead centre, rad.
+        top: Crank angle from the cylinder's axis at the upper dead centre, rad.
         bottom: Cycle angle of the lower dead centre, rad, in (0, 2 pi).
         radius: Crank radius, m.
         lam: Crank radius over rod length; with a linkage, an array with the values of the cylinder
             and of its master cylinder.
-        eps: Offset over rod length, in the same form.
-        linkage: Linkage of these two cylinders; None if the rod is on the crank pin.
+        eps: Offset over rod length, in the form of `lam`.
+        linkage: Linkage of the cylinder and its master cylinder; None if the rod is on the
+            crank pin.
     """
 
     area: float
@@ -70,7 +71,7 @@ class GasPiston:
         return self.area * self.stroke
 
     def travel(self, angle: Array) -> Array:
-        """Return the distance from the upper dead centre at cycle angles, m."""
+        """Return the piston's distance from its upper dead centre at cycle angles, m."""
         if self.linkage is None:
             return self.radius * slidercrank.displacement(angle + self.top, self.lam, self.eps)
         psi = np.append(0.0, angle) + self.top
@@ -78,7 +79,7 @@ class GasPiston:
         return np.asarray(self.radius * (place[0] - place[1:]).reshape(angle.shape))
 
     def rate(self, angle: Array) -> Array:
-        """Return the derivative of the travel by the angle, m/rad."""
+        """Return the derivative of `travel` by the cycle angle, m/rad."""
         if self.linkage is None:
             return self.radius * slidercrank.velocity(angle + self.top, self.lam, self.eps)
         psi = angle.reshape(-1) + self.top
@@ -86,7 +87,7 @@ class GasPiston:
         return np.asarray(-self.radius * velocity.reshape(angle.shape))
 
     def clearance(self, compression_ratio: float) -> float:
-        """Return the volume at the upper dead centre, m3."""
+        """Return the volume of the cylinder at the upper dead centre, m3."""
         return self.swept / (compression_ratio - 1)
 
     def volume(self, angle: ArrayLike, compression_ratio: float) -> Array:
@@ -116,7 +117,7 @@ def pistons(cylinders: Cylinders, area: ArrayLike) -> list[GasPiston]:
     """Return the piston of every cylinder.
 
     Args:
-        cylinders: Cylinders of one engine, without trailing axes.
+        cylinders: Cylinders of one engine, not of an array of variants.
         area: Area of the bores, m2: one value, or one for each cylinder.
     """
     # In a rotary engine, the pistons move along their axes as in a stationary one.
@@ -148,12 +149,12 @@ class GasTorque:
     """Torque of the gas of one cylinder on the crankshaft.
 
     Attributes:
-        piston: The cylinder's mechanism.
+        piston: Piston on which the gas acts.
         breaks: Cycle angles between which torque and pressure are smooth, rad; the last is one
             period after the first.
         curve: Torque over the cycle angle, N m.
         pressure: Absolute pressure over the cycle angle, Pa; None if only the torque is known.
-        crankcase: Pressure under the piston, Pa.
+        crankcase: Absolute pressure under the piston, Pa.
     """
 
     piston: GasPiston
@@ -195,7 +196,7 @@ def press(
     """Return the torque of a pressure over the cycle.
 
     Args:
-        piston: Piston on which it acts.
+        piston: Piston on which the pressure acts.
         pressure: Absolute pressure, Pa, over the cycle angle.
         breaks: Cycle angles, rad, between which the pressure is smooth, shape (breaks,).
         crankcase: Absolute pressure below the piston, Pa.
@@ -208,9 +209,12 @@ def press(
 
 
 def blend(first: GasTorque, second: GasTorque, share: float) -> GasTorque:
-    """Return the torque of pressures that are interpolated between those of two torques on the same
-    piston, at this share of the distance from the first to the second; a share above 1
-    extrapolates.
+    """Return the gas torque for a pressure between the pressures of two gas torques.
+
+    Args:
+        first: Gas torque for the share 0.
+        second: Gas torque on the same piston, for the share 1.
+        share: Share of the way from the first to the second pressure; above 1, it extrapolates.
     """
     breaks = merged_breaks([(first.breaks, 0.0), (second.breaks, 0.0)], first.curve.period)
 
@@ -241,8 +245,8 @@ def crank_torque(
     """Return the torque of several cylinders, N m, at crank angles in [0, period].
 
     Args:
-        cylinders: Gas torque of each cylinder, crank angle (rad) of its firing dead centre, and the
-            factor of its torque (0 for a misfire).
+        cylinders: For each cylinder its gas torque, the crank angle (rad) of its firing dead
+            centre, and the factor by which its torque is multiplied (0 for a misfire).
         period: Angle after which the sum repeats itself, rad.
     """
 

@@ -1,5 +1,5 @@
-"""Define the moving parts of an engine in SI units: its cylinders, with a row each, and its
-balancing devices; and compute stroke and dead centres.
+"""Define the cylinders and balancing devices of an engine in SI units, and compute strokes and dead
+centres. Each cylinder is a row of the arrays; `*trailing` are further axes, such as variants.
 
 `find_travel` computes stroke and dead centres of every piston. With an articulated rod, the stroke
 is not twice the crank radius, and dead centres are not at crank angles 0 and 180 degrees.
@@ -25,23 +25,24 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Cylinders:
-    """All cylinders of an engine, sorted by bank: bank b has the rows from `starts[b]` on.
+    """All cylinders of an engine, sorted by bank: the rows of bank b begin at `starts[b]`.
 
     Attributes:
         axis_deg: shape (banks, *trailing), angles of the cylinder axes from x.
         pin_deg: shape (cylinders, *trailing), angles of crank pins from cylinder 1's pin, in the
-            sense of rotation.
+            direction of rotation.
         starts: shape (banks,), first row of each bank.
-        first: bank of cylinder 1.
+        first: index of the bank of cylinder 1.
         z: shape (cylinders, *trailing), position of each cylinder along the crank, m.
         radius, offset: shape (cylinders or 1, *trailing), crank radius and offset of the piston
             pin's path, m.
         lam, eps: shape (cylinders or 1, *trailing), crank radius and offset over rod length; 0 in
             harmonic motion (rod of infinite length).
         reciprocating, rotating: masses at the piston pin and at the crank pin, kg.
-        couple: `H` of the rods, kg m2 (docs/theory.md: moment of inertia of two point masses less
-            that of the rod).
-        linkage: linkage of cylinders that are more than slider-cranks, with additional masses.
+        couple: H of the rods, kg m2: moment of inertia of the two point masses that replace a rod,
+            less that of the rod (docs/theory.md).
+        linkage: articulated rods or a rotary mechanism, with their masses; None if all cylinders
+            are plain slider-cranks.
     """
 
     axis_deg: Array
@@ -65,13 +66,13 @@ class Cylinders:
 
     @property
     def axis_of_each_deg(self) -> Array:
-        """Axis of each cylinder from x, deg, shape (cylinders, *trailing)."""
+        """Direction of each cylinder's axis from x, deg, shape (cylinders, *trailing)."""
         return np.repeat(self.axis_deg, np.diff([*self.starts, self.count]), axis=0)
 
     @property
     def angle_deg(self) -> Array:
-        """Each cylinder's own crank angle at crank angle 0 (`phi` in docs/theory.md), deg, shape
-        (cylinders, *trailing).
+        """Angle of each crank pin from its cylinder's axis at crank angle 0 (`phi` in
+        docs/theory.md), deg, shape (cylinders, *trailing).
         """
         return np.asarray(self.axis_deg[self.first] + self.pin_deg - self.axis_of_each_deg)
 
@@ -88,12 +89,12 @@ class Cylinders:
 
     @property
     def harmonic(self) -> bool:
-        """Whether the pistons move as cosines of the crank angle."""
+        """Whether every piston moves as a cosine of the crank angle."""
         return not np.any(self.lam)
 
     @property
     def mechanisms(self) -> list[tuple[complex, ...]]:
-        """Figures that determine each cylinder's mechanism, with its crank radius; equal mechanisms
+        """Figures that determine each cylinder's mechanism, and its crank radius; equal mechanisms
         have equal figures. The cylinders must have no trailing axes.
         """
         lam, eps, linkage = self.lam, self.eps, self.linkage
@@ -104,7 +105,8 @@ class Cylinders:
     def find_distinct_harmonics(
         self, orders: ArrayLike, wanted: Collection[str]
     ) -> tuple[Harmonics, Rows]:
-        """Return the harmonics of all different mechanisms, and the row of each cylinder in them.
+        """Return the harmonics of all different mechanisms, and the index of each cylinder's
+        mechanism.
 
         Args:
             orders: Whole orders, shape (orders,).
@@ -119,7 +121,7 @@ class Cylinders:
 
     def count_all_samples(self) -> tuple[int, int]:
         """Return the number of different mechanisms, and the approximate number of samples of a
-        revolution that all of them need (if they are sampled).
+        revolution that they need together if they are sampled.
         """
         return (self.linkage or harmonics).count_all_samples(self.lam, self.eps)
 
@@ -138,17 +140,17 @@ class Device(NamedTuple):
     of the crank speed. Values are numbers, or arrays of variants.
 
     Attributes:
-        order: Turns per turn of the crank.
+        order: Turns or oscillations of the device per turn of the crank.
         forward: Mass x radius that turns with the crank, kg m.
         backward: Mass x radius that turns against the crank, kg m.
-        place: Position x + iy of its axis, m.
+        place: Position x + iy of the device's axis, m.
         z: Position along the crank, m.
         kind: Kind of the device.
-        compensates: Whether the device is fitted for its moment, and its force is meant to remain.
-        spin: Angular momentum about its own axis at crank speed 1, in the sense of the crank,
-            kg m2.
+        compensates: Whether the device is fitted for its moment only, and its force may remain.
+        spin: Angular momentum about its own axis at a crank speed of 1 rad/s, positive in the
+            direction in which the crank turns, kg m2.
         axle: Axle of a locomotive that carries the device; empty: the driving axle.
-        crank: Index of the crank to which the device is geared, or that carries it.
+        crank: Index of the crank that carries or drives the device.
     """
 
     order: int
@@ -183,9 +185,9 @@ class Travel(NamedTuple):
 def find_travel(c: Cylinders) -> Travel:
     """Return strokes and dead centres of all cylinders.
 
-    They have a closed form for plain slider-cranks (`sin tau = e/(l + r)` at the top, `e/(l - r)`
-    at the bottom), and are found on the curve of the motion for others. The stroke is `(l + r) cos
-    tau_top - (l - r) cos tau_bottom`, without the division by lambda, which may be 0.
+    Plain slider-cranks have a closed form: `sin tau = e/(l + r)` at the top, `e/(l - r)` at the
+    bottom, and the stroke `(l + r) cos tau_top - (l - r) cos tau_bottom`, computed without a
+    division by lambda, which may be 0. Dead centres of other mechanisms are found numerically.
     """
     _, stroke, top_deg, bottom_deg = _find_dead_centres(c)
     shape, found = c.pin_deg.shape, (c.radius * stroke, top_deg, bottom_deg)
@@ -193,16 +195,15 @@ def find_travel(c: Cylinders) -> Travel:
 
 
 def find_innermost(c: Cylinders) -> Array:
-    """Return the distance of each piston pin from the crank axis along its cylinder at the inner
+    """Return the distance of each piston pin from the crank axis along its cylinder at the lower
     dead centre, m, shape (cylinders or 1, *trailing); infinite in harmonic motion.
     """
     return np.asarray(c.radius * _find_dead_centres(c)[0])
 
 
 def _find_dead_centres(c: Cylinders) -> tuple[Array, Array, Array, Array]:
-    """Return the distance of the piston pins from the crank axis at the inner dead centre and their
-    stroke, both in crank radii, and the crank angles of both dead centres (`Travel`). The stroke is
-    `(l + r) cos tau_top - (l - r) cos tau_bottom` without a division by lambda, which may be 0.
+    """Return the distance of the piston pins from the crank axis at the lower dead centre and their
+    stroke, both in crank radii, and the crank angles of both dead centres (`Travel`).
     """
     if c.linkage is None:
         top, bottom = c.eps / (1 + c.lam), c.eps / (1 - c.lam)

@@ -1,13 +1,13 @@
 """Compute the cylinder pressure of Otto, Diesel, dual (limited pressure) and Wiebe cycles.
 
 A four-stroke cycle has five parts: expansion from the firing dead centre to `exhaust_opens`,
-exhaust pressure to the gas-exchange dead centre, intake pressure to `intake_closes`, compression `p
-V^nc`, and the burn. In a two-stroke cycle, the intake (scavenge) pressure lasts from
-`exhaust_opens` until the rising piston passes the same position.
+exhaust pressure to the gas-exchange dead centre, intake pressure to `intake_closes`, compression by
+`p V^nc = constant`, and the burn. In a two-stroke cycle, the intake (scavenge) pressure lasts from
+`exhaust_opens` until the rising piston is back at the position where the exhaust opened.
 
 Heat Q raises the pressure by `d(p V^n) = (n - 1) V^(n-1) dQ`, n being the index of expansion. So `p
 V^n` after the burn follows directly from the heat, and the pressure during the burn is an integral,
-which needs no time steps. The one unknown of a cycle is its heat. Burn and expansion together do
+which needs no time steps. The only unknown of a cycle is its heat. Burn and expansion together do
 the work `X Q - [p V]/(n - 1)`: the released heat (share X) less the energy that the gas gains.
 Compression is a polytrope, and pressures are constant while the valves are open, so imep has a
 closed form.
@@ -31,7 +31,7 @@ from .piecewise import Function, PiecewiseCurve, find_zero, join, resolved
 
 _BURNT = 6.908  # -ln 0.001
 
-# Figures that each kind of cycle can be made to reach.
+# Figures that a user can prescribe for each kind of cycle; the heat follows from them.
 GOALS = {
     "otto": ("imep", "heat", "max_pressure"),
     "diesel": ("imep", "heat", "cut_off"),
@@ -43,12 +43,12 @@ GOALS = {
 # ---------------------------------------------------------------- input and result
 @dataclass(frozen=True)
 class Process:
-    """Figures of a cycle without its heat: absolute pressures in Pa, cycle angles in deg.
+    """Figures of a cycle except its heat: absolute pressures in Pa, cycle angles in deg.
 
     Attributes:
-        cycle: Law of the burn: "otto", all at the dead centre; "diesel", at the constant pressure
-            that compression reaches; "dual", at the dead centre up to `max_pressure`, then at that
-            pressure; "wiebe", by Wiebe's law.
+        cycle: Law of the burn: "otto", all heat at the dead centre; "diesel", at the constant
+            pressure that compression reaches; "dual", at the dead centre up to `max_pressure`, then
+            at that pressure; "wiebe", by Wiebe's law.
         exhaust_opens: Angle at which the exhaust opens; None: the lower dead centre.
         intake_closes: Angle at which the intake closes; None: the lower dead centre. In a
             two-stroke cycle the ports close at the piston position at which they opened.
@@ -75,7 +75,7 @@ class Process:
 
 class Goal(NamedTuple):
     """Figure that a cycle must reach: `imep` or `max_pressure` (Pa), `heat` supplied per cycle (J),
-    or `cut_off`, the volume at the end of constant pressure over that at its start.
+    or `cut_off`, the volume at the end of the burn at constant pressure over that at its start.
     """
 
     name: Literal["imep", "heat", "max_pressure", "cut_off"]
@@ -107,7 +107,8 @@ def gas_cycle(piston: GasPiston, process: Process, goal: Goal) -> GasCycle:
         goal: Figure that the cycle must reach; it determines the heat.
 
     Raises:
-        GasError: The first mistake in the process, or a goal that no heat can reach.
+        GasError: The process has a mistake (the error names the first), or no heat reaches the
+            goal.
     """
     _check(piston, process, goal)
     cycle = _Cycle(piston, process)
@@ -181,15 +182,15 @@ class _Cycle:
         self.closed, self.charge, self.opened = self.find_volume(places).tolist()
         self.pressure = p.intake * (self.closed / self.charge) ** p.compression_index
         self.constant = self.pressure * self.charge**self.index  # p V^n of the charge
-        self.least, self.most, self.released = 0.0, math.inf, 1.0  # heat, J, and released share
-        self.grown = self.charge ** (self.index - 1)  # integral of V^(n-1) dx
+        self.least, self.most, self.released = 0.0, math.inf, 1.0  # heat limits, J; released share
+        self.grown = self.charge ** (self.index - 1)  # integral of V^(n-1) dx, x: burnt share
         self.limit = self.pressure if p.cycle == "diesel" else None
         if p.cycle == "dual":
             self.limit = p.max_pressure or 0.0
             self._refuse_beyond("max_pressure", self.limit, self.pressure, math.inf)
         if self.limit is not None:
             self.least = (self.limit - self.pressure) * self.charge / (self.index - 1)
-            self.share = self.index / (self.index - 1) * self.limit  # J per added m3
+            self.share = self.index / (self.index - 1) * self.limit  # heat over added volume, J/m3
             self.most = self.least + self.share * (self.opened - self.charge)
         if p.cycle == "wiebe":
             self.end = self.start + math.radians(p.burn_duration)
@@ -225,7 +226,7 @@ class _Cycle:
         return [(self.start, self._expand(self.constant)), (self.end, burn)]
 
     def _find_last(self, heat: float) -> float:
-        """Return the volume at the end of constant pressure, m3."""
+        """Return the volume at the end of the burn at constant pressure, m3."""
         return self.charge + (heat - self.least) / self.share
 
     def _find_burnt(self, angle: Array) -> Array:
@@ -248,8 +249,9 @@ class _Cycle:
 
     # ------------------------------------------------------------ the whole cycle
     def list_laws(self, heat: float) -> list[tuple[float, Function]]:
-        """Return pairs of the angle (rad) at which a pressure law ends, and the law (Pa over cycle
-        angles), from the start of compression on. Some may have length 0.
+        """Return the pressure laws in sequence from the start of compression on, as pairs: cycle
+        angle (rad) at which the law ends, and the law (Pa, a function of cycle angles). A law may
+        end where it begins.
         """
         p, period = self.process, self.process.strokes * math.pi
         closed = p.intake * self.closed**p.compression_index
@@ -278,10 +280,10 @@ class _Cycle:
         return work / self.piston.swept
 
     def find_goal(self, name: str, heat: float) -> float:
-        """Return the value that the cycle with this heat has for a goal.
+        """Return the value that the figure of a goal has in the cycle with this heat.
 
         Args:
-            name: Name of the goal: `heat` (J), `imep`, `max_pressure` (Pa) or `cut_off`.
+            name: Name of the figure: `heat` (J), `imep`, `max_pressure` (Pa) or `cut_off`.
             heat: Heat supplied per cycle, J.
         """
         if name == "heat":

@@ -1,19 +1,20 @@
-"""Fit unknowns to readings: by least squares (`solve`), or within convex regions of the complex
-plane by least squares or by the smallest largest residual (`minimise`).
+"""Fit unknowns to readings. `solve` minimises the sum of the squared residuals. `minimise` keeps
+every unknown within a convex region of the complex plane, and minimises the sum of the squares or
+the largest residual.
 
 `solve` uses singular values (Golub and Van Loan, Matrix Computations, 4th ed., 5.5). Where the
-unknowns are not determined, it returns the smallest solution. The solution is refined on its own
-residual, so that whatever can cancel does so to rounding.
+unknowns are not determined, it returns the smallest solution. Then it fits the residual
+again and adds the result, so that every residual that can vanish does so to rounding.
 
-Least squares within regions: `x = P(x - slope / L)` holds only at the optimum; P is the projection
-on the regions, L the steepest curvature. Newton's method solves this equation. If its step is worse
-than the projected gradient step, the latter is used.
+Least squares within regions: `x = P(x - g / L)` holds only at the optimum, where P projects on the
+regions, g is the gradient of the sum of squares and L its largest curvature. Newton's method solves
+this equation. If a projected gradient step reduces the sum more, that step is taken instead.
 
 The largest residual is minimised by Lawson's iteration (Lawson, Contributions to the theory of
-linear least maximum approximation, thesis, UCLA 1961): solve least squares with the shares g as
-weights, then multiply every share by its residual, and repeat. For any shares with sum 1, the least
-`sum g |r|^2` is a lower bound of the largest `|r|^2`, so every round bounds its distance from the
-optimum.
+linear least maximum approximation, thesis, UCLA 1961). Each reading has a share w. Solve least
+squares with the shares as weights, multiply every share by the size of its reading's residual r,
+and repeat. For any shares with the sum 1, the least `sum w |r|^2` is a lower bound of the largest
+`|r|^2`, so every round yields a bound of its distance from the optimum.
 """
 
 from __future__ import annotations
@@ -64,10 +65,10 @@ def solve(
 
     Args:
         matrix: Effect of one unit of each unknown on each reading, shape (readings, unknowns).
-            Choose units that make columns similar in size: a column of 1e-14 of another counts as
-            zeros.
+            Choose units that make columns similar in size: a column that is 1e-14 times another
+            counts as zeros.
         target: Readings to fit, shape (readings,).
-        weights: Weights of the readings, shape (readings,); None: 1. The sum of `|weight *
+        weights: Weights of the readings, shape (readings,); None: all are 1. The sum of `|weight *
             residual|^2` is minimised.
         lost: Singular values below this share of the largest count as zeros.
 
@@ -107,8 +108,8 @@ def find_dependent_columns(matrix: NDArray[Number]) -> list[int]:
 
 
 _ROUNDS = 1000  # largest number of rounds of Lawson's iteration
-_GAP = 1e-8  # the iteration ends when the bound is within this share of the largest residual
-_REVIVED = 1e-9  # this share of the largest residual is added to all, so no share becomes 0
+_GAP = 1e-8  # relative distance of the largest residual from its bound that ends the iteration
+_REVIVED = 1e-9  # this part of the largest residual is added to all, so that no share becomes 0
 _STEPS = 500  # largest number of steps of Newton's method or the projected gradient; 5 are usual
 _SETTLED = 1e-15  # a step below this share of x ends the iteration
 _VANISHES = 1e-13  # a residual below this share of the target is rounding
@@ -116,15 +117,15 @@ _NO_POINTS = np.zeros(0, dtype=complex)
 
 
 class Region(NamedTuple):
-    """A convex region of the complex plane: a disc, or a polygon or wedge with edges around it.
+    """A convex region of the complex plane: a disc, a polygon or a wedge.
 
     Attributes:
         centre: Centre of the disc; a region without edges is a disc.
         radius: Radius of the disc.
         starts: Start of every edge.
         ways: Directions of the edges (size 1); the region lies on their left.
-        lengths: Lengths of the edges. Plus infinity: the edge has no end; minus infinity: it comes
-            from infinity and ends at its start.
+        lengths: Lengths of the edges. Plus infinity: the edge has no end; minus infinity: the edge
+            comes from infinity and ends at its point in `starts`.
     """
 
     centre: complex = 0j
@@ -156,7 +157,7 @@ class Region(NamedTuple):
 
 
 class Smallest(NamedTuple):
-    """Unknowns that make residuals small.
+    """Result of `minimise`.
 
     Attributes:
         x: The unknowns, shape (unknowns,).
@@ -216,14 +217,14 @@ def _solve_within(
     matrix: Complex, target: Complex, sizes: Array, regions: Sequence[Region], x: Complex
 ) -> tuple[Complex, bool]:
     """Return the least squares solution with `x / sizes` in the regions, and whether the iteration
-    from x has converged.
+    that starts at x has converged.
     """
     free = solve(matrix, target).x
     if (_project(regions, sizes, free)[0] == free).all():
         return free, True
     square, pull = matrix.conj().T @ matrix, matrix.conj().T @ target
     steepest = float(np.linalg.norm(square, 2))
-    turn = np.array([[0, -1], [1, 0]])  # parts of complex numbers alternate, real and imaginary
+    turn = np.array([[0, -1], [1, 0]])  # each complex number is two rows: real, imaginary
     curvature = np.kron(square.real, np.eye(2)) + np.kron(square.imag, turn)
     shrunk = np.eye(2 * len(x)) - curvature / steepest
     for _ in range(_STEPS):

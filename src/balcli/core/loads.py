@@ -1,9 +1,10 @@
 """Compute free forces and moments of cylinders and balancing devices, order by order, at a steady
 crank speed.
 
-A few functions of masses and harmonics give the loads of one cylinder in its own frame; `Phases`
-turn and sum them over the cylinders; `Loads` adds the devices. The formulas are derived in
-docs/theory.md. Arrays have the orders first, cylinders next, then any trailing axes. SI units.
+Masses and harmonics give the loads of each cylinder in its own frame. `Phases` turns them into the
+axes of the engine and sums them over the cylinders; `Loads` adds the devices. docs/theory.md
+derives the formulas. Axes of arrays: orders, cylinders, then any others, which are called trailing
+(variants, for instance). All units are SI.
 """
 
 from __future__ import annotations
@@ -60,9 +61,9 @@ class Loads:
 
     @property
     def couple(self) -> Phasors:
-        """Free transverse couple about z, N m. It is the sum of `H (-beta'')` of each rod and of
-        each piston's force times its offset, `-m_rec e (-s'')`. The couples of a linkage's masses
-        are added, and the moments of forces that act away from the point of reference.
+        """Free transverse couple about z, N m. It is the sum of the rods' `H (-beta'')`, of the
+        pistons' forces times their offsets, `-m_rec e (-s'')`, of the couples of a linkage's
+        masses, and of the moments of forces that act away from the point of reference.
         """
         c, harmonics, square, series = self.cylinders, self.harmonics, self.square, []
         if np.count_nonzero(c.couple):
@@ -82,14 +83,18 @@ class Loads:
 
     @property
     def torque(self) -> Phasors:
-        """Inertia torque on the crank, N m: `-1/2 dI/dtheta` times the squared speed."""
+        """Inertia torque on the crank, N m: `-1/2 dI/dtheta` times the squared speed, with the
+        cylinders' moment of inertia I about the crank.
+        """
         inertia, n = self._inertia, self.phases.n
         rate: Complex = np.asarray(-0.5j * n, np.complex128)
         return self.phases.add_scalars(Series(rate * inertia.c, 0.5 * n * inertia.noise))
 
     @property
     def mean_inertia(self) -> Array:
-        """Mean inertia I over a revolution, times the squared speed, N m; needs order 0."""
+        """Mean moment of inertia over a revolution, times the squared speed, N m. The orders must
+        include 0.
+        """
         c = self.cylinders
         changing = self._inertia.c[self.phases.orders == 0].real[0]
         mean = changing + c.rotating * c.radius**2 * self.square
@@ -97,8 +102,8 @@ class Loads:
 
     @property
     def mean_momentum(self) -> Array:
-        """Mean moment of momentum of the cylinders about z times the speed, N m; needs order 0. It
-        includes rotating masses, rods of rotary engines, and the masses of a linkage.
+        """Mean moment of momentum of the cylinders about z, times the speed, N m, with rotating
+        masses, rods of rotary engines, and masses of a linkage. The orders must include 0.
         """
         c = self.cylinders
         mean = c.rotating * c.radius**2 * self.square
@@ -145,7 +150,7 @@ def find_device_force(device: Device, n: Array, square: Figure) -> Phasors:
 
     Args:
         device: Counterweight, shaft or slider.
-        n: Orders as a column, shape (orders, *1).
+        n: Orders as a column, shape (orders, 1, 1, ...).
         square: Square of the crank speed, rad2/s2.
     """
     size = (n == device.order) * (device.order**2 * square)
@@ -187,7 +192,8 @@ def _has_pistons(c: Cylinders) -> bool:
 
 def find_inertia(cylinders: Cylinders, harmonics: Harmonics, square: Figure) -> Series:
     """Return the varying part of each cylinder's moment of inertia about the crank, times the
-    squared speed, N m: `m_rec s'^2 - H beta'^2`, plus the part of a linkage's masses.
+    squared speed, N m: `m_rec s'^2 - H beta'^2`, plus the contribution of a linkage's
+    masses.
 
     Args:
         cylinders: Cylinders of the engine.
@@ -227,34 +233,36 @@ def share_by_lever(places: Array, planes: Array) -> Array:
 
 
 def sum_weighted(loads: Phasors, weights: Array, sizes: Array | None = None) -> Phasors:
-    """Return weighted sums over loads; 0 below rounding.
+    """Return weighted sums of loads; sums below their rounding error are set to 0.
 
     Args:
         loads: Phasors of shape (orders, loads).
         weights: Weights, shape (sums, loads), or (loads,) for a single sum.
-        sizes: Sizes of the terms of which the weights are differences, in the same shape; they
-            bound the rounding errors. None: the weights are no differences.
+        sizes: For weights that are differences: the sum of the sizes of both terms of each
+            difference, in the shape of the weights, which bounds the rounding errors. None: the
+            weights are not differences.
     """
     noise = loads.noise @ np.abs(weights if sizes is None else sizes).T
     return Phasors(loads.orders, loads.vectors @ weights.T, noise).drop_noise()
 
 
 def find_ahead(z: Array, sections: Array) -> Array:
-    """Return 1 for places on the free-end side of each section, else 0, shape (sections, places).
+    """Return 1 for places at each section or on its free-end side, else 0, shape (sections,
+    places).
 
     Args:
-        z: Axial places, m, shape (places,).
+        z: Axial positions of the places, m, shape (places,).
         sections: Axial positions of the sections, m, shape (sections,).
     """
     return (z <= sections[:, None]).astype(float)
 
 
 def find_arms(z: Array, sections: Array) -> Array:
-    """Return the arms about each section of the places on its free-end side, m, shape (sections,
-    places).
+    """Return `z - section` for the places on the free-end side of each section, and 0 for all other
+    places, m, shape (sections, places).
 
     Args:
-        z: Axial places, m, shape (places,).
+        z: Axial positions of the places, m, shape (places,).
         sections: Axial positions of the sections, m, shape (sections,).
     """
     return find_ahead(z, sections) * (z - sections[:, None])

@@ -3,15 +3,15 @@ samples.
 
 A curve is `x(t) = Re sum over orders of c_n e^{i n t}`, where t is the crank angle in rad; a vector
 has one such curve for each of its components. Orders are multiples of 1/2, so that a cycle is 4 pi.
-Arrays have the orders first, then any axes of curves, then the components of vectors.
+Axes of arrays: orders, then any number of axes for several curves, then components of vectors.
 
-A trigonometric polynomial of degree h that swings by R about its middle exceeds `R cos(h d)` at a
-distance d from its maximum (M. Riesz). With 16 samples per period of the highest order, the samples
-next to the highest peak are therefore among the highest samples. Newton's method climbs the curve
-from those.
+Let a trigonometric polynomial of degree h have values from M - R to M + R. At a distance d from its
+maximum it is then at least `M + R cos(h d)` (M. Riesz; h d at most pi). With 16 samples per period
+of the highest order, the samples next to the highest peak are therefore among the highest samples.
+Newton's method starts from these samples and climbs to the maxima of the curve.
 
-The search for maxima of other functions of one variable assumes that a call with many places costs
-little more than a call with few.
+For other functions of one variable, the search assumes that computing a function at many places at
+once costs little more than at a few.
 """
 
 from __future__ import annotations
@@ -31,8 +31,8 @@ _TURN = 2 * np.pi  # rad
 _SAMPLES = 16  # number of samples per period of the highest order
 _AT_ONCE = 1 << 19  # largest number of samples, or of terms of curves, which bounds the memory
 _ROUNDS = 40  # largest number of steps of Newton's method; 3 or 4 suffice for a round peak
-_SETTLED = 1e-16  # Newton's method ends at a smaller gain, as a share of the sum of all amplitudes
-_SHORT = 1e-6  # within this share of the distance of samples, a curve is taken as a parabola
+_SETTLED = 1e-16  # a step of Newton's method that gains a smaller share of all amplitudes ends it
+_SHORT = 1e-6  # share of the distance of samples; within it, a curve counts as a parabola
 _ZERO = 1e-12  # rad; an angle this close to a whole turn is 0
 _EQUAL = 1e-12  # peaks that differ by a smaller share of the sum of all amplitudes are equal
 
@@ -43,7 +43,7 @@ class Peak(NamedTuple):
     Attributes:
         value: Largest absolute value, in the unit of the curve.
         theta: First crank angle at which it is reached, rad.
-        every: Angle after which the curve repeats its size, rad; 0: the size is constant.
+        every: Angle after which the absolute value repeats, rad; 0: it is constant.
     """
 
     value: float
@@ -74,7 +74,9 @@ class Swing(NamedTuple):
 
 # ------------------------------------------------------------------ curves by their phasors
 def find_peak(curve: Phasors) -> Peak:
-    """Return the largest |F| of phasors over a revolution; they must have no trailing axes."""
+    """Return the largest size |F| of the vector F that the phasors describe, over a revolution. The
+    phasors must have no trailing axes.
+    """
     (peak,) = find_peaks(Phasors(curve.orders, curve.vectors[..., None], curve.noise))
     return peak
 
@@ -152,8 +154,9 @@ def find_longest(orders: ArrayLike, phasors: Complex) -> CyclePeak:
 
 
 def sum_amplitudes(phasors: Complex) -> Real:
-    """Return the sum of the amplitudes of all orders, shape (*curves): the largest value if all
-    orders peaked at once. It is commonly 1.2 to 2.5 times the largest value that occurs.
+    """Return the sum of the amplitudes of all orders, shape (*curves), which would be the largest
+    value if all orders peaked at once. It is commonly 1.2 to 2.5 times the largest value that
+    occurs.
     """
     return np.sum(np.abs(phasors), axis=0)
 
@@ -234,7 +237,8 @@ def _climb(
     harmonics: NDArray[np.int64], parts: Complex, squared: bool, start: Real, step: float
 ) -> tuple[Real, Real]:
     """Return values and angles of the maxima next to the angles `start`, by Newton's method in
-    steps of at most `step`. `parts` has a row for each angle; see `_find_tops` for the others.
+    steps of at most `step`. `parts` has a row for each angle; see `_find_tops` for the
+    other arguments.
     """
     value, angle, moving = np.empty(len(start)), start.copy(), np.arange(len(start))
     rates = np.vander(harmonics.astype(complex), 3, increasing=True)
@@ -258,7 +262,7 @@ def _climb(
 
 # ------------------------------------------------------------------ functions of one variable
 _PARTS = 8  # parts into which an interval is cut; the two next to a peak are the next interval
-_CUTS = 4
+_CUTS = 4  # number of times that an interval is cut
 
 
 def find_highest(
@@ -267,16 +271,16 @@ def find_highest(
     """Return place and height of the maximum of each function, shape (functions,). A maximum may
     lie between the given places.
 
-    An interval between neighbouring places is searched under two conditions. Its higher end must be
-    at least `near * level`. This end must reach the level if it is raised by the largest change of
-    the function over this interval or one of its two neighbours.
+    An interval between neighbouring places is searched under two conditions. The higher of the
+    values at its ends must be at least `near * level`. The sum of this value and of the largest
+    change of the function, over this interval or one of its two neighbours, must reach the level.
 
     Args:
         judge: The functions, as in `find_peaks_between`.
         places: Rising places, shape (places,).
-        heights: Values of the functions there, shape (places, functions).
+        heights: Values of the functions at these places, shape (places, functions).
         level: Lowest height that matters, shape (functions,).
-        near: Share of the level that the higher end of a searched interval must reach.
+        near: Share of the level that a value at an end of a searched interval must reach.
     """
     best, highest = places[heights.argmax(axis=0)], heights.max(axis=0)
     ends = np.maximum(heights[1:], heights[:-1])
@@ -294,16 +298,16 @@ def find_peaks_between(
     judge: Callable[[Real, Indices], Real], low: Real, high: Real, which: Indices
 ) -> tuple[Real, Real]:
     """Return place and height of a peak of a function in each of several intervals, shape
-    (intervals,). The highest peak of each function is accurate to 1e-8 if it is smooth and its
-    interval no wider than the peak. The search ends early in intervals that do not contain it.
+    (intervals,). The highest peak of each function is accurate to 1e-8 if the function is smooth
+    and the interval no wider than the peak. The search ends early in all other intervals.
 
     Each interval is cut into eighths. Every peak among these places that may be the highest is
-    enclosed in a smaller interval, which is cut again. The vertex of a parabola through the last
-    three places is the peak. A peak that is narrower than an eighth may be missed.
+    enclosed in a smaller interval, which is cut again. The peak is the vertex of a parabola through
+    the last three points. A peak that is narrower than an eighth may be missed.
 
     Args:
-        judge: Function that returns the values of some functions. Its arguments are places, shape
-            (places, some), and the index of the function of each column, shape (some,).
+        judge: Function that computes several functions, one for each column of its arguments:
+            places, shape (places, columns), and indices of the functions, shape (columns,).
         low: Lower ends of the intervals, shape (intervals,).
         high: Upper ends of the intervals, shape (intervals,).
         which: Index of the function of each interval, shape (intervals,).
@@ -323,7 +327,7 @@ def find_peaks_between(
         _raise(best, highest, going, place, here)
         of_function = np.full(which.max(initial=0) + 1, -np.inf)
         np.maximum.at(of_function, which, highest)
-        # A peak may rise above its place by as much as the curve falls to the next place.
+        # The peak may lie above the value at its place by as much as the next values lie below it.
         may = 2 * here - around.min(axis=0) >= of_function[which[going]]
         going, place, step, top = (each[may] for each in (going, place, step, top))
         low, high, around = place - step, place + step, around[:, may]
@@ -337,8 +341,8 @@ def find_peaks_between(
 
 
 def _raise(best: Real, highest: Real, going: Indices, place: Real, height: Real) -> None:
-    """Raise `best` and `highest`, shape (intervals,), to the places and heights in the intervals
-    `going` that are higher. An interval may occur several times.
+    """Replace `best` and `highest`, shape (intervals,), by a new place and height of an interval if
+    this height is larger. `going` has the interval of each new height; it may list one repeatedly.
     """
     rising = np.argsort(height, kind="stable")  # the highest is written last
     higher = rising[height[rising] > highest[going[rising]]]

@@ -1,16 +1,16 @@
-"""Compute the phases of the cylinders' vectors, order by order, and sums over the cylinders. Only
-the geometry of the engine enters.
+"""Compute the phases of the cylinders' vectors, order by order, and sums over the cylinders. The
+phases depend only on the geometry of the engine.
 
-Cylinder i of bank b has its pin at `pin_i` (degrees after cylinder 1's pin) and its axis at
-`axis_b`. A local harmonic `Re c e^{i n psi}`, `psi = theta + axis_1 + pin_i - axis_b`, of a force
-along the axis gives
+Cylinder i of bank b has its pin at `pin_i` (degrees ahead of cylinder 1's pin) and its axis at
+`axis_b`. A harmonic `Re c e^{i n psi}`, `psi = theta + axis_1 + pin_i - axis_b`, of a force along
+the cylinder's axis gives
 
     forward_n  = 1/2 sum_b e^{i (axis_b - n (axis_b - axis_1))} S_b
     backward_n = 1/2 sum_b e^{i (axis_b + n (axis_b - axis_1))} conj(S_b)
 
 where `S_b` is the sum of `c_i e^{i n pin_i}` over the bank's cylinders. So each bank is summed
-once, and terms that do not vary between variants are computed once. Arrays: order first, cylinder
-(or bank) next, then any trailing axes; an axis along which nothing varies has length 1.
+once, and terms that do not vary between variants are computed once. Axes of arrays: orders,
+cylinders (or banks), then any trailing axes; an axis along which nothing varies has length 1.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ from .phasors import EPS, Array, Complex, Phasors, unit
 
 TURN = 360  # deg
 SUM = 8 * EPS  # rounding error of a sum, per term, relative to the terms
-ANGLE = np.pi * EPS  # rounding of an angle in the file (half an ulp of 360 deg); order n: times n
+ANGLE = np.pi * EPS  # rad, rounding error of an angle up to 360 deg; n times as large for order n
 _ALL = slice(None)
 
 
@@ -37,7 +37,8 @@ class Phases:
 
     Attributes:
         orders: The orders, shape (orders,).
-        n: The orders as a column, shape (orders, 1, *1), to broadcast with cylinders.
+        n: The orders as a column, shape (orders, 1, *1), to broadcast with cylinders; `*1` are
+            trailing axes of length 1.
         count: Number of cylinders.
         rounding: Bound of the error of a sum over cylinders, relative to its terms, in the shape of
             `n`.
@@ -79,10 +80,10 @@ class Phases:
         Args:
             vectors: Rotating vectors of each cylinder in its own frame (x along its axis), shape
                 (2, orders, cylinders or 1, *trailing): forward vectors, then the conjugates of
-                backward ones, and the rounding error of each. A single one holds for all cylinders.
+                backward vectors; and their rounding errors. Length 1: equal for all cylinders.
             arms: Factors of the vectors, shape (cylinders, *trailing); None: 1.
-            sizes: Factors of the rounding errors, in the same shape: the sizes of the terms from
-                which the arms are computed.
+            sizes: Factors of the rounding errors, in the shape of the arms: the sizes of the terms
+                from which the arms are computed.
         """
         sums = self._add(self._planar, vectors.c, arms)
         np.conjugate(sums[1], out=sums[1])
@@ -112,16 +113,17 @@ class Phases:
         pin}`.
 
         Args:
-            turns: Turn of each bank, shape (sides, orders, banks, *trailing).
+            turns: Rotation e^{i angle} of each bank, shape (sides, orders, banks, *trailing).
             sides: Vectors, forward and backward, shape (sides, orders, cylinders or 1, *trailing).
             arms: Factors of the vectors; None: 1.
 
         Returns: shape (sides, orders, *trailing).
         """
-        arms = self._ones if arms is None else arms
         if sides.shape[2] == 1:
-            return np.asarray(sides[:, :, 0] * self._add_turned(turns, arms[None]))
-        own = [self._add_turned(turns[k : k + 1], arms * side) for k, side in enumerate(sides)]
+            factors = (self._ones if arms is None else arms)[None]
+            return np.asarray(sides[:, :, 0] * self._add_turned(turns, factors))
+        each = (side if arms is None else arms * side for side in sides)
+        own = [self._add_turned(turns[k : k + 1], factors) for k, factors in enumerate(each)]
         return np.concatenate(own)
 
     def _add_turned(self, turns: Complex, factors: Array | Complex) -> Complex:

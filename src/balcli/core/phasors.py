@@ -32,7 +32,7 @@ def unit(degrees: ArrayLike) -> Complex:
     45 degrees, after any number of turns.
 
     The value at the nearest multiple of 15 degrees comes from a table, and is turned by the
-    remainder, which floating point computes exactly.
+    remaining angle, which floating point computes exactly.
     """
     x = np.asarray(degrees, float)
     steps = np.rint(x / 15)
@@ -57,7 +57,7 @@ def put_together(forward: Array | Complex, backward: Array | Complex) -> Complex
 
     Args:
         forward: Vectors that turn with the crank.
-        backward: Vectors that turn against it.
+        backward: Vectors that turn against the crank.
     """
     return np.array(np.broadcast_arrays(forward, backward))
 
@@ -97,8 +97,8 @@ class Phasors:
         Args:
             orders: Orders, shape (orders,).
             forward: Vectors that turn with the crank, shape (orders, *trailing).
-            backward: Vectors that turn against it, shape (orders, *trailing).
-            noise: Bound of the rounding error of each.
+            backward: Vectors that turn against the crank, shape (orders, *trailing).
+            noise: Bound of the rounding error of each vector.
         """
         return cls(orders, put_together(forward, backward), noise)
 
@@ -159,7 +159,7 @@ class Phasors:
         return Phasors(self.orders[rows], self.vectors[:, rows], noise[rows])
 
     def select_place(self, place: int) -> Phasors:
-        """Return the phasors at one place along the trailing axis."""
+        """Return the phasors at one index of the trailing axis."""
         noise = np.broadcast_to(self.noise, self.vectors.shape[1:])
         return Phasors(self.orders, self.vectors[:, :, place], noise[:, place])
 
@@ -181,7 +181,7 @@ class Phasors:
 
     @property
     def minor(self) -> Array:
-        """Shorter semi-axis of the ellipse; 0 for a straight line within its rounding error."""
+        """Shorter semi-axis of the ellipse; 0 if it is within its rounding error."""
         ahead, astern = self._sizes
         minor = np.abs(ahead - astern)
         return np.where(minor <= 2 * self.noise, 0, minor)
@@ -200,21 +200,21 @@ class Phasors:
 
     @property
     def x(self) -> Complex:
-        """Components along x as `Re(c_n e^{i n theta})`, exactly 0 within their rounding error."""
+        """Coefficients c_n of the components along x, `Re(c_n e^{i n theta})`; 0 below rounding."""
         return self._project(1.0)
 
     @property
     def y(self) -> Complex:
-        """Components along y as `Re(c_n e^{i n theta})`, exactly 0 within their rounding error."""
+        """Coefficients c_n of the components along y, `Re(c_n e^{i n theta})`; 0 below rounding."""
         return self._project(-1j)
 
     def turn(self, degrees: float) -> Phasors:
-        """Return the vectors turned by an angle."""
+        """Return the phasors with every vector turned by an angle, deg."""
         noise = self.noise + 2 * EPS * self.major
         return Phasors(self.orders, unit(degrees) * self.vectors, noise)
 
     def _project(self, turn: complex) -> Complex:
-        """Return the components along the axis that this factor turns onto x."""
+        """Return the coefficients of the components along the axis that the factor turns onto x."""
         ahead, against = turn * self.forward, turn * self.backward
         mean = _column(self.orders, ahead) == 0
         c = np.where(mean, ahead.real, ahead + np.conj(against))

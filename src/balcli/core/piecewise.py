@@ -34,14 +34,14 @@ _WIDEST = 0.5  # rad, largest width of a panel before halving
 _TERMS = 16
 _RESOLVED = 1e-12  # limit of the last terms of a series, relative to the function's largest value
 _HALVINGS = 48
-# Halving ends at this multiple of the initial number of panels: the rest is rounding error.
+# Halving ends at this multiple of the initial number of panels: finer details are rounding errors.
 _EVERYWHERE = 16
-_REACH = 16.0  # rad; _NODES nodes integrate a harmonic whose phase turns this far on a panel
+_REACH = 16.0  # rad; _NODES nodes suffice if the phase of a harmonic turns no farther on a panel
 _NODES = 32
 _SAME = 1e-11  # rad; an angle this close to a breakpoint is the breakpoint
 _NEWTON_STEPS = 6
 _NO_SIGN = 1e-9  # values below this share of the largest one have no sign
-_ROUNDING = 1e-14  # values below this share of the largest one, or of a sum's terms, are 0
+_ROUNDING = 1e-14  # values below this share of the largest value, or of the terms of a sum, are 0
 _TIE = 1e-11  # extremes that differ by less than this share of the range are equal
 
 
@@ -68,8 +68,8 @@ class PiecewiseCurve:
     Attributes:
         breaks: Rising angles that bound the panels, rad, shape (panels + 1,); the last is one
             period after the first.
-        series: Legendre coefficients on each panel, shape (terms, panels); or those of several
-            functions, shape (terms, panels, *figure), for which only `at` and `within` work.
+        series: Legendre coefficients on each panel, shape (terms, panels); for several functions,
+            shape (terms, panels, *figure), only `at` and `within` work.
     """
 
     breaks: Array
@@ -102,7 +102,7 @@ class PiecewiseCurve:
 
     def within(self, angle: Array) -> Array:
         """Return values at angles between the first and the last breakpoint, shape (*angle,
-        *figure); for angles outside, the value at the nearer breakpoint.
+        *figure); for angles outside, the value at the nearer end.
         """
         panel = np.searchsorted(self.breaks, angle + _SAME, side="right") - 1
         panel = np.clip(panel, 0, len(self.breaks) - 2)
@@ -128,14 +128,14 @@ class PiecewiseCurve:
         def turn(harmonics: NDArray[np.intp]) -> Complex:
             return np.exp(-1j * np.multiply.outer(unit * harmonics, angle.reshape(-1)))
 
-        # e^(-i k angle) with k = high * stride + low is a product of few different waves
+        # e^(-i k angle) with k = high * stride + low is a product of two waves of few different k
         stride = math.isqrt(top) + 1
         every = turn(np.arange(stride)) @ (turn(np.arange(0, top + 1, stride)) * shares).T
         return np.where(numbers == 0, self.mean, every[numbers % stride, numbers // stride])
 
     def antiderivative(self, constant: float = 0.0) -> PiecewiseCurve:
-        """Return the integral of the curve less a constant, from the first breakpoint on. It is
-        periodic if the constant is the mean.
+        """Return the integral of `curve - constant` over the angle, from the first breakpoint on.
+        It is periodic if the constant is the mean.
         """
         half = np.diff(self.breaks) / 2
         series = self.series.copy()
@@ -147,7 +147,8 @@ class PiecewiseCurve:
 
     def extremes(self) -> tuple[Extreme, Extreme]:
         """Return the lowest and the highest value, each at the first angle that has it; at a jump,
-        both sides are included. A value below the rounding error of the largest size becomes 0.
+        the values on both sides count. A value below the rounding error of the largest size
+        becomes 0.
         """
         return self._find_top(-1), self._find_top(1)
 
@@ -298,7 +299,8 @@ def find_zero(rising: Callable[[float], float], guess: float, at_zero: float) ->
     """Return the zero of a rising function of a positive number, by false position.
 
     Args:
-        rising: Rising function; if it jumps to infinity, the result is below the jump.
+        rising: Rising function; if it jumps from below 0 to infinity, the result is just
+            below the jump.
         guess: Positive number to start with.
         at_zero: Value of the function at 0, negative.
     """
@@ -357,7 +359,7 @@ class Panels:
         found = [np.exp(-1j * some[:, None] * self.angles) @ both for some in parts]
         ahead, against = np.hsplit(np.concatenate(found), 2)
         against = against.conj()
-        against[orders == 0] = 0.0  # only the other vector holds the mean
+        against[orders == 0] = 0.0  # the mean is kept in `ahead`
         waves = orders * (self.breaks[-1] - self.breaks[0]) / (2 * np.pi)
         there = np.abs(waves - np.rint(waves)) < 0.1  # orders that the period has
         ahead[~there] = against[~there] = 0.0
@@ -365,7 +367,7 @@ class Panels:
 
     def find_largest(self, samples: Complex) -> Peak:
         """Return the largest size of a force and the first angle (rad) at which it is reached. At a
-        jump both sides count.
+        jump, the values on both sides count.
         """
         series = self._find_series(samples)
         finer = 2 * _TERMS - 1  # terms of the square

@@ -2,8 +2,8 @@
 
 A record is a frozen dataclass, or a NamedTuple, which is quicker to import. A result is a tree of
 records. JSON and its schema derive from the attributes. CSV lists the figures of the JSON document,
-unless a chapter has rows of its own; a DataFrame has the same rows, unless a renderer makes columns
-(`show.result`). The name of an attribute is its key in JSON and its path in CSV
+unless a result is written with rows of its own; a DataFrame has the same rows, unless its renderer
+makes columns (`show.result`). The name of an attribute is its key in JSON and its path in CSV
 (`worst.speed_rpm`); the end of the name is its unit. The annotation is its type. Its line in the
 docstring's `Attributes:` is its description in the JSON Schema.
 
@@ -335,7 +335,7 @@ def _describe_many(
     origin: type, arguments: tuple[object, ...], each: _Attribute, definitions: Node
 ) -> Node:
     """Return the schema of an array, dict, tuple or list."""
-    import numpy as np  # schemas are seldom asked for
+    import numpy as np  # imported here, because schemas are rarely written
 
     if issubclass(origin, np.ndarray):
         node = _describe(float, each, definitions)

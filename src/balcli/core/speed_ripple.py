@@ -2,16 +2,17 @@
 shaft under a varying torque.
 
 Forces: the speed is given as `omega = omega_m W`, where omega_m is the mean speed and W is 1 plus a
-few harmonics ("lines"). With momentum `omega_m W G`, the force is `-omega_m^2 W (W G)'`; the couple
-follows in the same way from the moment of momentum. The inertia torque is `-omega_m^2 1/2 (I W^2)'`
-(from `-(1/2 I' omega^2 + I omega omega')`, docs/theory.md). For Fourier coefficients these products
-are short convolutions, so every order is as exact as at steady speed. Orders are whole, or
-multiples of 1/2 if the speed repeats itself after two revolutions.
+few harmonics ("lines"). If G is the momentum at crank speed 1, the momentum is `omega_m W G` and
+the force `-omega_m^2 W (W G)'`; the couple follows in the same way from the moment of momentum. The
+inertia torque is `-omega_m^2 1/2 (I W^2)'` (from `-(1/2 I' omega^2 + I omega omega')`,
+docs/theory.md). For Fourier coefficients these products are short convolutions, so every order is
+as exact as at steady speed. Orders are whole, or multiples of 1/2 if the speed repeats itself after
+two revolutions.
 
-Speed under a torque: the energy `1/2 I omega^2` grows by the work E of the torque above the load.
-So `omega^2 = (C + 2 E)/I` at every angle, without a differential equation. I includes all moving
-parts, and C follows from the mean speed over the angle. Angles of the shaft are in radians; a
-period may have any number of turns.
+Speed under a torque: the energy `1/2 I omega^2` grows by the work E of the torque less the load. So
+`omega^2 = (C + 2 E)/I` at every angle, and no differential equation has to be solved. I is the
+moment of inertia of all moving parts, and the constant C follows from the mean speed over the
+angle. Angles of the shaft are in radians; a period may have any number of turns.
 """
 
 from __future__ import annotations
@@ -29,11 +30,11 @@ from .phasors import EPS, Array, Complex, Figure, Phasors, unit
 from .piecewise import Extreme, Function, PiecewiseCurve, find_zero, resolved
 
 Number = TypeVar("Number", np.float64, np.complex128)
-_FELT = 1e-13  # smaller contributions of orders over the angle to an order over the time are 0
+_FELT = 1e-13  # smaller contributions of orders over the angle to orders over the time count as 0
 
 
 class RippleLine(NamedTuple):
-    """One harmonic of W: `amplitude cos(order theta - angle)`."""
+    """One harmonic of the relative speed W: `amplitude cos(order theta - angle)`."""
 
     order: float
     amplitude: Figure
@@ -41,8 +42,8 @@ class RippleLine(NamedTuple):
 
 
 def find_speed(lines: Iterable[RippleLine], step: float = 1.0) -> Complex:
-    """Return the Fourier coefficients of W, from k steps of the order below 0 to k steps above it,
-    shape (2 k + 1, *trailing).
+    """Return the Fourier coefficients of W at the orders from -k to k steps, shape (2 k + 1,
+    *trailing); k steps are the highest order of the lines.
 
     Args:
         lines: Harmonics of the uneven speed; their orders are multiples of the step.
@@ -75,11 +76,11 @@ class Timetable(NamedTuple):
     """Times at which a crank of uneven speed passes equally spaced angles of a cycle.
 
     Attributes:
-        clock: Time at which the crank passes each angle, shape (samples,): the angle (rad) of a
-            steady crank of the same mean speed over the time at this time, up to a constant.
+        clock: Time at which the crank passes each angle, shape (samples,), as the angle (rad) that
+            a uniformly turning crank with the same time for a cycle has then, up to a constant.
         stay: Time per angle, relative to its mean, shape (samples,).
         step: Step of the orders: 1 for a cycle of one turn, 1/2 for a cycle of two turns.
-        turns: Mean speed over the time, relative to the mean speed over the angle.
+        turns: Speed averaged over the time, relative to the speed averaged over the angle.
     """
 
     clock: Array
@@ -146,13 +147,16 @@ def apply_speed(
     """Return the force, moment, couple or inertia torque at the uneven speed W.
 
     Args:
-        steady: Force at a steady speed, for all orders 0, 1 .. n (or 0, 1/2 .. n).
+        steady: Force, moment, couple or torque at a steady speed, for all orders 0, 1 .. n (or 0,
+            1/2 .. n).
         w: Coefficients from `find_speed` with the same step, up to order k.
-        mean: Mean momentum; for the couple, mean moment of momentum; for the torque, half the mean
-            inertia times the square of the mean speed, N m. At a steady speed, it has no effect.
-        rate_last: Whether W multiplies twice before the derivative, as for a torque.
+        mean: Mean momentum times the mean speed, N; for the couple, mean moment of momentum times
+            the mean speed, N m; for the torque, half the mean inertia times the square of the mean
+            speed, N m. At a steady speed, it has no effect.
+        rate_last: Whether both factors W are inside the derivative, `-(W W momentum)'`, as for a
+            torque; else `-W (W momentum)'`.
 
-    Returns: The force for the same orders, correct up to order n - 2k.
+    Returns: The phasors for the same orders, correct up to order n - 2k.
     """
 
     def shake(momentum: Complex, w: Complex, rate: Complex) -> Complex:
@@ -169,7 +173,7 @@ def apply_speed(
     shape = (2 * n + 1, *np.broadcast_shapes(forces.shape[1:], np.shape(mean)))
     momentum = np.broadcast_to(1j * forces / divisor, shape).copy()  # force = -i n momentum
     momentum[n] = mean
-    sizes = np.broadcast_to(noise / EPS / np.abs(divisor), shape).copy()  # from the noise
+    sizes = np.broadcast_to(noise / EPS / np.abs(divisor), shape).copy()  # sizes with this noise
     sizes[n] = np.maximum(sizes[n], np.abs(mean))
     result = shake(momentum, w, np.asarray(1j * order, np.complex128))
     magnitudes = (np.asarray(v, np.complex128) for v in (sizes, np.abs(w), np.abs(order)))
@@ -206,7 +210,7 @@ class Surplus(NamedTuple):
     """Surplus energy of a torque over a constant load.
 
     Attributes:
-        energy: Largest rise of the running integral of torque above load, J.
+        energy: Highest less lowest value of the integral of torque less load over the angle, J.
         start: First angle of the lowest speed at constant inertia, rad, in [0, period).
         end: First angle of the highest speed at constant inertia, rad, in [0, period).
     """
@@ -242,8 +246,8 @@ def surplus(torque: PiecewiseCurve) -> Surplus:
 
 
 def small_fluctuation(surplus_energy: float, mean_inertia: float, mean_speed: float) -> float:
-    """Return the textbooks' coefficient of fluctuation, surplus/(I omega^2), which holds if it is
-    small.
+    """Return the textbooks' coefficient of fluctuation, surplus/(I omega^2), which is accurate for
+    small fluctuations.
 
     Args:
         surplus_energy: Largest surplus of energy over a cycle, J.
@@ -300,17 +304,18 @@ def needed_inertia(
     torque: PiecewiseCurve, mean_speed: float, fluctuation: float, moving: Function = np.zeros_like
 ) -> float:
     """Return the constant inertia (kg m2) that, together with moving parts, gives exactly the
-    wanted fluctuation. It is negative if the moving parts alone fluctuate less. If the shaft would
-    stall before it fluctuates so much, return the least inertia without a stall.
+    wanted fluctuation. It is negative if the speed fluctuates less with the moving parts alone. If
+    the shaft would stall before its speed fluctuates so much, return the least inertia without a
+    stall.
 
-    The inertia is found by false position in the inverse of the mean inertia, to which the
+    The unknown of the search (false position) is the inverse of the mean inertia, to which the
     fluctuation is nearly proportional.
 
     Args:
         torque: Torque without inertia torque, as in `speed_variation`, N m.
         mean_speed: Mean crank speed, rad/s.
         fluctuation: Wanted coefficient of fluctuation.
-        moving: Moment of inertia of moving parts over the crank angle, kg m2.
+        moving: Moment of inertia of the moving parts as a function of the crank angle, kg m2.
     """
     course = resolved(moving, torque.breaks)
     mean, (least, most) = course.mean, course.extremes()

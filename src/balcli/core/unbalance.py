@@ -16,8 +16,8 @@ def find_drill_depth(unbalance: float, rim: float, drill: float, density: float 
     """Return the depth (m) of a radial hole from the rim inwards that removes this unbalance; nan
     if no depth suffices.
 
-    The unbalance of a hole of depth h is `m r = density pi d^2/4 (rim h - h^2/2)`; the hole ends at
-    the axis at the latest.
+    The unbalance of a hole of depth h and diameter d is `m r = density pi d^2/4 (rim h - h^2/2)`.
+    The hole ends at the axis at the latest.
 
     Args:
         unbalance: Unbalance to remove, kg m.

@@ -2,8 +2,8 @@
 loads.
 
 Every motion and load of an order is a complex number c; its value in time is `Re(c e^{i w t})`.
-Frequencies w are in rad/s and have any shape, commonly (orders, speeds). Arrays with a value for
-each degree of freedom have these as their last axis: (orders, speeds, dof).
+Frequencies w are in rad/s and have any shape, commonly (orders, speeds). Arrays
+with a value for each degree of freedom (dof) have the shape (orders, speeds, dof).
 """
 
 from __future__ import annotations
@@ -17,10 +17,10 @@ Real = NDArray[np.floating]
 Complex = NDArray[np.complexfloating]
 Indices = NDArray[np.intp]
 
-UNDAMPED = 2e-9  # a loss factor up to this counts as 0: decay would take 1e8 periods
-ROUNDING = 1e-12  # a smaller share of damping, or relative distance of frequencies, is rounding
-_UNMOVED = 1e-10  # a smaller share of the load does not drive a mode
-_SINGULAR = 1e-11  # if the load's work is a smaller share of its terms, a matrix is singular
+UNDAMPED = 2e-9  # a loss factor up to this counts as 0: a vibration would take 1e8 periods to decay
+ROUNDING = 1e-12  # smaller shares of damping, and relative distances of frequencies, are rounding
+_UNMOVED = 1e-10  # a load drives no mode on which it does less than this share of its largest work
+_SINGULAR = 1e-11  # a matrix is singular if the work of the load is below this share of its terms
 _RANK = 1e-13  # singular values below this share of the largest are 0
 
 
@@ -95,8 +95,8 @@ def scale_shapes(shapes: Real) -> Real:
 
 
 def modal_loss(modes: Modes, stiffness: Complex, damping: Real) -> Real:
-    """Return the loss factor of every mode, `x^T (Im K + w C) x / w^2`, shape (modes,); it is 0 for
-    rigid modes.
+    """Return the loss factor of every mode x, `x^T (Im K + w C) x / w^2`, shape (modes,); it is 0
+    for rigid modes.
 
     At resonance, a single mode is magnified by the inverse of its loss factor.
 
@@ -176,8 +176,8 @@ def solve_response(
 def solve_equations(
     matrix: Complex, load: Complex, frequency: Real, singular: NDArray[np.bool_]
 ) -> Complex:
-    """Return the solutions of the equations of motion at each frequency, shape (*frequency, n); the
-    smallest ones where the equations are singular.
+    """Return the solution of the equations of motion at each frequency, shape (*frequency, n); the
+    smallest solution where the equations are singular.
 
     Args:
         matrix: Matrices of the equations, shape (*frequency, n, n).

@@ -1,8 +1,8 @@
 """Build an engine from its file, in stages. Read this module first.
 
 An engine is a crankshaft with throws, and cylinders in banks. The cylinders of one throw share a
-crank pin, unless it is split. Each stage is a function of earlier stages, and `engine.parts`
-computes it when it is first needed:
+crank pin, unless the pin is split. Each stage is a function of earlier stages; `engine.parts` runs
+a stage when its result is first needed:
 
 1. plan: the cylinders with their banks and throws (`plan_cylinders`),
 2. running gears: piston and rod of each cylinder, from the keys that describe them (`find_gears`),
@@ -10,12 +10,12 @@ computes it when it is first needed:
    or from its firing order (`set_pins`),
 4. masses: masses as a workshop weighs them (`weigh_cylinders`),
 5. places: positions along the crank (`find_places`),
-6. cylinders: arrays of all these, one row for each cylinder (`arrange_cylinders`).
+6. cylinders: arrays of all these figures, one row for each cylinder (`arrange_cylinders`).
 
 An engine must obey rules: a rod lets its crank turn, every cylinder is at top dead centre when it
 fires, and so on. The groups of `RULES` are checked from early stages to late ones. The first group
-with mistakes ends the check, because later rules presuppose earlier ones. If other tables of a file
-have mistakes, the same rules are still checked (`engine.parse`).
+with mistakes ends the check, because later rules presuppose earlier ones. Mistakes in tables that
+the rules do not need do not prevent these checks (`engine.parse`).
 
 Variants of an engine are built in the same way: arrays in `varied` replace figures of the file, and
 every stage accepts arrays as well as numbers.
@@ -61,20 +61,22 @@ def build(
     rank: int = 0,
     gas: EngineGas | None = None,
 ) -> Engine:
-    """Return the engine that a file describes, or variants of it.
+    """Return the engine that a file describes, or variants of this engine.
 
     Args:
         model: Engine file whose tables are valid.
-        varied: Arrays that replace figures, by dotted name (`rod.ratio`, `crank.throws.2`); they
-            broadcast against each other. The firing order is then ignored if the file gives throws
-            and no [gas].
-        rank: Minimum number of trailing axes. A figure that does not vary along an axis has length
-            1 there, and so do all results that depend only on such figures.
+        varied: Numbers or arrays that replace figures, by dotted name (`rod.ratio`,
+            `crank.throws.2`). The arrays broadcast against each other. If a figure varies and the
+            file gives throws, the firing order is ignored, unless the file has [gas] and all
+            values are numbers.
+        rank: Minimum number of trailing axes, the axes of the variants. A figure that does not vary
+            along such an axis has length 1 along it, as has every result that depends only on
+            figures that do not vary there.
         gas: Gas of the engine, if it is already known.
 
     Raises:
         InputError: Tables do not fit together; the error lists the mistakes by path.
-        BalcliError: A figure cannot vary because the file gives other figures instead.
+        BalcliError: These figures cannot vary together, or not in this file (`FileFigures`).
     """
     if model.engine:
         return cast(Engine, import_name(GEARED)(model, varied, rank))
@@ -140,12 +142,13 @@ def build_fitted(
     path: str = "",
 ) -> Device:
     """Return a device of an engine, in SI units. If engines are geared together, the angle of a
-    counterweight counts from the first pin of the engine that carries it, in that engine's sense of
-    rotation; its z is in the axes of the whole, like that of other devices.
+    counterweight counts from cylinder 1's crank pin in the engine that carries the counterweight,
+    in that engine's direction of rotation. The z of every device is in the axes of the joined
+    engine.
 
     Args:
-        table: Table of an engine file.
-        engine: Engine that has it.
+        table: Table of the device in an engine file.
+        engine: Engine that has the device.
         figures: Figures of the file.
         path: Dotted name of the table.
     """
@@ -178,7 +181,7 @@ _NEEDED = frozenset(
 
 def list_contradictions(draft: Draft) -> list[Problem]:
     """Return the contradictions between the tables of a file that has other mistakes; empty if a
-    table that the engine needs has mistakes.
+    table in `_NEEDED` has mistakes.
     """
     return find_contradictions(Parts(draft.model)) if draft.readable >= _NEEDED else []
 
@@ -202,12 +205,12 @@ def find_contradictions(parts: Parts) -> list[Problem]:
 
 
 def check_cylinders(parts: Parts) -> Iterator[Problem]:
-    """Check that the cylinder of every [cylinder.N] is there, by throws and banks."""
+    """Check that throws and banks make the cylinder of every [cylinder.N]."""
     made = f"crank.throws and layout make {counted(len(parts.plan.cells), 'cylinder')}"
     strangers = [number for number in parts.model.cylinder if number not in parts.plan.numbers]
     if strangers:
         told = f"there is no cylinder {', '.join(map(str, strangers))}"
-        yield Problem(f"cylinder.{strangers[0]}", f"{told}: {made}; give every throw its angle")
+        yield Problem(f"cylinder.{strangers[0]}", f"{told}: {made}; put all throws in crank.throws")
 
 
 def check_rods(parts: Parts) -> Iterator[Problem]:
@@ -260,7 +263,7 @@ def check_articulation(parts: Parts) -> Iterator[Problem]:
 
 
 def _check_knuckle_angles(parts: Parts) -> Iterator[Problem]:
-    """Check that the knuckle angle of every row's master is 0."""
+    """Check that the knuckle angle of the master rod's bank is 0, in every row."""
     rows = parts.find_knuckle_angles() or ()
     for master, angles in zip(parts.find_master_places(), rows, strict=False):
         if np.any(np.asarray(angles[master - 1]) != 0):
@@ -287,15 +290,15 @@ def _find_no_place(masters: Sequence[int], plan: Plan) -> Problem | None:
 
 
 def check_knuckles(parts: Parts) -> Iterator[Problem]:
-    """Check that every articulated rod can follow its knuckle pin through a revolution, for the
-    worst of all variants.
+    """Check that every articulated rod can follow its knuckle pin through a revolution, in every
+    variant.
     """
     if parts.model.articulation is None:
         return
     cylinders, numbers = parts.cylinders, parts.numbers
     linkage, lam, eps = cast(Linkage, cylinders.linkage), cylinders.lam, cylinders.eps
     hung = cast(Articulated, linkage.hung if isinstance(linkage, Rotary) else linkage)
-    # A knuckle pin is at most crank radius + knuckle radius away from the axis.
+    # A knuckle pin is at most crank radius + knuckle radius away from the crank axis.
     if np.all(lam * (1 + np.abs(hung.knuckle)) + np.abs(eps) <= 1 - NEAREST_TO_LOCK):
         return
 
@@ -303,7 +306,7 @@ def check_knuckles(parts: Parts) -> Iterator[Problem]:
         lean = np.abs(motion.lean)
         return lean.reshape(len(numbers), -1, lean.shape[-1]).max(axis=1)
 
-    with np.errstate(invalid="ignore"):  # beyond 1 there is no angle
+    with np.errstate(invalid="ignore"):  # a rod that is too short has no angle
         leans = hung.sample(find_largest, revolution(STEPS), lam, eps)
     turned = cylinders.angle_deg.reshape(len(numbers), -1)[:, 0]
     for row, number in enumerate(numbers):
@@ -396,7 +399,7 @@ def check_gas(parts: Parts) -> Iterator[Problem]:
                     told = "needs [gas], which describes the gas in all cylinders"
                     yield Problem(f"cylinder.{number}.{key}", told)
     elif not parts.rank:
-        from .build_gas import build_gas  # files without [gas] do not load it
+        from .build_gas import build_gas  # loaded only for files with [gas]
 
         speed = parts.figures.take("operation.speed", parts.model.operation.speed)
         parts.gas = (parts.gas or build_gas(parts)).at(float(speed))

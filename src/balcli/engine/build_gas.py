@@ -1,8 +1,8 @@
 """Build the gas in an engine's cylinders from [gas] and the gas keys of single cylinders.
 
 The pressure in a cylinder is measured (`engine.indicator`) or computed from a cycle
-(`core.gas_cycle`); builders' tables give harmonics of the torque instead. Cylinders with equal
-mechanism, diagram and heat share one torque curve.
+(`core.gas_cycle`); tables of engine builders have harmonics of the torque instead. Cylinders with
+equal mechanism, diagram and heat share one torque curve.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ _HARMONICS = (Head("order"), Head("cos"), Head("sin"))
 # all the air, the ratio is 34: 2.95 MJ per kg of air at 300 K, for petrol and Diesel fuel alike.
 HEAT_MOST = 40.0
 _KEPT = 512  # number of speeds for which the gas is cached
-_OVERSPEED = 1.6  # beyond this multiple of the rated speed, the gas is computed speed by speed
+_OVERSPEED = 1.6  # beyond this multiple of the rated speed, the gas is not interpolated
 Table = TypeVar("Table", bound=FileTable)
 
 
@@ -47,11 +47,11 @@ class _Source(NamedTuple):
 
     Attributes:
         number: Cylinder number.
-        path: Key of its diagram.
-        indicator: Name of the file with its diagram; None without a diagram.
+        path: Key that names the diagram of the cylinder.
+        indicator: Name of the file with this diagram; None without a diagram.
         heat: Heat supplied in a computed cycle, J; None if the file gives none.
-        heat_path: Key of this heat.
-        share: Factor of the gas force.
+        heat_path: Key that gives this heat.
+        share: Factor by which the gas force is multiplied.
     """
 
     number: int
@@ -89,9 +89,9 @@ def build_gas(parts: Parts) -> EngineGas:
 
 
 def _find_knees(gas: Gas, found: Sequence[GasPiston], strokes: int) -> list[Array]:
-    """Return the shares of the rated speed up to which the propeller law demands too little imep,
-    with one share for each piston. In the first array, too little means less than the cycle has
-    without heat. A dual cycle has a second array: less than it needs to reach its pressure.
+    """Return, for each piston, the speed (as a share of the rated speed) up to which the propeller
+    law demands less imep than the cycle has without heat. A dual cycle has a second array: speeds
+    up to which the law demands less imep than the cycle needs to reach `max_pressure`.
     """
     process, rated = _describe_process(gas, strokes), _find_goal(gas, None).value
     kinds = ("otto", "dual") if gas.cycle == "dual" else (process.cycle,)
@@ -108,7 +108,7 @@ def _follow_speed(
     Args:
         gas: Table of a gas that depends on the speed.
         make: Function that returns the gas for the table of one speed, such as `_build_steady`.
-        find_knees: Function that returns the shares of `_find_knees`, for a valid propeller law.
+        find_knees: Function that returns the arrays of `_find_knees`; used for a propeller law.
 
     Raises:
         InputError: The same errors as for `build_gas`.
@@ -145,7 +145,7 @@ def _follow_speed(
 
 
 def _blend(nodes: Mapping[float, EngineGas], speed: float) -> EngineGas:
-    """Return the gas at a speed, with pressures interpolated linearly between the nodes."""
+    """Return the gas at a speed, with pressures interpolated linearly between given speeds."""
     low = max((node for node in nodes if node < speed), default=min(nodes))
     high = min((node for node in nodes if node > speed), default=low)
     if high == low or speed < low:
@@ -158,8 +158,8 @@ def _blend(nodes: Mapping[float, EngineGas], speed: float) -> EngineGas:
 
 
 def _take_at(gas: Gas, speed: float) -> Gas:
-    """Return the table of a gas that does not depend on the speed, with the figures that `gas` has
-    at one speed (rpm). Texts are those of the nearest point.
+    """Return [gas] without [[gas.at]] and law: a table whose figures are those of `gas` at one
+    speed (rpm), and whose texts are those of the point of [[gas.at]] nearest to this speed.
     """
     if gas.rated_speed is not None:
         grown = (speed / gas.rated_speed) ** 2
@@ -193,12 +193,12 @@ def _build_steady(
 
     Args:
         parts: Stages of the engine.
-        found: Piston of each row.
+        found: Piston of each row of the cylinders.
         read: Function that returns the columns of a file by its name and headings.
         gas: Table of the gas.
-        at_least: Whether a cycle may burn less than its kind needs. A dual cycle then need not
-            reach its pressure; other cycles burn nothing if the table asks for less imep than they
-            have without heat.
+        at_least: Whether the table may ask for too little imep. A dual cycle then need not reach
+            `max_pressure`, and a cycle burns nothing if the table asks for less imep than the
+            cycle has without heat.
 
     Raises:
         InputError: The same errors as for `build_gas`.
@@ -259,8 +259,8 @@ def _build_steady(
 
 # ------------------------------------------------------------------ keys of the file
 def _vary(parts: Parts) -> Gas:
-    """Return [gas] with varied figures, which replace its own figures and all keys that exclude
-    them.
+    """Return [gas] with the varied figures in place of those of the file, and without keys that
+    the varied figures exclude.
     """
     gas = _vary_table(parts, "gas", parts.model.gas or Gas.model_construct())
     points = (_vary_table(parts, f"gas.at.{k}", point) for k, point in enumerate(gas.at, 1))
@@ -268,7 +268,7 @@ def _vary(parts: Parts) -> Gas:
 
 
 def _vary_table(parts: Parts, path: str, table: Table) -> Table:
-    """Return a table (at this path) with the figures that vary, without the keys that they
+    """Return the table at a path with its varied figures, and without keys that the varied figures
     exclude.
     """
     varied = parts.figures.of_table(path)
@@ -304,7 +304,7 @@ def _list_contradictions(parts: Parts, gas: Gas, bore: float | None) -> Iterator
     if bore is None:
         yield Problem.of_missing("piston.bore", "the gas force needs it, such as bore = 86")
     if not two_stroke and parts.order is None and len(parts.numbers) > 1:
-        told = "it sets in which of two revolutions each cylinder fires, such as [1, 3, 4, 2]"
+        told = "it sets in which of two turns each cylinder fires; example: [1, 3, 4, 2]"
         yield Problem.of_missing("layout.firing_order", told)
     for number, table in parts.model.cylinder.items():
         if gas.cycle is None and table.heat is not None:
@@ -318,7 +318,7 @@ def _list_contradictions(parts: Parts, gas: Gas, bore: float | None) -> Iterator
     own = any(table.indicator is not None for table in parts.model.cylinder.values())
     for key in () if own or gas.has("indicator") else DIAGRAM_KEYS:
         if gas.has(key):
-            yield Problem(f"gas.{key}", "belongs to an indicator diagram; leave it out")
+            yield Problem(f"gas.{key}", "has no meaning without an indicator diagram; leave it out")
     if two_stroke and gas.intake_closes is not None:
         told = "has no meaning in a two-stroke cycle, whose ports close where they opened"
         yield Problem("gas.intake_closes", f"{told}: leave it out")
@@ -335,7 +335,7 @@ def _read_harmonics(
     over all orders n, where c is the crank angle after the firing dead centre.
 
     Raises:
-        BalcliError: The first mistake in the table, by its line.
+        BalcliError: The first mistake in the table, with its line number.
     """
     orders, cosines, sines = (np.array(columns.column(k)) for k in range(3))
     if not len(orders):
@@ -344,13 +344,13 @@ def _read_harmonics(
     for order, sine, line in zip(orders.tolist(), sines.tolist(), columns.lines, strict=True):
         wrong = ""
         if order <= before:
-            wrong = f"order {order:g} is not above the {before:g} before it"
+            wrong = f"order {order:g} is not above the order {before:g} before it"
         elif order > HIGHEST_TABLE_ORDER:
-            wrong = f"order {order:g} is above {HIGHEST_TABLE_ORDER}, the highest one of a table"
+            wrong = f"order {order:g} is above {HIGHEST_TABLE_ORDER}, the highest order of a table"
         elif order == 0 and sine:
             wrong = f"order 0 has sin {sine:g}; it is the mean, which has no sine: write 0"
         elif order < 0 or order % step:
-            wrong = f"order {order:g}: a cycle of {strokes} strokes has multiples of {step:g}"
+            wrong = f"order {order:g}: orders of {strokes}-stroke engines are multiples of {step:g}"
         if wrong:
             raise BalcliError(f"{name}: line {line}: {wrong}")
         before = order
@@ -396,7 +396,9 @@ def _describe_process(gas: Gas, strokes: int) -> Process:
 
 
 def _find_goal(gas: Gas, heat: float | None) -> Goal:
-    """Return the figure that a computed cycle has to reach: `heat` (J), unless it is None."""
+    """Return the figure that a computed cycle has to reach: `heat` (J), or the figure of [gas] if
+    `heat` is None.
+    """
     if heat is not None:
         return Goal("heat", heat)
     if gas.cut_off is not None:
@@ -413,10 +415,10 @@ def _locate(error: GasError, gas: Gas, source: _Source) -> Problem:
     if error.field == "heat":
         return Problem(source.heat_path, str(error))
     if error.field == "expansion_index" and source.heat == 0:
-        what = f"cylinder {source.number} burns nothing and expands with the same index"
+        what = f"cylinder {source.number} burns nothing; its expansion has the same index"
         return Problem("gas.compression_index", f"{error}; {what}")
     if error.field == "imep" and gas.bmep is not None:
-        return Problem("gas.bmep", f"divided by mechanical_efficiency, the imep, {error}")
+        return Problem("gas.bmep", f"imep = bmep / mechanical_efficiency {error}")
     return Problem(f"gas.{error.field}", str(error))
 
 
@@ -436,8 +438,8 @@ def _doubt_heat(gas: Gas, source: _Source, piston: GasPiston, cycle: GasCycle) -
 # ------------------------------------------------------------------ firing
 def _find_nominal(parts: Parts, tops: Sequence[float]) -> Iterator[float]:
     """Yield `CylinderGas.nominal_deg` of each row. The first cylinder (`find_first`) fires at its
-    dead centre in [-180, 180) deg, every other one at its dead centre nearest to the angle that the
-    firing order gives.
+    dead centre in [-180, 180) deg, every other cylinder at its dead centre nearest to the angle
+    that the firing order gives.
 
     Args:
         parts: Stages of the engine.

@@ -63,7 +63,7 @@ def build_device(
     """Return a device in SI units.
 
     Args:
-        table: Table of an engine file.
+        table: Table of the device in an engine file.
         first_axis_deg: Direction of cylinder 1's crank pin at crank angle 0, deg. Angles of
             counterweights count from it, angles of other devices from x.
         figures: Figures of the file.
@@ -106,7 +106,7 @@ def build_device(
 def find_given_unbalance(
     device: Counterweight | Shaft | Slider, figures: FileFigures = AS_GIVEN, path: str = ""
 ) -> Figure | None:
-    """Return the unbalance, kg m; None if the file gives neither it nor mass and radius.
+    """Return the unbalance, kg m; None if the file gives neither unbalance nor mass and radius.
 
     Raises:
         InputError: Only one of mass and radius varies, and the file gives neither.
@@ -147,8 +147,9 @@ def find_sector(
     """Return the figures of a counterweight from the thickness of its sector, or from its
     unbalance.
 
-    With the radii r and R and the opening q, the integrals of r, r^2 cos and r^3 over the sector
-    are `q/2 (R^2 - r^2)`, `2/3 (R^3 - r^3) sin(q/2)`, `q/4 (R^4 - r^4)`.
+    With the inner radius r, the outer radius R and the opening angle q, the sector has the area
+    `q/2 (R^2 - r^2)` and, about the crank axis, the first moment `2/3 (R^3 - r^3) sin(q/2)` and
+    the polar second moment `q/4 (R^4 - r^4)`.
 
     Args:
         table: The counterweight.
@@ -157,7 +158,8 @@ def find_sector(
         path: Dotted name of the counterweight.
 
     Raises:
-        InputError: Variants give both thickness and unbalance, or an inertia.
+        InputError: A figure varies that the file does not give: the unbalance of a sector with
+            thickness, the thickness of a sector with unbalance, or the inertia.
     """
     inner, outer, opening, density = (
         figures.take(f"{path}.sector.{key}", getattr(sector, key))
@@ -187,7 +189,7 @@ def group_eccentrics(shafts: Iterable[Shaft]) -> list[tuple[str, dict[int, Shaft
     Args:
         shafts: All [[shaft]] tables.
 
-    Returns: The name of each shaft, or `shaft 2` by its number, and its entries.
+    Returns: For each shaft its name, or `shaft 2` by its number if it has no name, and its entries.
     """
     groups: dict[tuple[str, int], dict[int, Shaft]] = {}
     for number, table in enumerate(shafts, 1):
@@ -197,7 +199,7 @@ def group_eccentrics(shafts: Iterable[Shaft]) -> list[tuple[str, dict[int, Shaft
 
 
 def check_shafts(parts: Parts) -> Iterator[Problem]:
-    """Check that eccentrics of one name have the same ratio and position, that each key of the
+    """Check that eccentrics with the same name have the same `ratio` and `at`, that each key of the
     whole shaft is in only one of their tables, and that a shaft with drag has a gear.
     """
     for name, entries in group_eccentrics(parts.model.shaft):
@@ -205,7 +207,7 @@ def check_shafts(parts: Parts) -> Iterator[Problem]:
         for number, key in product(others, ("ratio", "at")):
             value, wanted = (shorten(getattr(entries[k], key)) for k in (number, first))
             if value != wanted:
-                told = f'is {value}, but shaft.{first} of the name "{name}" has {wanted}: '
+                told = f'is {value}, but shaft.{first} with the name "{name}" has {wanted}: '
                 yield Problem(f"shaft.{number}.{key}", f"{told}give both the same {key}")
         for key in ("inertia", "bearings", "gear", "drag"):
             for number in [k for k, one in entries.items() if one.has(key)][1:]:

@@ -62,8 +62,9 @@ class TurningInertia(NamedTuple):
     """Constant inertia of turning parts, referred to the crank speed, kg m2.
 
     Attributes:
-        momentum: Angular momentum at crank speed 1: `J + sum k J_s` (ratio k, inertia J_s).
-        energy: Twice the kinetic energy at crank speed 1: `J + sum k^2 J_s`.
+        momentum: Angular momentum at a crank speed of 1 rad/s: `J + sum k J_s` with the inertia J
+            of crankshaft and flywheel, and the ratio k and the inertia J_s of each shaft.
+        energy: Twice the kinetic energy at a crank speed of 1 rad/s: `J + sum k^2 J_s`.
     """
 
     momentum: Figure
@@ -83,7 +84,7 @@ class SilentCylinders(NamedTuple):
 
 
 def place_in_mm(place_m: Iterable[Figure]) -> tuple[float, ...]:
-    """Return a place in mm from one in m."""
+    """Return the coordinates of a place in mm, from those in m."""
     return tuple(1e3 * float(v) for v in place_m)
 
 
@@ -93,19 +94,21 @@ def as_number(figure: Figure) -> float:
 
 
 class Placed(NamedTuple):
-    """An engine and its place among others that are geared to it one to one ("the whole").
+    """One of several engines that are geared together one to one, and its place among them. All
+    these engines together are called "the whole".
 
     Attributes:
-        engine: The engine alone, in its own axes, by its own crank angle and sense of rotation.
+        engine: The engine alone, in its own axes, by its own crank angle and direction of rotation.
         name: Name of the engine in the file.
         file: Path of its engine file.
-        ratio: 1: its crank turns as the first one; -1: against it, and the engine is mirrored in y.
-        phase_deg: Crank angle by which it leads the first engine, in its own sense of rotation.
+        ratio: 1: its crank turns in the direction of the first engine's crank. -1: its crank turns
+            in the opposite direction, and the engine is mirrored in y.
+        phase_deg: Crank angle by which it leads the first engine, in its own direction of rotation.
         turn_deg: Angle by which it is turned about z.
-        at_m: Place of its origin (its crank axis at its z = 0).
+        at_m: Place of its origin (its crank axis at its z = 0), in the axes of the whole.
         load: Whether its crank drives the load.
-        load_sense: Ratio of the crank that passes its torque on to the load: the crank of the
-            engine that drives the load, or its own crank if each engine has a load.
+        load_sense: `ratio` of the engine whose crank passes this engine's torque on to the load:
+            the engine that drives the load, or this engine if each engine has its own load.
     """
 
     engine: Annotated[Engine, HIDDEN]
@@ -119,30 +122,34 @@ class Placed(NamedTuple):
     load_sense: Annotated[int, HIDDEN] = 1
 
     def turn(self, vector: complex | Complex) -> Complex:
-        """Return a vector, given in its own axes, in the axes of the whole."""
+        """Return a vector in the axes of the whole, from one in this engine's own axes."""
         return unit(self.turn_deg) * (vector if self.ratio > 0 else np.conj(vector))
 
     def find_own_unbalance(self, seen: complex) -> complex:
-        """Return an unbalance on its crank, given in the axes of the whole when the first crank is
-        at 0, in its own axes at its own crank angle 0, kg m.
+        """Return an unbalance on this engine's crank, kg m, in its own axes at its crank angle 0.
+        `seen` is the unbalance in the axes of the whole at crank angle 0 of the first engine.
         """
         return complex(np.conj(unit(self.phase_deg)) * self.turn_back(seen))
 
     def turn_back(self, vector: complex | Complex) -> Complex:
-        """Return a vector, given in the axes of the whole, in its own axes."""
+        """Return a vector in this engine's own axes, from one in the axes of the whole."""
         back: Complex = np.conj(unit(self.turn_deg)) * vector
         return back if self.ratio > 0 else np.conj(back)
 
     def turn_axial(self, vector: complex | Complex) -> Complex:
-        """Return a moment in the axes of the whole; mirroring also changes the sign of a moment."""
+        """Return a moment in the axes of the whole, from one in this engine's own axes. Mirroring
+        the engine also changes the sign of a moment.
+        """
         return self.ratio * self.turn(vector)
 
     def find_place(self, own: complex | Complex) -> Complex:
-        """Return a point x + iy, given in its own axes, in the axes of the whole, m."""
+        """Return a point x + iy in the axes of the whole, m, from one in the engine's own axes."""
         return self.turn(own) + place_in_plane(*self.at_m[:2])
 
     def find_device(self, own: Device) -> Device:
-        """Return a device, given by its own axes and crank angle, by those of the whole."""
+        """Return a device in the axes of the whole, by the crank angle of the first engine.
+        `own` is the device in this engine's own axes, by this engine's crank angle.
+        """
         lead = unit(own.order * self.phase_deg)
         forward, backward = lead * own.forward, np.conj(lead) * own.backward
         if self.ratio < 0:  # a mirrored vector turns the other way
@@ -155,7 +162,7 @@ class Placed(NamedTuple):
         )
 
     def find_own_place(self, place: complex | Complex) -> Complex:
-        """Return a point x + iy, given in the axes of the whole, in its own axes, m."""
+        """Return a point x + iy in the engine's own axes, m, from one in the axes of the whole."""
         return self.turn_back(place - place_in_plane(*self.at_m[:2]))
 
 
@@ -167,8 +174,8 @@ _ONE_PLACE = 1e-9  # m; throws that are closer have the same position
 class Engine:
     """An engine, or variants of one, in SI units unless a name ends in another unit.
 
-    A figure that varies is an array with the axes of the variants ("trailing axes"); all figures of
-    an engine broadcast against each other.
+    An array of a figure that varies has the axes of the variants as its last axes ("trailing axes",
+    `*trailing` in shapes); all figures of an engine broadcast against each other.
 
     Attributes:
         name: Name in the file; may be empty.
@@ -176,19 +183,21 @@ class Engine:
         numbers: Cylinder number of each row of `cylinders`.
         cylinders: Geometry and masses, one row for each cylinder, sorted by bank, with the trailing
             axes of the variants.
-        fires_deg: Crank angle from the first firing to that of each cylinder, by its number and in
-            the firing order; empty without a firing order.
+        fires_deg: Crank angle from the first firing to the firing of each cylinder, by cylinder
+            number, in the firing order; empty without a firing order.
         strokes: 2 or 4.
         bore_m: Cylinder bore; nan where the file gives none.
-        throws_m: Position of each throw along the crank, shape (throws, *trailing).
+        throws_m: Position of each throw along the crank (the middle of its rods), shape (throws,
+            *trailing).
         throw_radii_m: Crank radius of each throw, same shape.
-        pins_m: Position of each throw by [crank], same shape; `throws_m` if [crank] gives none.
+        pins_m: Position of each throw as [crank] gives it, same shape; `throws_m` if [crank] gives
+            no positions.
         speed_rpm: Mean crank speed.
-        ripple: Lines of the uneven speed; empty for a steady one.
+        ripple: Orders of the uneven speed; empty for a steady speed.
         reference_m: x, y, z of the point about which moments are taken.
         up_deg: Direction that points up, deg from x; None where the file gives none.
         devices: Counterweights, shafts and sliders of the file, in this order.
-        weighed: Masses of the parts of each row of `cylinders`.
+        weighed: Masses of piston, rod and throw for each row of `cylinders`.
         places_known: Whether the file gives the positions of its throws along the crank. If not,
             all throws are in one plane, and moments have no meaning.
         gas: Gas in the cylinders at this speed; None where the file has no [gas], and for arrays of
@@ -203,8 +212,9 @@ class Engine:
         inferred: Keys that the file leaves out and on which results depend, with the values that
             are used (`layout.strokes = 4`).
         model: Engine file; None if no file describes this engine.
-        placed: Engines that are geared together, if this engine is the whole of them; `cylinders`
-            and all figures derived from them are then those of the first. Else empty.
+        placed: The engines that are geared together, if this engine is the whole of them;
+            `cylinders` and all figures derived from `cylinders` are then those of the first engine.
+            Empty for a single engine.
     """
 
     name: str
@@ -242,10 +252,10 @@ class Engine:
 
         Args:
             changes: Values by dotted names of the engine file (`layout.bank_angle`,
-                `crank.throws.2`, `operation.speed`, `name`), in its units or with units of their
-                own; None removes a key. A key that gives the same figure in another way
-                (`rod.ratio` next to `rod.length`) is removed, and so is a firing order that new
-                throws do not fit.
+                `crank.throws.2`, `operation.speed`, `name`): numbers in the units of the file, or
+                texts with a unit. None removes a key. A key that gives the same figure in another
+                way (`rod.ratio` when `rod.length` changes) is removed, and so is a firing order
+                that does not fit new throws.
             named: Further changes, as keyword arguments.
 
         Raises:
@@ -264,8 +274,8 @@ class Engine:
         return replace(self, speed_rpm=speed_rpm, gas=gas)
 
     def explore(self) -> Any:
-        """Return the live page of the engine for a notebook: it shows the engine in motion, and its
-        numbers can be changed.
+        """Return an interactive view of the engine for a notebook: it shows the engine in motion,
+        and the user can change the engine's numbers.
 
         Raises:
             BalcliError: No file describes this engine.
@@ -283,7 +293,9 @@ class Engine:
 
     @property
     def doubts(self) -> tuple[str, ...]:
-        """Warnings of unlikely figures in the file, and of missing positions."""
+        """Warnings of unlikely figures in the file, of missing positions, and of a speed for which
+        the file does not give the gas.
+        """
         unknown = () if self.places_known else (MOMENTS_UNKNOWN,)
         return (*unknown, *self.unlikely, *self.doubt_speeds(self.speed_rpm))
 
@@ -299,7 +311,7 @@ class Engine:
         return (*find_suspicious(self.model), *doubt_firing(self.model), *of_gas)
 
     def doubt_speeds(self, speeds_rpm: ArrayLike) -> tuple[str, ...]:
-        """Return a warning if the file does not give the gas at some of these speeds."""
+        """Return warnings if the file does not give the gas at some of these speeds (rpm)."""
         if self.placed:
             each = ((one.file, one.engine.doubt_speeds(speeds_rpm)) for one in self.cranks)
             return tuple(dict.fromkeys(f"{file}: {told}" for file, own in each for told in own))
@@ -314,12 +326,11 @@ class Engine:
         return float(self.speed_rpm) == self.model.operation.speed
 
     def list_assumed(self, *chapters: str, without: Collection[str] = ()) -> tuple[str, ...] | None:
-        """Return the values of `inferred` on which results of some chapters depend; None if there
-        are none.
+        """Return the entries of `inferred` on which results depend; None if there are none.
 
         Args:
-            chapters: Tables that count in addition to those of every engine: gas, torsion, body,
-                mount, flywheel.
+            chapters: Tables on which the results depend, besides those that describe every engine:
+                gas, torsion, body, mount, flywheel.
             without: Keys to omit.
         """
         if self.placed:
@@ -354,8 +365,8 @@ class Engine:
     # -------------------------------------------------------------- several cranks
     @cached_property
     def cranks(self) -> tuple[Placed, ...]:
-        """Engines that are geared together, each with the speed, devices and point of reference of
-        the whole, by its own axes and crank angle. An ordinary engine has only itself.
+        """Engines that are geared together, each in its own axes and by its own crank angle, with
+        the speed, devices and point of reference of the whole. For a single engine, this engine.
         """
         return tuple(import_name(CRANKS)(self)) if self.placed else (Placed(self),)
 
@@ -403,7 +414,8 @@ class Engine:
 
     # -------------------------------------------------------------- cylinders and crank pins
     def find_radius(self, z_m: float) -> float:
-        """Return the crank radius, m, of the throw nearest to a plane (the first one of several).
+        """Return the crank radius, m, of the throw nearest to a plane; of equally near throws, the
+        radius of the first.
 
         Args:
             z_m: Position of the plane along the crank, m.
@@ -439,7 +451,7 @@ class Engine:
 
     @property
     def rising_numbers(self) -> list[CylinderNumber]:
-        """Numbers of the cylinders in rising order; of geared engines one engine after another."""
+        """Numbers of the cylinders, rising; for geared engines, one engine after the other."""
         if not self.placed:
             return sorted(self.numbers)
         each = ((one.name, sorted(one.engine.numbers)) for one in self.placed)
@@ -447,7 +459,7 @@ class Engine:
 
     @property
     def first_axis_deg(self) -> Figure:
-        """Axis of cylinder 1, deg; its crank pin points along it at crank angle 0."""
+        """Angle of cylinder 1's axis, deg; its crank pin points along it at crank angle 0."""
         return self.cylinders.axis_deg[self.cylinders.first]
 
     @property
@@ -459,11 +471,11 @@ class Engine:
     def joined_throws(self) -> tuple[tuple[int, ...], ...]:
         """Throws of the file (from 0), grouped into throws of the crank, from the free end on.
 
-        Throws at the same angle form one throw of the crank if they have the same position. So do
-        neighbours less than half a bore apart with rods of different banks, as in a file with a
-        throw for each cylinder. Without known positions, every throw is single, in the order of the
-        file. If [crank] gives positions of throws, a cylinder's own position moves only its rod,
-        not its throw.
+        Throws at the same angle form one throw of the crank if they have the same position, or if
+        they are neighbours less than half a bore apart that carry rods of different banks (as in a
+        file with a throw for each cylinder). Without known positions, every throw of the file is a
+        throw of the crank, in the order of the file. If [crank] gives positions of throws, a
+        cylinder's own position moves only its rod, not its throw.
         """
         c, z = self.cylinders, np.ravel(self.pins_m)
         if self.rotary or self.placed or not self.places_known:

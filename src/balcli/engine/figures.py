@@ -1,9 +1,9 @@
 """Provide the figures of an engine file, some of them replaced by arrays of variants.
 
 The model of a file is never changed. Every stage of `engine.build` asks `FileFigures` for a figure
-by its dotted name (`crank.stroke`, `shaft.1.at.2`, `cylinder.3.rod_ratio`). It returns the figure
-of the file, or the array that varies instead, in the unit of the file. `column` makes an array of
-the figures of all cylinders, with one row for each.
+by its dotted name (`crank.stroke`, `shaft.1.at.2`, `cylinder.3.rod_ratio`). `FileFigures` returns
+the figure of the file, or the array of variants that replaces it, in the unit of the file. `column`
+makes an array of the figures of all cylinders, with one row for each cylinder.
 """
 
 from __future__ import annotations
@@ -25,9 +25,10 @@ class FileFigures:
     """Figures of a file, or of variants of it.
 
     Args:
-        varied: Arrays that replace figures, by dotted name. Keys of the same table that give such a
-            figure in another way (`rod.length` for `rod.ratio`) count as not given ("displaced").
-        model: Engine file; needed if something varies.
+        varied: Arrays that replace figures, by dotted name. Keys of the same table that give a
+            varied figure in another way (`rod.length` if `rod.ratio` varies) count as not given
+            ("displaced").
+        model: Engine file; needed if a figure varies.
 
     Attributes:
         displaced: Names of figures, lists and tables of the file that count as not given.
@@ -53,7 +54,7 @@ class FileFigures:
         return self._varied.get(path, given)
 
     def take_optional(self, path: str, given: float | None) -> Figure | None:
-        """Return a figure that the file may leave out; None if it does.
+        """Return a figure that the file may leave out; None if it is left out or displaced.
 
         Args:
             path: Dotted name of its key.
@@ -73,19 +74,19 @@ class FileFigures:
     def take_for_each(
         self, path: str, given: float | tuple[float, ...], count: int
     ) -> tuple[Figure, ...]:
-        """Return a figure for each member of a list, or the single one that holds for all.
+        """Return the members of a list, or the single figure of the file repeated `count` times.
 
         Args:
             path: Dotted name of the key.
             given: Values in the file, or the single value.
-            count: Number of members.
+            count: Number of figures to return.
         """
         if isinstance(given, tuple):
             return self.take_each(path, given)
         return (self.take(path, given),) * count
 
     def of_table(self, start: str) -> dict[str, Figure]:
-        """Return the varied figures of a table, by their keys."""
+        """Return the varied figures of the table with the dotted name `start`, by their keys."""
         return {
             path[len(start) + 1 :]: value
             for path, value in self._varied.items()
@@ -116,7 +117,11 @@ class FileFigures:
 def _find_rivals(
     start: str, key: str, table: FileTable, varied: Mapping[str, Figure]
 ) -> Iterator[str]:
-    """Yield the names of other keys in a table (at path `start`) that exclude its varied `key`."""
+    """Yield the names of given keys in a table (at path `start`) that the varied `key` excludes.
+
+    Raises:
+        BalcliError: The errors of `FileFigures`.
+    """
     for other in varied:
         if any(f"{other}.".startswith(f"{start}.{rival}.") for rival in table.rivals(key)):
             raise BalcliError(f"{start}.{key} and {other} give the same figure; vary one of them")
@@ -134,8 +139,8 @@ def _find_rivals(
 
 
 def select_varied(varied: Mapping[str, Figure], number: int) -> Iterator[tuple[str, Figure]]:
-    """Yield the varied figures of one geared engine (number from 1), by their names in its own
-    file. The speed of the whole varies in all engines.
+    """Yield the varied figures of one geared engine (number from 1), by their names in the engine's
+    own file. A varied speed holds for all engines; other figures of [operation] vary in the first.
     """
     start = f"engine.{number}."
     for path, value in varied.items():
@@ -151,7 +156,7 @@ AS_GIVEN = FileFigures()  # nothing varies
 
 # ------------------------------------------------------------------ rods and single cylinders
 class PendulumTest(NamedTuple):
-    """Pendulum test of a rod: the bore about which it swings and the period, s."""
+    """Pendulum test of a rod: the bore about which the rod swings, and the period, s."""
 
     pivot: str
     period: Figure
@@ -183,8 +188,8 @@ class RodFigures(NamedTuple):
         return self.length if self.length is not None else radius / cast(Figure, self.ratio)
 
     def with_own(self, own: RodFigures) -> RodFigures:
-        """Return these figures, overridden by those of one cylinder; figures that exclude an
-        overriding one are left out.
+        """Return these figures, overridden by the figures `own` of one cylinder. Figures that an
+        overriding figure excludes are left out.
         """
         if not (said := own.given):
             return self
@@ -203,19 +208,19 @@ def value_or(own: Figure | None, general: Figure) -> Figure:
     """Return the figure of one cylinder, or else the figure for all.
 
     Args:
-        own: Figure of the cylinder; None: it has none.
+        own: Figure of the cylinder; None if the cylinder has none.
         general: Figure for all cylinders.
     """
     return general if own is None else own
 
 
 def or_zero(figure: Figure | None) -> Figure:
-    """Return a figure, or 0 without one."""
+    """Return a figure; 0 for None."""
     return 0.0 if figure is None else figure
 
 
 def divide(figure: Figure | None, divisor: float) -> Figure | None:
-    """Return a figure divided by a number; None without a figure.
+    """Return a figure divided by a number; None for None.
 
     Args:
         figure: Figure, or None.
@@ -286,8 +291,8 @@ def shared_column(values: Sequence[Figure], rank: int) -> Array:
 
 
 def find_first_largest(values: ArrayLike) -> NDArray[np.intp]:
-    """Return the row of the largest of values (rows, ...), shape (...); if several differ only by
-    rounding, the first.
+    """Return the row with the largest value, shape (...) for values of shape (rows, ...). If the
+    largest values differ only by rounding, return the first of their rows.
     """
     found = np.asarray(values, float)
     largest = found.max(axis=0)
@@ -295,8 +300,8 @@ def find_first_largest(values: ArrayLike) -> NDArray[np.intp]:
 
 
 def ranked(values: ArrayLike) -> Array:
-    """Return values of any shape, rounded to ten digits. As sort keys, values that differ only by
-    rounding are then equal.
+    """Return values of any shape, rounded to ten digits. As sort keys, rounded values are equal if
+    the values differ only by rounding errors.
     """
     mantissa, exponent = np.frexp(np.asarray(values, float))
     return np.ldexp(np.round(mantissa, 10), exponent)

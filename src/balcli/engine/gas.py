@@ -1,4 +1,4 @@
-"""Describe the gas in an engine's cylinders: torque over the cycle and firing angle of each.
+"""Describe the gas in an engine's cylinders: torque over the cycle and firing angle.
 
 The cycle angle of a cylinder is 0 at the upper dead centre at which it fires. In a four-stroke
 engine, the firing order determines in which of the two revolutions that is.
@@ -29,10 +29,10 @@ class CylinderGas(NamedTuple):
         torque: Torque over the cycle angle, not yet multiplied by `share`.
         nominal_deg: Crank angle, in [0, 720) or [0, 360), at which the crank pin points along the
             axis of the cylinder when it fires.
-        share: Factor of the gas force; 0 is a misfire.
+        share: Factor by which the gas force is multiplied; 0 is a misfire.
         heat: Heat supplied in a computed cycle, J; None if the file gives none.
-        like: Row of the first cylinder with an equal mechanism, diagram and heat. The two differ
-            at most in `nominal_deg` and `share`.
+        like: Row of the first cylinder with an equal mechanism, diagram and heat. The two cylinders
+            differ at most in `nominal_deg` and `share`.
     """
 
     piston: GasPiston
@@ -49,7 +49,7 @@ class CylinderGas(NamedTuple):
 
     def find_pressure(self, angle: Array) -> Array:
         """Return the effective pressure at cycle angles (rad), Pa: the pressure under the piston
-        plus `share` of the pressure difference.
+        plus `share` times the pressure difference between the two sides of the piston.
 
         Raises:
             BalcliError: The file gives harmonics of the torque but no pressures.
@@ -113,12 +113,12 @@ class EngineGas:
         return replace(self, cylinders=tuple(new._replace(share=own.share) for new, own in pairs))
 
     def follow(self, find: Callable[[EngineGas], ArrayLike]) -> Callable[[ArrayLike], Array]:
-        """Return a function of speeds, rpm, that returns a figure of the gas at each of them, shape
-        (*speeds, *figure).
+        """Return a function that computes a figure of the gas for an array of speeds (rpm). The
+        array that this function returns has the shape (*speeds, *figure).
 
         Args:
-            find: Function that returns this figure of the gas at one speed. The figure is linear in
-                the pressures.
+            find: Function that returns the figure for the gas at one speed. The figure has to be
+                linear in the pressures.
         """
         if (law := self.law) is None:
             figure = np.asarray(find(self))
@@ -147,7 +147,9 @@ class EngineGas:
 
     @property
     def nodes_rpm(self) -> tuple[float, ...]:
-        """Speeds between which the gas is smooth, rpm; empty if it is the same at all speeds."""
+        """Speeds (rpm) between which the gas is a smooth function of the speed; empty if the gas is
+        the same at all speeds.
+        """
         return () if self.law is None else self.law.nodes_rpm
 
     def group_equal(self) -> list[tuple[GasTorque, list[int]]]:
@@ -166,11 +168,12 @@ class GasLaw:
     Attributes:
         solve: Function that returns the gas at a speed, rpm; InputError if no cycle can be
             computed.
-        nodes_rpm: Rising speeds: the points of the file. For the propeller law: 0, the speeds at
-            which a cycle begins to burn or reaches its limit, the rated speed, and an overspeed.
+        nodes_rpm: Rising speeds. Without a law: the speeds of [[gas.at]]. For the propeller law: 0,
+            the speeds at which a cycle begins to burn or to reach `max_pressure`, the rated speed,
+            and an overspeed.
         linear: Whether all pressures are linear in the speed between the nodes.
-        power: Power of the speed in which mean pressures are linear between the nodes: 1 for
-            points, 2 for the propeller law, which holds beyond the last node as well.
+        power: Exponent p for which mean pressures are linear in speed^p between the nodes: 1 for
+            [[gas.at]], 2 for the propeller law, which holds beyond the last node as well.
         least_rpm: Speed up to which the propeller law demands less imep than a cycle has without
             heat.
     """
@@ -182,8 +185,8 @@ class GasLaw:
     least_rpm: float = 0.0
 
     def list_doubts(self, speeds_rpm: ArrayLike) -> Iterator[str]:
-        """Yield a warning if some speeds (rpm) are outside the points, or if the propeller law
-        demands less imep at them than a cycle has without heat.
+        """Yield warnings if some of these speeds (rpm) are outside the points of [[gas.at]], or if
+        the propeller law demands less imep there than a cycle has without heat.
         """
         low, high, least = np.min(speeds_rpm), np.max(speeds_rpm), self.least_rpm
         first, last = self.nodes_rpm[0], self.nodes_rpm[-1]

@@ -41,25 +41,25 @@ SAME_IMEP = 0.03  # a larger relative difference from the stated imep gives a wa
 def build_diagram(
     gas: Gas, path: str, name: str, columns: NumberColumns, strokes: int
 ) -> tuple[PiecewiseCurve, list[str]]:
-    """Return the absolute pressure (Pa) over the cycle angle, and warnings of rows that are not
-    used.
+    """Return the absolute pressure (Pa) over the cycle angle, and warnings if cycles are averaged
+    or the last row is not used.
 
     Args:
         gas: Table of the engine file that describes the diagram.
-        path: Key of the diagram's file.
-        name: Name of this file.
-        columns: Columns of this file.
+        path: Key of the engine file that names the diagram's file.
+        name: Name of the diagram's file.
+        columns: Columns of the diagram's file.
         strokes: 4 or 2.
 
     Raises:
-        BalcliError: The first mistake in the file, by its line.
+        BalcliError: The first mistake in the diagram's file, with its line number.
     """
     gauge, period = gas.pressure == "gauge" or columns.units[1] in GAUGE_UNITS, 180.0 * strokes
     angle, pressure = np.array(columns.column(0)), np.array(columns.column(1)) * BAR
     pressure += ATMOSPHERE if gauge else 0.0
     for below in np.flatnonzero(pressure < 0).tolist():
         found = f"line {columns.lines[below]}: the pressure is {columns.as_written(below, 1)}"
-        right = "give at least the vacuum" if gauge else f"give 0 or more{ASK_GAUGE}"
+        right = "that is below a vacuum" if gauge else f"give 0 or more{ASK_GAUGE}"
         raise BalcliError(f"{name}: {found}: {right}")
     angle, pressure, count = _average_cycles(angle, pressure, period)
     for row, message in find_diagram_mistakes(angle, pressure, strokes=strokes):
@@ -85,7 +85,8 @@ def _name_unit(columns: NumberColumns) -> str:
 
 def _average_cycles(angle: Array, pressure: Array, period: float) -> tuple[Array, Array, int]:
     """Return angles (deg) and pressures of one cycle, and the number of cycles in the rows. Several
-    cycles are averaged at the angles of the first. A single cycle is returned unchanged.
+    cycles are averaged at the angles of the first cycle. The rows of a single cycle keep their
+    pressures; angles that begin anew within the cycle are continued.
     """
     steps = np.diff(angle)
     starts = np.flatnonzero(steps < -period / 2)  # the angles of each cycle begin anew
@@ -106,7 +107,7 @@ def _average_cycles(angle: Array, pressure: Array, period: float) -> tuple[Array
 
 
 def _is_closed(angle: Array, period: float) -> bool:
-    """Return whether a diagram has a row at both ends of the period; the first one is used."""
+    """Return whether a diagram has a row at both ends of the period. The last row is not used."""
     return len(angle) > 1 and abs(angle[-1] - angle[0] - period) < _SAME
 
 
@@ -117,7 +118,7 @@ def draw_diagram(
     (`find_diagram_mistakes`).
 
     Args:
-        angle_deg: Rising angles, shape (rows,).
+        angle_deg: Rising angles, deg, shape (rows,).
         pressure: Absolute pressures, Pa, shape (rows,).
         strokes: 4 or 2; the period is 720 or 360 deg.
         firing_deg: Angle of the firing dead centre in the diagram: minus the phase, or 360 minus
@@ -167,12 +168,12 @@ def find_diagram_mistakes(
 def list_doubts(
     gas: Gas, path: str, columns: NumberColumns, found: PiecewiseCurve, imep: float
 ) -> Iterator[str]:
-    """Yield warnings of the pressures of a diagram.
+    """Yield warnings of unlikely pressures in a diagram.
 
     Args:
-        gas: Table [gas] of the file.
-        path: Key of the diagram's file.
-        columns: Columns of this file.
+        gas: Table [gas] of the engine file.
+        path: Key of the engine file that names the diagram's file.
+        columns: Columns of the diagram's file.
         found: Pressure over the cycle angle, Pa.
         imep: Indicated mean effective pressure, Pa.
     """

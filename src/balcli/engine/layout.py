@@ -1,12 +1,14 @@
-"""Compute the plan of an engine (the numbers of its cylinders on banks and throws), and the crank
-pin angles that its firing order needs.
+"""Compute the plan of an engine (bank, throw and number of each cylinder), and the crank pin angles
+that its firing order needs.
 
-Firing (docs/theory.md): cylinder i is at top dead centre when its crank angle is `tau_i`, with `sin
-tau_i = e_i / (r + l_i)`. To fire at `f_i` after cylinder 1, it needs its crank pin at `g_i - g_1 +
-tau_i - tau_1 - f_i`, where g is the axis of a cylinder. In the functions below, angles are in
-degrees, may be arrays of variants, and are given by cylinder number: `fires` is the firing angle,
-`pins` the angle of the crank pin, `tops` the angle of the pin at top dead centre, `g_i + tau_i`.
-`sense` is -1 if the cylinders turn about a crank at rest; `tops` is then `g_i - tau_i`.
+Firing (docs/theory.md): cylinder i is at top dead centre when its crank pin is an angle `tau_i`
+ahead of its axis, with `sin tau_i = e_i / (r + l_i)` (piston offset e, crank radius r, rod length
+l). To fire at a crank angle `f_i` after cylinder 1, cylinder i needs its crank pin at an angle `g_i
+- g_1 + tau_i - tau_1 - f_i` from cylinder 1's pin, where g is the angle of a cylinder's axis. In
+the functions below, angles are in degrees, may be arrays of variants, and are given by cylinder
+number: `fires` is the firing angle, `pins` the angle of the crank pin, `tops` the angle of the pin
+at top dead centre, `g_i + tau_i`. `sense` is 1, or -1 if the cylinders turn about a crank at rest;
+`tops` is then `g_i - tau_i`.
 """
 
 from __future__ import annotations
@@ -44,7 +46,8 @@ class Plan(NamedTuple):
         throws: Number of throws.
         cells: The cylinders, sorted by bank and throw.
         rods_on_throw: Number of rods on each throw.
-        in_rows: Whether `layout.numbering` lists rows, each on a throw, and not banks.
+        in_rows: Whether `layout.numbering` has a list for each row (the cylinders of one throw)
+            instead of a list for each bank.
     """
 
     banks: int
@@ -59,7 +62,7 @@ class Plan(NamedTuple):
 
     @property
     def groups(self) -> list[list[Cell]]:
-        """The cylinders in the lists of `layout.numbering`."""
+        """The cylinders, grouped like the lists of `layout.numbering`."""
         key = attrgetter("throw" if self.in_rows else "bank")
         return [list(group) for _, group in groupby(sorted(self.cells, key=key), key)]
 
@@ -81,7 +84,7 @@ def plan_cylinders(model: EngineFile) -> Plan:
     silent = [number for number, own in model.cylinder.items() if own.gas == 0]
     left_out = [number for number in silent if number not in (layout.firing_order or silent)]
     if crank.throws is None and left_out:
-        told = f"cylinder {left_out[0]} is not in the firing order"
+        told = f"the firing order gives no throw for cylinder {left_out[0]}, which it leaves out"
         raise InputError([Problem.of_missing("crank.throws", told)])
     throws = max(cylinders // rods, 1) if crank.throws is None else len(crank.throws)
     if crank.throws is None and not cylinders and layout.rows is not None:
@@ -147,7 +150,7 @@ def count_banks(layout: Layout) -> int:
 
 
 def bank_angles(layout: Layout, figures: FileFigures) -> tuple[Figure, ...]:
-    """Return the angle of each bank from x, deg. A vee is symmetrical to x; the first bank of a
+    """Return the angle of each bank from x, deg. A vee is symmetrical about x; the first bank of a
     radial engine is on x.
 
     Args:
@@ -194,7 +197,7 @@ def _number_cylinders(layout: Layout, plan: Plan) -> tuple[dict[Cell, int], list
     if given != sizes:
         right = "bank, from the free end to the flywheel end"
         if plan.in_rows:
-            right = "row, in the sense of rotation"
+            right = "row, in the direction of rotation"
         told = f"has lists of {join_words(given)} cylinders, but {join_words(sizes)} are there"
         return default, [Problem("layout.numbering", f"{told}: give one list per {right}")]
     numbers = [number for row in layout.numbering for number in row]
@@ -256,15 +259,15 @@ def are_places_known(model: EngineFile, plan: Plan, varied: Collection[str] = ()
     return plan.throws == 1 or said or own
 
 
-# Tolerance of angles, deg: offsets, angles and intervals of files are rounded, and mistakes are
-# tens of degrees.
+# Tolerance of angles, deg: offsets, angles and intervals in files are rounded; real mistakes amount
+# to tens of degrees.
 TOLERANCE_DEG = 1.0
 
 
 def find_instants(
     order: Sequence[int], intervals: Sequence[Figure] | None, cycle: float
 ) -> dict[int, Figure]:
-    """Return the angle at which each cylinder fires, counted from the first, by cylinder number.
+    """Return the crank angle from the first firing to that of each cylinder, by cylinder number.
 
     Args:
         order: Firing order, numbers of cylinders.
@@ -284,7 +287,7 @@ def find_pins(
 
     Args:
         fires: Crank angle of firing by cylinder, deg.
-        tops: Angle of each cylinder's axis at top dead centre, deg.
+        tops: Angle of each cylinder's crank pin at top dead centre, deg.
         sense: 1, or -1 for cylinders that turn about a crank at rest.
     """
     first = find_first(fires)
@@ -305,8 +308,9 @@ def find_intervals(order: Sequence[int], ready: Mapping[int, float], cycle: floa
     """Return the intervals from each firing to the next of a firing order on a given crank: the
     shortest that the dead centres allow.
 
-    If they take less than a cycle, the missing turns are added to the shortest intervals, among
-    equal ones to the last: an even parallel twin fires every 360 degrees, but its pins give 0.
+    An interval of 0 counts as a whole turn: a parallel twin whose pistons move together fires every
+    360 degrees. If the intervals add up to less than a cycle, the missing turns are added one by
+    one to the shortest interval; of equally short intervals, to the last.
 
     Args:
         order: Firing order, numbers of cylinders.
@@ -349,7 +353,7 @@ def check_firing(
     Args:
         fires: Crank angle of firing by cylinder, deg.
         pins: Crank pin angle of each cylinder, deg, from cylinder 1's.
-        tops: Angle of each cylinder's axis at top dead centre, deg.
+        tops: Angle of each cylinder's crank pin at top dead centre, deg.
         sense: 1, or -1 for cylinders that turn about a crank at rest.
     """
     first = find_first(fires)

@@ -52,7 +52,7 @@ def build_tables(tables: Mapping[str, object], name: str) -> Engine:
 
     Args:
         tables: Tables as `normalize_tables` returns them.
-        name: Name of their file, or empty; files that it names are in the same folder.
+        name: Name of their file, or empty. Files that the tables name are in the same folder.
 
     Raises:
         InputError: The tables have mistakes; the error lists all of them.
@@ -144,7 +144,8 @@ def concerns_gas(path: str, gas: Gas | None = None) -> bool:
 
     Args:
         path: Dotted name of the figure.
-        gas: Table [gas] of the file; if the gas depends on the speed, the speed is such a figure.
+        gas: Table [gas] of the file, which shows whether the gas depends on the speed; None if the
+            speed does not matter to the caller.
     """
     of_speed = path == SPEED and gas is not None and gas.speeds
     return bool(of_speed or re.fullmatch(rf"(engine\.\d+\.)?({_OF_GAS})", path))
@@ -164,7 +165,7 @@ def choose_speeds(
     engine: Engine, values: Mapping[str, float], usual: Callable[[Engine], Real]
 ) -> Real:
     """Return the speeds (rpm) over which the largest value of a quantity is sought: only the
-    variant's speed if that varies, else the usual speeds.
+    speed of the variant if the speed varies, else the usual speeds.
 
     Args:
         engine: Engine of the variant.
@@ -175,8 +176,8 @@ def choose_speeds(
 
 
 class EngineVariants:
-    """Builder of variants of an engine, one by one, that caches the last ones. The gas is computed
-    again only if a figure varies on which it depends (`concerns_gas`).
+    """Builder of variants of an engine, one by one, that caches recent variants. The gas is
+    computed again only if a figure on which the gas depends (`concerns_gas`) has a new value.
 
     Args:
         model: Engine file.
@@ -204,12 +205,12 @@ class EngineVariants:
 
 
 class FiguresOfVariants(EngineVariants, Generic[Asked]):
-    """Evaluator of quantities of variants of a file, one by one.
+    """Evaluator of quantities for the variants of an engine, one variant at a time.
 
     Args:
-        evaluate: Function that returns the values of quantities of an engine.
+        evaluate: Function that returns the values of given quantities for an engine.
         model: Engine file.
-        quantities: Quantities that the engine has.
+        quantities: Quantities to evaluate.
     """
 
     def __init__(

@@ -8,10 +8,11 @@ keys of the file, every cylinder is within 1 deg of its dead centre when it fire
 
 - If the file gives throws, numbering bank by bank is used if it fits.
 - Otherwise the usual numberings are tried in up to three tiers, from the most usual on; the first
-  tier with a numbering that fits decides. If the file gives no throws and tier 1 means only one
-  engine, this engine is used. Otherwise the user has to choose among the engines.
-- Two numberings describe the same engine if the firing angles of all places (throw, bank) differ by
-  the same shift.
+  tier with a numbering that fits decides. If the file gives no throws, and the numberings of tier 1
+  that fit describe only one engine, this engine is used. Otherwise the user has to choose among the
+  engines of the tier.
+- Two numberings describe the same engine if their firing angles differ by the same shift at all
+  places (throw, bank).
 
 A numbering in the file is never replaced; if it does not fit, the error proposes changes of single
 keys.
@@ -51,7 +52,7 @@ from .layout import (
 from .parts import Parts
 
 LIST_LENGTH = 3  # largest number of engines in a list to choose from
-NARROW_DEG = 30.0  # largest bank angle of a vee with one head; cylinder axes miss the crank
+NARROW_DEG = 30.0  # largest bank angle of a vee with one head (its cylinder axes miss the crank)
 FREE_END = (
     "Numbers count from the free end. If the maker counts from the flywheel end, reverse every "
     "list."
@@ -110,7 +111,7 @@ class Candidate:
         model: The file with `layout.numbering` and, if needed to fit, other firing intervals or
             another splay.
         numberings: Numberings that describe this engine; the first is that of `model`.
-        change: Other key and value that are needed to fit; may be empty.
+        change: Another key and its value, if this engine fits only with a change; else empty.
     """
 
     model: EngineFile
@@ -124,14 +125,14 @@ class Candidate:
 
     def fits(self, least_interval: float = 0.0) -> bool:
         """Return whether every cylinder is at its dead centre when it fires, and no firing follows
-        the one before it by less than `least_interval` deg.
+        the firing before it by less than `least_interval` deg.
         """
         least = least_interval - TOLERANCE_DEG
         return not find_missed(self.parts) and min(_list_gaps(self.parts)) >= least
 
     def is_same(self, other: Candidate) -> bool:
-        """Return whether the firing angles of all places differ by the same shift between both
-        engines, modulo the cycle if the file has gas, else modulo 360 deg.
+        """Return whether the firing angles of both engines differ by the same shift at all places
+        (throw, bank), modulo the cycle if the file has gas, else modulo 360 deg.
         """
         turn = TURN if self.model.gas is None else cycle_deg(self.model.layout)
         mine, theirs = (
@@ -162,8 +163,9 @@ class Candidate:
 
     @property
     def backward_share(self) -> float:
-        """Backward vector of order 1 relative to the first order of one cylinder: the larger of
-        force and moment. Moments are ignored if the positions are not known.
+        """Backward vector of order 1 as a share of one cylinder's force of order 1: the larger of
+        the shares of the force and of the moment over engine length. If the positions are not
+        known, only the force counts.
         """
         force, moment = (float(abs(p.backward[0])) for p in self.balance)
         parts, c = self.parts, self.parts.cylinders
@@ -236,8 +238,8 @@ def find_missed(parts: Parts) -> list[Problem]:
 
 def find_fitting_splay(model: EngineFile) -> float | None:
     """Return the value of `crank.splay` (deg) with which the cylinders fire in the order and at the
-    intervals of the file (evenly if it gives none). Return None if there is no such splay, no
-    firing order, or if rods are articulated.
+    intervals of the file (evenly if the file gives no intervals). Return None if there is no such
+    splay, no firing order, or if rods are articulated.
     """
     parts = Parts(model)
     if parts.order is None or parts.plan.rods_on_throw == 1 or model.articulation is not None:
@@ -327,11 +329,12 @@ def check_numbering(parts: Parts) -> Iterator[Problem]:
 
 
 def find_engines_meant(parts: Parts) -> tuple[list[Candidate], int]:
-    """Return the engines of the first tier of usual numberings in which any fits, best balanced
-    first, and the number of that tier (from 1). If no numbering fits, return an empty list and 0.
+    """Return the engines of the first tier of usual numberings in which a numbering fits, best
+    balanced first, and the number of that tier (from 1). If no numbering fits, return an empty list
+    and 0.
 
     If the file gives throws and no intervals, a numbering does not fit if two firings are closer
-    than half the even interval.
+    than half the interval of even firing.
     """
     layout = parts.model.layout
     least = 0.0
@@ -380,8 +383,8 @@ def _find_remedies(parts: Parts) -> list[Candidate]:
 
 
 def _list_shared_intervals(parts: Parts) -> Iterator[tuple[float, ...]]:
-    """Yield the possible intervals of two rods on one pin: the bank angle alternates with the rest
-    of two even intervals, and either may be first.
+    """Yield the possible firing intervals of a vee with two rods on each pin. The bank angle (or
+    this angle plus a turn) alternates with the rest of two even intervals; either may be first.
     """
     first, second = map(float, bank_angles(parts.model.layout, parts.figures))
     both = 2 * cycle_deg(parts.model.layout) / len(parts.plan.cells)
@@ -425,7 +428,7 @@ def _suggest(parts: Parts) -> str:
     if model.crank.throws is not None:
         throws = tuple(-throw % TURN for throw in model.crank.throws)
         ways.append(_change(model, "crank.throws", throws))
-        ways[-1].change += " (angles count in the sense of rotation)"
+        ways[-1].change += " (angles count in the direction of rotation)"
         if len(throws) > 1 and len(parts.order or ()) == len(parts.plan.cells):
             needed = _count_throws_from_first(Parts(model.with_table("crank", throws=None)))
             ways.append(_change(model, "crank.throws", needed))
@@ -468,8 +471,8 @@ def _list_firing(parts: Parts) -> Iterator[str]:
 
 def _list_defaults(parts: Parts) -> Iterator[str]:
     """Yield the defaults of speed, positions, masses, inertias and gas that the file does not give.
-    The inertia of a rod is that of two masses at its ends; the piston offset is listed for a narrow
-    vee.
+    The inertia of a rod is that of two masses at its ends; the piston offset is listed only for a
+    narrow vee.
     """
     model, gas, hinged = parts.model, parts.model.gas, parts.model.articulation
     crank, rod, layout, running = model.crank, model.rod, model.layout, model.operation
@@ -549,7 +552,7 @@ def doubt_firing(model: EngineFile) -> Iterator[str]:
         gaps = _list_gaps(parts)
         if layout.firing_intervals is None and len(gaps) > 2 and max(gaps) > TURN + TOLERANCE_DEG:
             yield (
-                f"layout.firing_order: {order} fires after {_join(gaps)} deg with these "
+                f"layout.firing_order: {order} has the intervals {_join(gaps)} deg with these "
                 f"crank.throws; if that is right, give layout.firing_intervals = [{_join(gaps)}]"
             )
     elif layout.firing_intervals is None and layout.strokes == 4:

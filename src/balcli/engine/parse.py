@@ -1,7 +1,7 @@
 """Turn text or tables of an engine file into its checked model.
 
-All mistakes are reported at once, each with its path in the file and a remedy. If some tables have
-mistakes, the rules of `engine.build` still check the others.
+All mistakes are reported at once, each with its path in the file and a remedy. The rules of
+`engine.build` are checked as well, unless a table that these rules need has mistakes.
 """
 
 from __future__ import annotations
@@ -47,9 +47,9 @@ def parse_dict(tables: Mapping[str, object], folder: Path = Path(), name: str = 
     """Return the model of an engine that the tables of a dict describe.
 
     Args:
-        tables: Tables in the form of a file.
-        folder: Folder of the files that they name; default: the working directory.
-        name: Name of their file, for messages.
+        tables: Tables as in an engine file.
+        folder: Folder of the files that the tables name; default: the working directory.
+        name: Name of the file that has the tables, for messages.
 
     Raises:
         InputError: As for `parse`.

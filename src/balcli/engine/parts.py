@@ -5,7 +5,8 @@ Each stage is a function of earlier stages. `Parts` runs a stage once, when it i
 mistake in one table does not prevent the stages that do not need this table, and the trial of a
 numbering computes only the stages up to the pins.
 
-Dicts of cylinders have the cylinder numbers as keys. Angles count from x in the sense of rotation.
+Dicts of cylinders have the cylinder numbers as keys. Angles count from x in the direction of
+rotation.
 """
 
 from __future__ import annotations
@@ -53,7 +54,7 @@ if TYPE_CHECKING:
 
 # ------------------------------------------------------------------ pistons and rods
 def find_masters(parts: Parts) -> dict[int, int]:
-    """Return the number of the cylinder with the master rod, by articulated cylinder."""
+    """Return the cylinder number of the master rod, by number of each articulated cylinder."""
     table, cells = parts.model.articulation, parts.plan.cells
     if table is None:
         return {}
@@ -69,8 +70,9 @@ def find_gears(parts: Parts) -> dict[int, RunningGear]:
 
 
 def find_strokes(parts: Parts) -> dict[int, Figure]:
-    """Return the stroke of each cylinder's pin, mm. Key 0 has the stroke of the first throw, for
-    rods in general. Cylinders with articulated rods have the stroke of their master.
+    """Return twice the crank radius of each cylinder's pin, mm, by cylinder number. A cylinder with
+    an articulated rod has the value of its master. Key 0 has the stroke of the first throw, which
+    belongs to the general figures of rods.
     """
     on_pin = {c.number: parts.masters.get(c.number, c.number) for c in parts.plan.cells}
     throws = {c.number: parts.throw_strokes[c.throw] for c in parts.plan.cells}
@@ -139,8 +141,8 @@ def find_true_tops(parts: Parts) -> Mapping[int, Figure]:
 
 
 def find_fires(parts: Parts) -> dict[int, Figure]:
-    """Return the firing angle of each cylinder, deg, from the first of the firing order; empty
-    without a firing order.
+    """Return the firing angle of each cylinder, deg, counted from the first cylinder of the firing
+    order; empty without a firing order.
 
     Raises:
         InputError: The order takes more than a cycle.
@@ -197,8 +199,8 @@ class Places(NamedTuple):
     Attributes:
         z: Position of each cylinder, by its number.
         throws: Position of each throw, in the middle of its rods, shape (throws, *trailing).
-        pins: Position of each throw by [crank], or the middle of its rods if [crank] gives none,
-            shape (throws, *trailing).
+        pins: Position of each throw as [crank] gives it, or the middle of its rods if [crank] gives
+            no positions, shape (throws, *trailing).
         reference: x, y, z of the point about which moments are taken: the point of the file, or the
             point on the crank axis half-way between the first and the last throw.
     """
@@ -225,7 +227,7 @@ def find_places(parts: Parts) -> Places:
         offset = (c.bank - (plan.rods_on_throw - 1) / 2) * stagger if shared else 0.0
         own = parts.override(c.number, "position")
         z[c.number] = value_or(own, along[c.throw] + offset) / 1e3
-        middles[c.throw] = middles[c.throw] + (z[c.number] - offset / 1e3)  # arrays of any shape
+        middles[c.throw] = middles[c.throw] + (z[c.number] - offset / 1e3)  # shapes may differ
     throws = column([middle / plan.rods_on_throw for middle in middles.values()], parts.rank)
     given = any(np.any(place) for place in along)
     pins = column([place / 1e3 for place in along], parts.rank) if given else throws
@@ -240,9 +242,9 @@ def find_places(parts: Parts) -> Places:
 
 # ------------------------------------------------------------------ arrays
 def group_banks(parts: Parts) -> dict[int, list[int]]:
-    """Return groups of cylinder numbers that have the same axis in every variant, in the order of
-    the plan, by the first number of each group. In rotary engines, where axes and pins are
-    exchanged (`_turn`), cylinders with the same pin form a group.
+    """Return the cylinder numbers in groups, in the order of the plan; the key of a group is its
+    first number. The cylinders of a group have the same axis in every variant or, in rotary
+    engines, where axes and pins are exchanged (`_turn`), the same pin angle.
     """
     banks: dict[bytes, list[int]] = {}
     for number, axis in _turn(parts)[0].items():
@@ -327,11 +329,11 @@ def _hang_rods(parts: Parts, table: Articulation) -> Articulated:
     of_master = [masters.get(n, n) for n in numbers]
     leads = [parts.sense * (axes[n] - axes[m]) for n, m in zip(numbers, of_master, strict=True)]
     masses = [parts.gears[n].big_end if n in masters else 0.0 for n in numbers]
-    ratios = column([(n in masters) * radius_mm / (parts.strokes[n] / 2) for n in numbers], rank)
+    ratios = [radius_mm / (parts.strokes[n] / 2) if n in masters else 0.0 for n in numbers]
     return Articulated(
         mass=column(masses, rank),
         master=np.array([numbers.index(master) for master in of_master]),
-        knuckle=ratios * unit(pins_deg),
+        knuckle=column(ratios, rank) * unit(pins_deg),
         lead_deg=column(leads, rank),
     )
 
@@ -343,8 +345,9 @@ class Parts:
     Args:
         model: Engine file.
         varied: Arrays of variants that replace figures, by dotted name.
-        rank: Minimum number of trailing axes.
-        known_gas: Gas of the cylinders, if it is already known; otherwise the rules build it.
+        rank: Minimum number of trailing axes, the axes of the variants.
+        known_gas: Gas of the cylinders, if it is already known; otherwise the rules of
+            `engine.build` build it.
     """
 
     plan: cached_property[Plan] = cached_property(lambda self: plan_cylinders(self.model))
@@ -370,11 +373,11 @@ class Parts:
         self.figures = FileFigures(varied or {}, model)
         self.varies = bool(varied)
         self.rank = max(rank, *map(np.ndim, (varied or {}).values()), 0)
-        # Sense in which the crank turns, seen from a cylinder.
+        # -1 if the crank turns backwards, seen from a cylinder that turns about it.
         self.sense = -1 if model.layout.rotary else 1
         given = model.crank.throws is not None
-        # If the file gives throws, the firing order would have to fit every variant; the order is
-        # ignored, unless the gas needs it.
+        # If figures vary and the file gives throws, the firing order might not fit every variant;
+        # the order is then ignored, unless the gas needs it.
         needed = model.gas is not None and not self.rank
         self.order = None if varied and given and not needed else model.layout.firing_order
         self.tables = self.figures.cylinder_tables(model)  # tables of single cylinders, by number
@@ -402,6 +405,14 @@ class Parts:
         """Return the crank radius of a cylinder, m."""
         return self.strokes[number] / 2e3
 
+    @cached_property
+    def _general_rods(self) -> tuple[RodFigures, RodFigures]:
+        """General figures of rods on crank pins, and of articulated rods."""
+        rod, table = rod_figures(self.figures, self.model.rod), self.model.articulation
+        if table is None:
+            return rod, RodFigures()
+        return rod, rod_figures(self.figures, table.rod, "articulation.rod")
+
     def override(self, number: int, key: str) -> Figure | None:
         """Return a figure of [cylinder.N] in the unit of the file; None if the file gives none.
 
@@ -421,10 +432,7 @@ class Parts:
             number: Number of the cylinder; 0 for the general figures.
             articulated: Whether the rod is articulated.
         """
-        hinged, own = self.model.articulation, RodFigures()
-        general = rod_figures(self.figures, self.model.rod)
-        if hinged is not None and articulated:
-            general = rod_figures(self.figures, hinged.rod, "articulation.rod")
+        general, own = self._general_rods[articulated], RodFigures()
         if (table := self.tables.get(number)) is not None:
             own = rod_figures(self.figures, table, f"cylinder.{number}", "rod_")
         return RodPlace(number, articulated, general.with_own(own), own, general)
@@ -466,7 +474,7 @@ class Parts:
         return self._gears[key]
 
     def find_ripple(self) -> tuple[RippleLine, ...]:
-        """Return the lines of the uneven speed; empty for a steady speed."""
+        """Return the orders of the uneven speed; empty for a steady speed."""
         take, lines = self.figures.take, []
         for k, line in enumerate(self.model.operation.speed_ripple, 1):
             path = f"operation.speed_ripple.{k}"

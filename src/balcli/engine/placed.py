@@ -1,8 +1,9 @@
 """Read and build engines that are geared together one to one.
 
-Each engine is built alone. `build_geared` joins them to one engine, the whole; its `placed` have
-the place and the sense of rotation of each engine. `share_state` passes speed, devices and point of
-reference of the whole on to each engine, in the engine's own axes and by its own crank angle.
+Each engine is built alone. `build_geared` joins the engines to one engine, called the whole, whose
+`placed` has the place and the direction of rotation of each engine. `share_state` passes speed,
+devices and point of reference of the whole on to each engine, in the engine's own axes and by the
+engine's own crank angle.
 """
 
 from __future__ import annotations
@@ -32,7 +33,8 @@ from .gas import CylinderGas, EngineGas, GasLaw
 
 # ------------------------------------------------------------------ files
 def read_engines(draft: Draft, parse: Callable[[bytes, str], EngineFile]) -> Draft:
-    """Return a file with [[engine]] and the files of its engines, with all their mistakes.
+    """Return a file with [[engine]], joined with the files of its engines and with the mistakes of
+    all these files.
 
     Args:
         draft: The file, whose engines are not yet read.
@@ -69,7 +71,7 @@ def _check_engines(model: EngineFile) -> Iterator[Problem]:
     """Yield the contradictions between valid [[engine]] tables of a file."""
     engines = model.engine
     if len(engines) < 2:
-        yield Problem("engine", f"one engine; analyze {engines[0].file} itself")
+        yield Problem("engine", f"only one engine is given; analyze {engines[0].file} itself")
     if len(engines) > MOST_ENGINES:
         yield Problem("engine", f"{len(engines)} engines; at most {MOST_ENGINES} are read")
         return
@@ -85,7 +87,7 @@ def _check_engines(model: EngineFile) -> Iterator[Problem]:
     loads = sum(engine.load for engine in engines)
     given = any(engine.has("load") for engine in engines)
     if given and loads not in (1, len(engines)):
-        told = f"true for {loads} of {len(engines)} engines; mark one engine, or all"
+        told = f"true for {loads} of {len(engines)} engines; set it for one or for all"
         yield Problem("engine.load", told)
     yield from _check_carriers(model)
 
@@ -105,7 +107,7 @@ _IGNORED = ("body", "mount", "point", "torsion", "locomotive", "operation", "fra
 
 
 def _tell_ignored(engines: Sequence[EngineTable], cranks: Sequence[EngineFile]) -> None:
-    """Report ignored tables of engines' files; [operation] and [frame] of the first are used."""
+    """Report ignored tables of engines' files. [operation] and [frame] of the first are used."""
     for k, (table, crank) in enumerate(zip(engines, cranks, strict=False)):
         keys = [key for key in (_IGNORED if k else _IGNORED[:5]) if crank.has(key)]
         if keys:
@@ -114,7 +116,7 @@ def _tell_ignored(engines: Sequence[EngineTable], cranks: Sequence[EngineFile]) 
 
 @contextmanager
 def _collecting(problems: list[Problem], number: int, file: str) -> Iterator[None]:
-    """Collect the mistakes of an engine's file, each under the engine that names it."""
+    """Collect the mistakes of an engine's file, each with the path of the key that names it."""
     try:
         yield
     except InputError as error:
@@ -166,8 +168,8 @@ def build_geared(
 
 
 def gear_engines(placed: Sequence[Placed]) -> Engine:
-    """Return one engine, the whole, of engines that are geared together. It has the speed and the
-    point of reference of the first, and no devices in addition to theirs.
+    """Return one engine, the whole, of engines that are geared together. The whole has the speed
+    and the point of reference of the first engine, and no devices besides those of the engines.
     """
     speed = placed[0].engine.speed_rpm
     placed = [one._replace(engine=one.engine.at_speed(speed)) for one in placed]
@@ -215,8 +217,8 @@ def _add(figures: Iterable[Figure | None]) -> Figure | None:
 
 
 def _join_gas(placed: Sequence[Placed]) -> EngineGas | None:
-    """Return the gas of all cylinders by the first crank's angle; None if no engine has gas. The
-    cylinders of an engine without gas have the share 0.
+    """Return the gas of all cylinders by the crank angle of the first engine; None if no engine has
+    gas. The cylinders of an engine without gas have the share 0.
     """
     burning = [one.engine.gas for one in placed if one.engine.gas is not None]
     if not burning:
@@ -256,7 +258,9 @@ def _join_laws(placed: Sequence[Placed]) -> GasLaw | None:
 
 # ------------------------------------------------------------------ seen by each engine
 def share_state(whole: Engine) -> Iterator[Placed]:
-    """Yield the engines of a whole, each with its speed, devices, gas and point of reference."""
+    """Yield the engines of a whole, each with the speed, devices, gas and point of reference of the
+    whole.
+    """
     start = 0
     for row, one in enumerate(whole.placed):
         own, stop = one.engine, start + len(one.engine.numbers)

@@ -18,7 +18,7 @@ from .figures import RodFigures, or_zero
 
 ENDS = ("small_end", "big_end")
 LENGTHS = ("length", "ratio")
-_ROUNDING = 8 * EPS  # relative rounding error of the terms whose difference is H
+_ROUNDING = 8 * EPS  # relative rounding error of the two terms of `RunningGear.couple`
 
 
 class RunningGear(NamedTuple):
@@ -31,7 +31,8 @@ class RunningGear(NamedTuple):
         small_end: Mass at the piston pin that, with `big_end`, replaces the rod, kg.
         big_end: Mass at the crank pin or knuckle pin, kg.
         spin: Moment of inertia of the rod about its centre of mass, kg m2.
-        couple: Moment of inertia of the two masses less that of the rod, `H = m a b - spin`, kg m2.
+        couple: Moment of inertia of the two masses less that of the rod, kg m2: `m a b - spin`,
+            with the rod mass m and the distances a and b of its centre of mass from its ends.
     """
 
     length: Figure
@@ -60,7 +61,7 @@ class CylinderMasses(NamedTuple):
         crosshead: Mass of the crosshead with piston rod and pin.
         small_end: Mass of the small end, without bearing shells.
         big_end: Mass of the big end, without bearing shells.
-        share: This pin's share of the throw's unbalanced mass.
+        share: This cylinder's share of the throw's unbalanced mass.
         rod_bearing: Mass of this rod's bearing shells, which turn with the pin.
         oil: Mass of the oil in this rod's bearing, which turns with the pin.
     """
@@ -91,14 +92,14 @@ def weigh_rod(
 ) -> RunningGear:
     """Return the masses and moments of inertia of a rod with its piston.
 
-    The rod is replaced by two masses at its ends, with the same total mass and centre of mass, and
-    by a massless couple of inertia (docs/theory.md). A pendulum test gives the moment of inertia by
-    `I + m a^2 = m g a (T / 2 pi)^2`; T is the period, and a the distance of the centre of mass from
-    the pivot.
+    Two masses at the ends of the rod replace it; they have its total mass and its centre of mass.
+    `couple` corrects their moment of inertia (docs/theory.md). A pendulum test gives the moment of
+    inertia I of a rod of mass m by `I + m a^2 = m g a (T / 2 pi)^2`; T is the period, and a the
+    distance of the centre of mass from the pivot.
 
     Args:
-        rod: Figures of the rod. If only one end is given, which is a mistake, the other has no
-            mass.
+        rod: Figures of the rod. If the mass of only one end is given, which is a mistake in the
+            file, the other end counts as massless.
         length: Rod length, m.
         offset: Offset of the piston pin's path, m.
         piston: Piston mass, kg.
@@ -109,7 +110,7 @@ def weigh_rod(
         mass, from_big_end = or_zero(rod.mass), or_zero(rod.cg)
         small, big = mass * (from_big_end / length), mass * ((length - from_big_end) / length)
     whole = small + big
-    share = small / np.where(whole == 0, 1.0, whole)  # s_b / l
+    share = small / np.where(whole == 0, 1.0, whole)  # centre of mass from the big end / l
     two_masses = whole * share * (1 - share) * length**2
     if rod.inertia is not None:
         spin = rod.inertia
@@ -131,9 +132,9 @@ class RodPlace(NamedTuple):
     Attributes:
         number: Cylinder number; 0 for the general figures.
         articulated: Whether the rod is carried by a master rod.
-        rod: Figures of the rod from all tables.
+        rod: Figures of the rod: its own ones, and general ones where it has none.
         own: Figures in the cylinder's own table.
-        general: Figures for all rods of its kind.
+        general: Figures in [rod] or, for an articulated rod, in [articulation.rod].
     """
 
     number: int
@@ -163,11 +164,11 @@ def check_ends(place: RodPlace) -> Iterator[Problem]:
 
 
 def check_harmonic(place: RodPlace, *, fixed: bool) -> Iterator[Problem]:
-    """Check that a rod can belong to a harmonic motion.
+    """Check that engine and rod allow harmonic motion.
 
     Args:
         place: Rod and its place in the file.
-        fixed: Whether all rods are on crank pins, and cylinders at rest.
+        fixed: Whether all rods are on crank pins, and all cylinders at rest.
     """
     if not fixed:
         told = "harmonic motion needs a fixed cylinder whose rod or yoke is on the crank pin"
@@ -215,8 +216,8 @@ def check_rod_inertia(place: RodPlace, gear: RunningGear) -> Iterator[Problem]:
 
 
 def check_turning(place: RodPlace, gear: RunningGear, radius: Figure) -> Iterator[Problem]:
-    """Check that a slider-crank can turn in every variant: lambda + |offset| / rod length must be
-    below 1.
+    """Check that a slider-crank can turn in every variant: (crank radius + |piston offset|) / rod
+    length must be below 1.
 
     Args:
         place: Rod and its place in the file.

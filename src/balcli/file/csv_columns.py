@@ -18,7 +18,7 @@ from .units import ANGLE, FORTRAN, PLAIN, PRESSURE, Dimension, convert
 
 ANGLE_SYMBOLS = r"crank(?:shaft)?[\s_]*(?:angle)?|ca|theta|θ|phi|φ|alpha|α"
 GAUGE_UNITS = ("barg", "psig")  # units of pressures above atmospheric pressure
-_CRANK_ANGLE = r"(?i)^(?:deg|°|degrees?)?[\s_.]*(?:ca|cad|ka|kw|crank angle|atdc)$"  # a unit
+_CRANK_ANGLE = r"(?i)^(?:deg|°|degrees?)?[\s_.]*(?:ca|cad|ka|kw|crank angle|atdc)$"  # degrees
 _DEGREES_OF_CRANK = r"(?i)cad|(?:°|deg(?:rees?)?)[\s_.]*(?:ca|kw|crank angle|atdc)"
 _THOUSANDS = r"[+-]?[1-9]\d{0,2}\.\d{3}"
 _STARTS_NUMBER = r"(?i)\s*[+-]?(?:\.?\d|nan\b|inf)"
@@ -26,12 +26,13 @@ _SPACE = r"(?<=\d)[ \u00a0\u2009\u202f'](?=\d{3}\b)"  # between thousands
 
 
 class Head(NamedTuple):
-    """A wanted column.
+    """The heads that a wanted column may have: the text above its numbers.
 
     Attributes:
-        usual: Usual head, such as torque_Nm; other accepted heads begin with its name (torque).
+        usual: Usual head, such as torque_Nm. Heads with its name (torque) and another unit are
+            accepted as well.
         dimension: Dimension of the numbers; with PLAIN, only `usual` itself is accepted.
-        others: Further accepted heads that messages list.
+        others: Accepted heads that messages list in addition to `usual`.
         symbols: Other names of the quantity, as a regular expression.
     """
 
@@ -41,12 +42,12 @@ class Head(NamedTuple):
     symbols: str = ""
 
     def read(self, head: str, *, by_symbol: bool = False) -> tuple[str, float] | None:
-        """Return the unit in a head, and the size of that unit in the unit of the dimension; None
-        if the head is that of another column.
+        """Return the unit in a head, and the factor that converts numbers in this unit into the
+        unit of the dimension; None if the head belongs to another column.
 
         Args:
             head: Head of a column, with its unit.
-            by_symbol: Whether to compare the head with symbols of the quantity, not with its name.
+            by_symbol: Whether to compare the head with `symbols` instead of the name in `usual`.
         """
         if self.dimension is PLAIN:
             return ("", 1.0) if head == self.usual else None
@@ -73,8 +74,8 @@ class NumberColumns(NamedTuple):
     Attributes:
         rows: Rows with a number for each wanted head.
         lines: Line of each row in the file, from 1.
-        units: Unit of each head as the file writes it; empty if there is none.
-        scales: Size of this unit in the unit of the column's dimension.
+        units: Unit in each head as the file writes it; empty for plain numbers.
+        scales: Factor that converts the numbers of each column into the unit of its dimension.
     """
 
     rows: tuple[tuple[float, ...], ...]
@@ -83,11 +84,11 @@ class NumberColumns(NamedTuple):
     scales: tuple[float, ...]
 
     def column(self, number: int) -> list[float]:
-        """Return all numbers under the head with this index, in the unit of its dimension."""
+        """Return all numbers of the column with this index, in the unit of its dimension."""
         return [row[number] * self.scales[number] for row in self.rows]
 
     def as_written(self, row: int, number: int) -> str:
-        """Return a number with its unit as the file writes it."""
+        """Return the number at these indices of row and column, with the unit in the file."""
         return f"{self.rows[row][number]:.15g} {self.units[number]}".rstrip()
 
 
@@ -136,7 +137,7 @@ def read_columns(path: Path, wanted: Sequence[Head]) -> NumberColumns:
 
 
 def _list_lines(text: str) -> dict[int, str]:
-    """Return the lines that are neither empty nor comments, by their numbers from 1."""
+    """Return the lines that are neither empty nor comments, by line number from 1."""
     lines: dict[int, str] = {}
     for number, line in enumerate(StringIO(text, newline=None), 1):
         if not line.strip() or line.lstrip().startswith("#") or re.match("sep=.$", line):
@@ -197,7 +198,7 @@ def _join_units(heading: list[str], below: list[str]) -> list[str]:
 def _find_head(
     wanted: Head, heading: list[str], every: Sequence[Head], mark: str
 ) -> tuple[int, str, float]:
-    """Return index, unit and scale of a column; `mark` separates the heads."""
+    """Return index, unit and scale of the wanted column; `mark` separates the heads."""
     for by_symbol in (False, True):
         read = enumerate(wanted.read(head, by_symbol=by_symbol) for head in heading)
         places = [(place, *unit) for place, unit in read if unit]
@@ -228,8 +229,9 @@ def _find_cells(row: list[str], places: list[int], width: int | None, line: int)
 
 
 def _refuse_thousands(column: Sequence[str], lines: Sequence[int]) -> None:
-    """Raise ValueError if points probably separate thousands: three digits follow every point, and
-    other numbers have a decimal comma, or end with three digits and have no point.
+    """Raise ValueError if the points in a column probably separate thousands: three digits follow
+    every point, and other numbers of the column have a decimal comma, or end with three digits and
+    have no point.
     """
     pointed = [(cell, line) for cell, line in zip(column, lines, strict=False) if "." in cell]
     others = any(re.match(r"[+-]?\d*(,|\d{3}$)", cell) for cell in column)

@@ -1,4 +1,4 @@
-"""Warn of valid but suspicious figures, which no ordinary engine has; most often the unit is wrong.
+"""Warn of valid figures that no ordinary engine has; most often, such a figure has a wrong unit.
 
 The limits are wide enough for engines from models to ships. A warning states the value, the usual
 range and a remedy.
@@ -22,7 +22,7 @@ from .units import ask_unit
 # limits are wider; a confusion of g and kg is a factor of 1000.
 PISTON = 100.0, 5000.0  # mass of a piston over bore^3, kg/m^3
 CROSSHEAD_HEAVY = 40_000.0  # largest mass of piston and crosshead over bore^3, kg/m^3
-LONG_STROKE = 2.5
+LONG_STROKE = 2.5  # stroke / bore above which an engine must have crossheads
 LAMBDA = 0.15, 0.4  # crank radius / rod length: engines have 0.2 to 0.35
 CROSSHEAD_LAMBDA = 0.6  # largest crank radius / rod length of crosshead engines
 BORE = 0.2, 3.0  # bore / stroke: crosshead engines have 0.25 or more, racing engines up to 2.5
@@ -31,10 +31,11 @@ SMALL_END = 0.55  # largest share of the rod's mass at the small end: rods have 
 # Moment of inertia / (mass x length^2): a bar of even thickness has 1/12, two equal masses at its
 # ends 1/4. A rod has more only if bosses and bolts extend beyond its centres.
 INERTIA = 0.02, 0.4
-TWO_MASSES = 1.6  # rod inertia / inertia of two masses at its ends: engines have 0.6 to 1.35
+TWO_MASSES = 1.6  # largest rod inertia / inertia of two masses at its ends: rods have 0.6 to 1.35
 PISTON_SPEED = 40.0  # largest mean piston speed, m/s; racing engines have up to 30
 SPEED = 9.0  # lowest speed, rpm; the largest ship engines idle at 15, and 1 rad/s is 9.55
-# Engines with a stroke above 1 m, and slow engines with a stroke above two bores, are two-strokes.
+# Engines with a stroke above 1 m, and slow engines with a stroke above two bores, are usually
+# two-strokes.
 CROSSHEAD_STROKE = 1000.0  # mm
 SLOW_SPEED, SLOW_BORES = 250.0, 2.0  # rpm, bores
 OFFSET = 0.2  # largest offset / stroke: up to 0.05 is usual, in narrow-angle vees up to 0.15
@@ -52,20 +53,22 @@ PRESSURES = {
 THROW = 6.0
 BEARING = 0.5  # largest mass of shells or oil / mass of rod and piston: engines have up to 0.05
 # Doubtful range of the largest difference between two throw angles, deg. Cranks have 60 or more, or
-# 0; lists such as [1, 3, 4, 2] and angles in radians have 1 to 10.
+# 0. A difference of 1 to 10 comes from a firing order such as [1, 3, 4, 2], or angles in radians.
 THROWS = 1.0, 10.0
+BANK = 4.0  # smallest angle between banks, deg: a narrow vee has 10 or more; 180 deg are 3.14 rad
 UNBALANCE = 5.0  # largest unbalance / (all moving masses x crank radius); balancing needs 1 or 2
 # Least inertia of a crankshaft or flywheel / inertia of rods and pistons at the crank radius:
 # engines have more than 1. A slip from kg m^2 to kg mm^2 is a factor of a million.
 TURNING = 0.01
-# Largest loss factor: steel has 0.01 to 0.05, rubber up to 0.5. In percent it is 100 times that.
+# Largest loss factor: steel has 0.01 to 0.05, rubber up to 0.5. Figures in percent are above 1.
 LOSS = 1.0
 WHEEL_LOAD = 1000  # smallest load of a wheel on its rail, N; only models have less
 SAME_UNIT = "are both in the same unit?"
 DEGREES = (
-    'bare numbers are degrees; give another unit as in "1/2 turn" or "3.1416 rad"; numbers of '
-    "cylinders belong in layout.firing_order"
+    'bare numbers are degrees; give another unit as in "1/2 turn" or "3.1416 rad"; a sequence '
+    "of cylinders belongs in layout.firing_order"
 )
+RADIANS = 'bare numbers are degrees; give radians as in "1.3 rad"'
 OFF_AXIS = "is it in kg? It is the unbalanced mass of one throw, not the mass of the crankshaft"
 GRAMS = 'is it in kg? Give grams as in "47 g"'
 
@@ -74,12 +77,12 @@ class Figure(NamedTuple):
     """A figure of a file and its usual range.
 
     Attributes:
-        name: Name with its verb, such as "rod.cg is".
+        name: Name of the figure with a verb, such as "rod.cg is".
         value: Value in the file.
         least: Lower end of the usual range.
         most: Upper end of the usual range.
         unit: Unit of value and range, with a space before it; empty for a plain number.
-        hint: Probable mistake.
+        hint: Text about the probable mistake.
         digits: Number of digits of the value that are shown.
     """
 
@@ -113,8 +116,8 @@ def doubt_losses(path: str, tables: object) -> Iterator[str]:
     """Yield warnings for impossibly large loss factors, which are probably given in percent.
 
     Args:
-        path: Path of the tables; empty: they are a whole file.
-        tables: Table or tables, in which each key `loss` counts.
+        path: Path of the tables; empty: the tables are a whole file.
+        tables: Table or tables in which each key `loss` is checked.
     """
     hint = "{0:g} % is {1:g}, and a relative damping psi is a loss factor of psi/(2 pi)"
     yield from _doubt(
@@ -125,7 +128,13 @@ def doubt_losses(path: str, tables: object) -> Iterator[str]:
 
 
 def walk_figures(path: str, tables: Any) -> Iterator[tuple[str, Any, Any]]:
-    """Yield path, key and value of the keys in a table, and in the tables and lists within it."""
+    """Yield path, key and value of each figure or text in tables, and in the tables and lists
+    within them. Members of lists count from 1 in paths, and have their number as key.
+
+    Args:
+        path: Path of the tables; empty: they are a whole file.
+        tables: Result of `plain_tables.list_tables`; None: there are no tables.
+    """
     parts = tables.items() if isinstance(tables, dict) else enumerate(tables or (), 1)
     for key, value in parts:
         place = f"{path}.{key}".removeprefix(".")
@@ -161,7 +170,7 @@ def _find_missing(model: EngineFile) -> Iterator[str]:
     if model.rod.mass and model.rod.cg is None:
         yield "rod.cg is not given, and 0 is taken; measure it from the big-end centre"
     crank, (throws, rods) = model.crank, _count_throws_and_rods(model)
-    # One figure for all throws is repeated; lists of a wrong length are rejected elsewhere.
+    # A single figure is repeated for all throws; lists of a wrong length are rejected elsewhere.
     masses, strokes = (np.resize(each, throws) for each in (crank.throw_masses, crank.strokes))
     of_throws = float(masses @ (strokes / 2) ** 2)
     if crank.inertia is not None and crank.inertia < of_throws and not model.layout.rotary:
@@ -239,14 +248,16 @@ def _list_rods(model: EngineFile) -> Iterator[Figure]:
 
 
 def _list_cranks(model: EngineFile) -> Iterator[Figure]:
-    """Yield figures of the crankshaft and of parts that turn with it, compared with rods and
-    pistons.
+    """Yield figures of the crankshaft and of parts that turn with it. Their usual ranges follow
+    from the rods and pistons.
     """
     crank, shares, wheel = model.crank, model.bobweight, model.flywheel
     angles = crank.throws or (0.0,)
     if (span := max(angles) - min(angles)) >= THROWS[0]:
         name = "crank.throws: the largest difference between two is"
         yield Figure(name, span, THROWS[1], math.inf, " deg", DEGREES)
+    if bank := model.layout.bank_angle:
+        yield Figure("layout.bank_angle is", bank, BANK, math.inf, " deg", RADIANS)
     throws, rods = _count_throws_and_rods(model)
     one, radius = _weigh_piston(model) + _weigh_rod(model), max(crank.strokes) / 2
     throw_mass = max(crank.throw_masses)

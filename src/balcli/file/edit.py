@@ -1,5 +1,5 @@
 """Change some keys of a table in the text of a TOML file, and keep comments, layout and other
-tables. tomlkit makes the change; its result is read back and checked.
+tables. tomlkit makes the change; the changed text is read back and checked.
 """
 
 from __future__ import annotations
@@ -54,7 +54,7 @@ def set_keys(text: str, table: str, keys: Mapping[str, object], note: str) -> st
 
 
 def set_speed(text: str, rpm: float, note: str) -> str:
-    """Return the text with this crank speed, in place of a locomotive's speed on the track."""
+    """Return the text with a crank speed; a locomotive's speed on the track is removed."""
     text = set_keys(text, "locomotive", {"speed": None}, note)
     return set_keys(text, "operation", {"speed": rpm}, note)
 
@@ -114,7 +114,7 @@ def _find_section(text: str, table: str) -> Iterator[tuple[int, int, str]]:
 
 
 def _edit(text: str, table: str, changes: Node, wanted: Any, note: str) -> str:
-    """Return the text with these changes; a table in braces is written anew."""
+    """Return the text with these changes; a table that is written in braces is written anew."""
     import tomlkit
     from tomlkit.items import AoT, InlineTable, Table
 

@@ -9,7 +9,7 @@ from .table import Angle, FileTable, Switch, Triple
 
 
 class EngineLabel(Label):
-    """The name of an engine, with which the names of its cylinders begin: `upper.3`."""
+    """The name of an engine. The names of its cylinders begin with it: `upper.3`."""
 
     wanted = "leave out dots, commas and spaces, which separate names of cylinders"
 
@@ -31,15 +31,15 @@ class Engine(FileTable):
     """An engine file in the folder of this file or below it. Several engines may share a file.
     Example: 'flat4.toml'"""
     ratio: Annotated[int, OneOf(1, -1, meaning="the cranks turn at one speed")] = 1
-    """1: the crank turns with the first crank; -1: against it. Example: -1"""
+    """1: the crank turns with the crank of the first engine; -1: against it. Example: -1"""
     phase: Angle = 0.0
-    """Crank angle by which it leads the first engine, in its own sense of rotation; with
-    four-stroke gas, its period is 720 degrees. Example: 180"""
+    """Crank angle by which this engine leads the first one, in its own direction of rotation; in
+    four-stroke engines with gas, 360 degrees more is another phase. Example: 180"""
     at: Triple = (0.0, 0.0, 0.0)
-    """x, y, z of its origin (its crank axis at its z = 0) in the axes of this file.
+    """x, y, z of the engine's origin (the point z = 0 of its crank axis) in the axes of this file.
     Example: [-250, 0, 0]"""
     turn: Angle = 0.0
     """Angle by which the engine is turned about z. Example: 90"""
     load: Switch = False
-    """Whether its crank drives the load; left out in all engines: the first crank drives it. True
-    in all: each crank drives its own load. Example: true"""
+    """Whether the crank of this engine drives the load. Left out in all engines: the first crank
+    drives it; true in all engines: each crank drives its own load. Example: true"""

@@ -1,9 +1,9 @@
 """Find the files that come with balcli: example engines, and starting files for new engines.
 
-Examples of textbook layouts, one of each kind, are in the folder of examples itself. Engines that
-were built, or could have been, are in a folder for each class. The first line of an example is a
-comment with its lesson. There is a commented, valid starting file for every common kind of engine,
-for runs of a rotor, and for a chain of shafts.
+The folder of examples itself has textbook layouts, one of each kind. Engines that were built, or
+could have been, are in its subfolders, one for each class. The first line of an example states in a
+comment what the example shows. There is a commented, valid starting file for every common kind of
+engine, for runs of a rotor, and for a chain of shafts.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from .fields import suggest_nearest
 # Folder of the examples in the installed package, and in a checkout of the repository.
 _PLACES = (Path(__file__).parents[1] / "engines", Path(__file__).parents[3] / "engines")
 _USUAL_TABLES = {"crank", "rod", "piston", "layout", "operation", "cylinder"}
-LAYOUT = "layout"  # class of the files in the folder itself
+LAYOUT = "layout"  # class of the files that are in the folder of examples itself
 
 
 class Example(NamedTuple):
@@ -27,8 +27,8 @@ class Example(NamedTuple):
 
     Attributes:
         name: Short name: the name of its file without ending.
-        group: Class, which is its folder.
-        lesson: Lesson of the engine, in a sentence.
+        group: Class of the engine: the name of its subfolder, or "layout".
+        lesson: A sentence on what the engine shows.
         text: Content of the file.
     """
 
@@ -38,8 +38,8 @@ class Example(NamedTuple):
     text: str
 
     def mentions(self, words: str) -> bool:
-        """Return whether each of the words occurs in name, class, lesson, title or source, or is a
-        table of the file, such as gas. Case does not matter.
+        """Return whether each of the words occurs in name, class, lesson, title or source, or in
+        the name of a table of the file, such as gas. Case does not matter.
         """
         head, _, _ = self.text.partition("\n[")
         tables = {*re.findall(r"^\[+([a-z]+)", self.text, re.MULTILINE)} - _USUAL_TABLES
@@ -48,7 +48,7 @@ class Example(NamedTuple):
 
 
 def find(words: str = "") -> list[Example]:
-    """Return the examples that mention all the words; layouts first, then by class and name.
+    """Return the examples that mention all the words: layouts first, then by class and name.
 
     Args:
         words: Words with spaces between them.
@@ -58,7 +58,7 @@ def find(words: str = "") -> list[Example]:
     """
     found = [example for example in map(_read, _find_paths().values()) if example.mentions(words)]
     if not found:
-        raise BalcliError(f'no example mentions "{words[:60]}": balcli engines lists them all')
+        raise BalcliError(f'no example mentions "{words[:60]}": balcli engines lists all examples')
     return found
 
 
@@ -68,8 +68,8 @@ def names() -> list[str]:
 
 
 def is_example(name: str) -> bool:
-    """Return whether there is an example with this short name; without a folder of examples, there
-    is none.
+    """Return whether there is an example with this short name; false if the installation has no
+    folder of examples.
     """
     return any(path.stem == name for place in _PLACES for path in place.rglob("*.toml"))
 
@@ -88,7 +88,7 @@ def locate(name: str) -> Path:
     known = _find_paths()
     if name in known:
         return known[name]
-    hint = suggest_nearest(name, known, "balcli engines lists them")
+    hint = suggest_nearest(name, known, "balcli engines lists all examples")
     raise BalcliError(f'there is no example "{name[:60]}": {hint}')
 
 

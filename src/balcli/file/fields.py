@@ -1,5 +1,5 @@
-"""Define pydantic types for the values of an engine file, which check a value and describe it in
-JSON Schema; and `Choice`, for keys of a table that exclude each other.
+"""Define pydantic types for the values of an engine file. Each type checks a value and describes it
+in JSON Schema. `Choice` is for keys of a table that exclude each other.
 """
 
 from __future__ import annotations
@@ -148,7 +148,7 @@ def suggest_nearest(word: str, known: Iterable[str], otherwise: str) -> str:
 
 
 class _Field:
-    """A type of value: `read` returns the value or raises ValueError, `json` returns its schema."""
+    """A type of value. `read` returns a value or raises ValueError; `json` returns a schema."""
 
     def read(self, value: object) -> object:
         raise NotImplementedError
@@ -170,7 +170,7 @@ class _Field:
 
 
 class Number(_Field):
-    """A figure of some dimension: a bare number in the file's unit, or a string with a unit."""
+    """A figure of some dimension: a bare number in the unit of the file, or text with a unit."""
 
     def __init__(
         self,
@@ -213,7 +213,7 @@ class Number(_Field):
         return number
 
     def _fault(self, number: float) -> tuple[str, str] | None:
-        """Return how a number is out of bounds, and its bounds; None if it is within them."""
+        """Return how a number is out of bounds, and the bound; None if it is within the bounds."""
         if self.above is not None and number <= self.above:
             return f"not above {self.above:g}", f"above {self.above:g}"
         if self.above == 0 and number < SMALLEST_POSITIVE:
@@ -249,7 +249,7 @@ class Whole(_Field):
 
     def read(self, value: object) -> float:
         wanted = (
-            f"a whole number{' or a half' * self.halves} from {self.least:g} to {self.most}"
+            f"a whole{' or half' * self.halves} number from {self.least:g} to {self.most}"
             f"{'' if self.zero else ', not 0,'} is wanted"
         )
         if isinstance(value, str) and re.fullmatch(r"\s*[+-]?[0-9]{1,6}\s*", value):
@@ -270,17 +270,19 @@ class Whole(_Field):
 
 
 class OneOrEach:
-    """A figure that holds for all members, or a list of figures, one for each.
+    """A figure that holds for all members of a group, or a list with a figure for each member.
 
     Args:
         one: Type of a figure.
+        count: Number of figures in a list; 0: any number.
+        copies: Number of members for which a single figure is repeated; 0: it is not repeated.
     """
 
     def __init__(self, one: _Field, count: int = 0, copies: int = 0) -> None:
         self.one, self.count, self.copies = one, count, copies
 
     def read_one(self, value: object) -> object:
-        """Return the stored form of a figure that holds for all."""
+        """Return the stored form of a figure that holds for all members."""
         return (self.one.read(value),) * self.copies if self.copies else self.one.read(value)
 
     def __get_pydantic_core_schema__(
@@ -305,7 +307,7 @@ class OneOrEach:
 
 
 class ListOrEach:
-    """A list that holds for all rows, or a list for each.
+    """A list that holds for all rows, or a list of such lists, one for each row.
 
     Args:
         one: Type of a list.
@@ -335,7 +337,7 @@ class ListOrEach:
 
 
 class OneOf(_Field):
-    """One of a few words or numbers; `meaning` explains them in the message for another value."""
+    """One of a few words or numbers. `meaning` explains them in messages about other values."""
 
     def __init__(self, *options: str | int, meaning: str = "") -> None:
         self.options, self.meaning = options, meaning
@@ -381,10 +383,10 @@ class Choice(NamedTuple):
     Attributes:
         groups: Groups of keys, of which one may be given.
         required: Whether one group must be given.
-        unless: Key with which no group has to be given; empty: there is no such key.
-        complete: Whether all keys of a group must be given if one is; or the only group for which
-            this holds.
-        instead: Keys that may be given in place of a required group, or next to it.
+        unless: Key that makes all groups optional if it is given; empty: there is no such key.
+        complete: Whether all keys of a group must be given if one of them is given. A group here
+            means that this holds only for that group.
+        instead: Keys that may be given in place of a required group, or in addition to it.
     """
 
     groups: tuple[tuple[str, ...], ...]
@@ -409,13 +411,13 @@ class Choice(NamedTuple):
             yield f"has {join_words(keys)} without {join_words(missing)}; {wanted}"
 
     def rivals(self, key: str) -> tuple[str, ...]:
-        """Return the keys that exclude this one; empty for a key of no group."""
+        """Return the keys that exclude this key; empty if the key is in no group."""
         if not any(key in group for group in self.groups):
             return ()
         return tuple(other for group in self.groups if key not in group for other in group)
 
     def for_overrides(self, prefix: str) -> Choice:
-        """Return this choice for keys with a prefix; none of them has to be given."""
+        """Return this choice for keys with a prefix, without any required keys."""
         return Choice(tuple(tuple(prefix + key for key in group) for group in self.groups))
 
 

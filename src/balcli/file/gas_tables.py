@@ -38,7 +38,7 @@ MEAN_PRESSURES = ("imep", "bmep")
 
 
 class GasPoint(FileTable):
-    """Gas at one of several speeds. Between the speeds, its figures and pressures are linear."""
+    """Gas at one of several speeds. Between these speeds, figures and pressures are linear."""
 
     speed: Speed
     """Crank speed. Example: 1000"""
@@ -73,7 +73,7 @@ class GasPoint(FileTable):
 
 
 class Gas(FileTable):
-    """Pressure on the pistons over a cycle: measured, computed, or as harmonics of its torque."""
+    """Pressure on the pistons over a cycle: measured, computed, or given by torque harmonics."""
 
     choices = (
         Choice((("indicator",), ("cycle",), ("harmonics",)), required=True),
@@ -81,11 +81,12 @@ class Gas(FileTable):
     )
 
     indicator: NamedFile | None = None
-    """A measured diagram: CSV next to the engine file, headed angle_deg,pressure_bar (or _MPa,
-    _kPa, _Pa, _psi; gauge pressures _barg, _psig). Example: 'p_2000rpm.csv'
+    """A measured pressure diagram: CSV file next to the engine file, headed angle_deg,pressure_bar
+    (or _MPa, _kPa, _Pa, _psi; gauge pressures _barg, _psig). Example: 'p_2000rpm.csv'
     """
     zero: Zero = "firing"
-    """The dead centre at angle 0 of the diagram. Example: 'gas-exchange'"""
+    """The dead centre at angle 0 of the diagram: the firing one, or the one of the gas exchange.
+    Example: 'gas-exchange'"""
     phase: Angle = 0.0
     """Angle that is added to the angles of the diagram. Example: -0.5"""
     pressure: Reference = "absolute"
@@ -94,8 +95,8 @@ class Gas(FileTable):
     cycle: Annotated[str, OneOf("otto", "diesel", "dual", "wiebe")] | None = None
     """Kind of combustion of a computed cycle. Example: 'wiebe'"""
     compression_ratio: Annotated[float, Number(PLAIN, above=1, most=1000)] | None = None
-    """Largest over smallest volume of the cylinder; with a diagram, it only serves to state
-    volumes. Example: 10.5
+    """Largest over smallest volume of the cylinder; with a measured diagram, only results that show
+    volumes use it. Example: 10.5
     """
     compression_index: Annotated[float, Number(PLAIN, least=1, most=5)] = 1.32
     """Index n of the compression, p V^n = const. Example: 1.35"""
@@ -106,8 +107,8 @@ class Gas(FileTable):
     exhaust: Pressure = 1.05
     """Absolute pressure while a four-stroke cylinder empties. Example: 1.3"""
     imep: MeanPressure | None = None
-    """Indicated mean effective pressure of a computed cycle; with a diagram, its expected value.
-    Example: 10
+    """Indicated mean effective pressure of a computed cycle; with a measured diagram, the value to
+    expect from the diagram. Example: 10
     """
     bmep: MeanPressure | None = None
     """Brake mean effective pressure, with mechanical_efficiency, instead of imep. Example: 8.5"""
@@ -118,7 +119,8 @@ class Gas(FileTable):
     part of the burn. Example: 70
     """
     cut_off: CutOff | None = None
-    """Volume after the burn at constant pressure, divided by the volume before it. Example: 2"""
+    """Volume after the burn at constant pressure, divided by the volume before this burn. Example:
+    2"""
     heat: Heat | None = None
     """Heat supplied per cycle and cylinder. Example: 1400"""
     burn_start: Angle = -15.0
@@ -133,17 +135,18 @@ class Gas(FileTable):
     """Cycle angle at which the intake closes, four-stroke; left out: lower dead centre. Example:
     580"""
     harmonics: NamedFile | None = None
-    """Table of an engine builder: CSV of order,cos,sin of the tangential pressure T/(A r), bar,
-    over the angle from the firing dead centre. Example: 'tangential.csv'"""
+    """Table of harmonics from an engine builder: CSV file headed order,cos,sin, for the tangential
+    pressure in bar (torque / (piston area * crank radius)) over the angle from the firing dead
+    centre. Example: 'tangential.csv'"""
     crankcase: Pressure = 1.0
     """Absolute pressure under the pistons. Example: 1.1"""
     at: Annotated[tuple[GasPoint, ...], Field(max_length=MOST_GAS_POINTS)] = ()
-    """Gas at two or more speeds; give its keys there and not in [gas]."""
+    """Gas at two or more speeds; keys that [[gas.at]] gives must not be in [gas]."""
     law: Annotated[str, OneOf("propeller")] | None = None
-    """Law instead of [[gas.at]]: imep (or bmep) is proportional to the square of the speed and has
-    its given value at rated_speed. Example: 'propeller'"""
+    """Load law, instead of [[gas.at]]: imep (or bmep) is proportional to the square of the speed
+    and has its given value at rated_speed. Example: 'propeller'"""
     rated_speed: Speed | None = None
-    """Speed at which the engine has the given imep or bmep, with law. Example: 120"""
+    """With law: speed at which the engine has the given imep or bmep. Example: 120"""
 
     @property
     def given(self) -> set[str]:
@@ -157,14 +160,14 @@ class Gas(FileTable):
 
     @property
     def speeds(self) -> tuple[float, ...]:
-        """Speeds for which the file gives the gas, rpm; empty: it is the same at all speeds."""
+        """Speeds for which the file gives the gas, rpm; empty: gas is the same at all speeds."""
         if self.rated_speed is not None:
             return (self.rated_speed,)
         return tuple(point.speed for point in self.at)
 
     @property
     def goals(self) -> tuple[str, ...]:
-        """Keys of which exactly one must be given, because it sets the heat; a dual cycle
+        """Keys of which exactly one must be given, because each of them sets the heat; a dual cycle
         also needs max_pressure.
         """
         return tuple(key for key in _GOALS if key != "max_pressure" or self.cycle != "dual")
@@ -243,7 +246,7 @@ class Gas(FileTable):
             yield f"has {join_words(others)} with {what}; these belong to a computed cycle"
 
     def _check_cycle(self) -> Iterator[str]:
-        """Check that a computed cycle has all its keys, and exactly one that sets the heat."""
+        """Check that a computed cycle has all its keys, and exactly one key that sets the heat."""
         if self.cycle is None:
             return
         wiebe = [key for key in WIEBE_KEYS if self.has(key)]
@@ -264,7 +267,7 @@ class Gas(FileTable):
 
 
 class Flywheel(FileTable):
-    """A flywheel and all other parts that the crankshaft drives; [torsion] does not use it."""
+    """A flywheel and all other parts that the crankshaft drives; `torsion` ignores this table."""
 
     choices = (
         Choice((("inertia",), ("mass", "radius_of_gyration")), required=True, complete=True),
@@ -279,7 +282,7 @@ class Flywheel(FileTable):
 
 
 class Bearing(FileTable):
-    """Bearings of the crankshaft, for bearing loads per area."""
+    """Dimensions of the crankshaft's bearings, for bearing loads per area."""
 
     choices = (
         Choice((("pin_diameter", "pin_width"),), complete=True),
@@ -291,7 +294,7 @@ class Bearing(FileTable):
     pin_bore: Distance = 0.0
     """Inner diameter of hollow crank pins. Example: 20"""
     pin_width: Size | None = None
-    """Width of each rod's bearing. Example: 20"""
+    """Width of the big-end bearing of each rod. Example: 20"""
     main_diameter: Size | None = None
     """Diameter of the main journals. Example: 60"""
     main_bore: Distance = 0.0

@@ -29,7 +29,7 @@ from .units import (
 
 
 class _Factor(Number):
-    """A share from 0 to 1: a number, or in quotes a fraction or percentage."""
+    """A share from 0 to 1: a number, or a fraction or percentage in quotes."""
 
     def _measure(self, value: object) -> float:
         number = read_fraction(value) if isinstance(value, str) else value
@@ -42,7 +42,7 @@ class _Factor(Number):
 
 
 class _Load(Number):
-    """A force, or a mass, whose weight is the force."""
+    """A force; a mass stands for its weight."""
 
     def _measure(self, value: object) -> float:
         if isinstance(value, str):
@@ -71,8 +71,8 @@ NO_DIAMETER = Problem.of_missing("locomotive.wheel_diameter", "a speed in km/h n
 
 
 class Locomotive(FileTable):
-    """A steam locomotive: x points along the track, z along the axles, and wheels carry the balance
-    masses.
+    """A steam locomotive: x points along the track, z along the axles, and the wheels carry the
+    balance masses.
     """
 
     factor: Annotated[float | None, FACTOR] = None
@@ -82,7 +82,7 @@ class Locomotive(FileTable):
     """z of the two planes of the balance masses, ascending. Example: [-750,
     750]"""
     radius: Size | None = None
-    """Radius of the balance masses; left out: results have only their unbalance. Example: 800"""
+    """Radius of the balance masses; left out: results state unbalances, not masses. Example: 800"""
     wheel_diameter: Size | None = None
     """Diameter of the wheel tread; needed for speeds in km/h. Example: 2000"""
     wheel_load: WheelLoad | None = None
@@ -126,9 +126,9 @@ class Locomotive(FileTable):
 
         Args:
             given: Axles of the file.
-            numbers: Numbers of its cylinders.
-            weights: Axle of each counterweight; None: it names none.
-            rpm: Crank speed that the file gives; None: it gives none.
+            numbers: Numbers of the cylinders in the file.
+            weights: Axle that each counterweight names; None: the counterweight names no axle.
+            rpm: Crank speed that the file gives; None: the file gives no crank speed.
         """
         axles = self.list_axles(given)
         if self.speed is not None and rpm is not None:
@@ -150,15 +150,17 @@ class Axle(FileTable):
     name: Name
     """Name of the axle. Example: 'leading'"""
     driving: Switch = False
-    """Whether this is the driving axle, which has the cranks; true for one axle. Example: true"""
+    """Whether this axle is the driving axle, which has the cranks; give true for one axle only.
+    Example: true"""
     cylinders: Numbers | None = None
     """Numbers of the cylinders whose cranks this axle carries (divided drive); left out: the
     driving axle carries all cranks. Example: [2, 3]"""
     part: Annotated[float, Number(PLAIN, least=0, most=1e9)] = 1.0
-    """Share of the balance for reciprocating masses, relative to the other axles. Example: 1"""
+    """Share of the balance for reciprocating masses that this axle carries, relative to `part` of
+    the other axles. Example: 1"""
     coupling_mass: CouplingMasses = 0.0
-    """Revolving mass at each coupling pin: its share of the rod, the pin and the boss; a list has
-    one for each side. Example: 110"""
+    """Revolving mass at each coupling pin: the pin, its boss and its share of the coupling rod; a
+    list has a mass for each side. Example: 110"""
     wheel_load: WheelLoad | None = None
     """locomotive.wheel_load of this axle, if it differs. Example: 38000"""
 
@@ -169,7 +171,7 @@ class Axle(FileTable):
 
 
 def _check_axles(axles: Sequence[Axle]) -> Iterator[Problem]:
-    """Check the axles by themselves: one is driving, and each has its own name."""
+    """Check the axles without the rest of the file: one axle is driving, and names differ."""
     names = [axle.name for axle in axles]
     driving = [k for k, axle in enumerate(axles, 1) if axle.driving]
     if not any(axle.has_cranks for axle in axles):

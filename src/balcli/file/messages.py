@@ -1,5 +1,8 @@
 """Write messages for mistakes in an engine file: pydantic's findings in plain words, and remedies
-for unknown keys. Recognize the kinds of files by the keys at their head.
+for unknown keys. Recognize the kinds of files by their top-level keys.
+
+Chapters are tables of one subject, such as torsion (`names.CHAPTERS`). Most of their modules are
+imported only for files that have these tables.
 """
 
 from __future__ import annotations
@@ -24,20 +27,20 @@ TEXTS = ("name", "source")
 TABLES = ("crank", "rod", "piston", "crosshead", "layout", "bobweight", "operation", "frame")
 DEVICES = ("counterweight", "shaft", "slider")
 KNOWN = (*TEXTS, *TABLES, *CHAPTERS, "cylinder", *DEVICES, *CHAPTER_LISTS)
-# Keys allowed in a file with [[engine]]; all other keys stand in the files of its engines
+# Keys allowed in a file with [[engine]]; all other keys belong in the files that [[engine]] names
 _OF_WHOLE = ("operation", "frame", "flywheel", "body", *DEVICES, "engine", "mount", "point")
 BESIDE_ENGINES = (*TEXTS, *_OF_WHOLE)
 
 
 def import_table(key: str) -> type[FileTable]:
-    """Return the class of the table with this key; the module of its chapter is imported."""
+    """Return the class of the table with this key; import its module if it is of a chapter."""
     place = (CHAPTERS | CHAPTER_LISTS).get(key)
     table: type[FileTable] = getattr(import_name(place) if place else model, key.capitalize())
     return table
 
 
 def import_tables() -> dict[str, type[FileTable]]:
-    """Return the classes of all tables that a file has only once, chapters included."""
+    """Return the classes of all tables that a file can have only once, with those of chapters."""
     return {key: import_table(key) for key in (*TABLES, *CHAPTERS)}
 
 
@@ -104,8 +107,8 @@ def find_inner_table(table: type[FileTable], loc: Sequence[str | int]) -> type[F
 
 
 def find_table(annotation: object) -> type[FileTable] | None:
-    """Return the class of tables in a field's type (a table, or a list of them); None if there is
-    none.
+    """Return the class of the table in a field's type (a table, or a list of tables); None if the
+    field has another type.
     """
     if isinstance(annotation, type) and issubclass(annotation, FileTable):
         return annotation
@@ -120,8 +123,8 @@ class FileKind(NamedTuple):
 
     Attributes:
         name: Name of the kind.
-        reader: The command that reads this kind, in words.
-        keys: Keys that only this kind has.
+        reader: The command that reads this kind, with the verb, such as "balcli field reads".
+        keys: Top-level keys that only this kind has.
     """
 
     name: str
@@ -135,11 +138,11 @@ CHAIN = FileKind("a chain file", "balcli torsion reads", frozenset({"node", "exc
 
 
 def refuse_other_kind(head: Container[str], file: str, *wanted: FileKind) -> None:
-    """Raise an error if the keys at the head of a file show that it is of another kind. In that
-    case a list of all its mistakes would not help.
+    """Raise an error if the top-level keys of a file show that it is of another kind. In that case
+    a list of all its mistakes would not help.
 
     Args:
-        head: Keys at the head of the file.
+        head: Top-level keys of the file.
         file: Name of the file.
         wanted: Kinds that can be read here.
 
@@ -154,7 +157,8 @@ def refuse_other_kind(head: Container[str], file: str, *wanted: FileKind) -> Non
         raise OtherKindError([Problem("", message)], file)
 
 
-# Other words for keys, and the keys that they may mean; the first that a table has is proposed.
+# Other words for keys, and the keys that they may mean; messages propose the first key in the list
+# that the table has.
 _SYNONYMS = """
 conrod connecting_rod = rod; rpm = speed; pin_offset = splay offset; pin_angles = throws
 crank_angles = throws; angles = throws banks; phase = throws angle; bore_spacing = spacing
@@ -167,12 +171,13 @@ _COUNT = (
     "the number of cylinders follows from throws and banks; give every throw its angle, such as "
     "crank.throws = [0, 180, 180, 0]"
 )
-# Words for which an engine file has no key, and the remedy.
+# Words that are no keys of an engine file, and what to write instead.
 INSTEAD = {
     **dict.fromkeys(("cylinders", "count", "number_of_cylinders"), _COUNT),
     **dict.fromkeys(("radius", "crank_radius"), "give crank.stroke, twice the crank radius"),
 }
-_NEAR = 0.65  # least similarity of an unknown key and the proposed key of its table
+# Least similarity of an unknown key and a proposed key: of the same table, and of another table
+_NEAR = 0.65
 _NEAR_ELSEWHERE = 0.75
 
 
@@ -189,12 +194,12 @@ def format_heading(path: str) -> str:
 
 def suggest(key: str, own: Collection[str], *, is_engine: bool = True) -> tuple[str, str]:
     """Return the remedy for an unknown key, in words, and the key that was probably meant ("" if
-    none).
+    no key is similar).
 
     Args:
         key: Key as it is written.
-        own: Keys of its table.
-        is_engine: Whether the table is one of an engine file, for which there are more hints.
+        own: Keys of the table in which it is written.
+        is_engine: Whether the table is in an engine file, for which there are more hints.
     """
     word = key.lower().replace("-", "_")
     synonyms = SYNONYMS.get(word, ())
@@ -221,6 +226,7 @@ def suggest_place(key: str) -> str:
     if key in TEXTS:
         return f"{key} belongs at the head of the file, above all tables"
     having = [name for name, table in import_tables().items() if key in table.model_fields]
-    # Tables of engine parts come first: a chapter may use the same key with another meaning.
+    # Tables of chapters are named only if no other table has the key: there, the same key may have
+    # another meaning.
     names = [f"[{name}]" for name in having if name in TABLES] or [f"[{name}]" for name in having]
     return f"{key} belongs to {' or '.join(names)}" if names else ""

@@ -1,5 +1,5 @@
-"""The tables of an engine file: one pydantic class per part, in the units of the file (mm, kg,
-degrees, rpm, kg mm^2, g mm, s).
+"""The tables of an engine file: one pydantic class for each table, in the units of the file (mm,
+kg, degrees, rpm, kg mm^2, g mm, s).
 
 The tables only check figures. Values that follow from them (rod length from its ratio, inertia from
 a pendulum test) are computed by the package `engine`. pydantic builds a validator only for tables
@@ -74,32 +74,32 @@ class Crank(FileTable):
     choices = (Choice((("spacing",), ("positions",))),)
 
     stroke: Annotated[float | tuple[float, ...], OneOrEach(Number(LENGTH, above=0, most=1e9))]
-    """Twice the crank radius; a list has one for each throw. Example: 90"""
+    """Twice the crank radius; a list has a stroke for each throw. Example: 90"""
     throws: Angles | None = None
-    """Angle of every throw, free end to flywheel end; may be left out where firing_order fixes
-    them. Example: [0, 180, 180, 0]"""
+    """Angle of every throw, free end to flywheel end; a throw further ahead fires earlier. May be
+    left out where layout.firing_order determines the throws. Example: [0, 180, 180, 0]"""
     spacing: Distance | None = None
     """Axial distance between neighbouring throws; without spacing and positions, moments of
     several throws are not known. Example: 100"""
     positions: Lengths | None = None
     """Axial position of every throw, instead of spacing. Example: [-150, -50, 50, 150]"""
     throw_mass: Masses = 0.0
-    """Unbalanced mass of one whole throw, referred to the crank radius; its pins share it
-    equally; a list has one for each throw. Example: 0.8"""
+    """Unbalanced mass of one whole throw, referred to the crank radius; the pins of a throw share
+    it equally; a list has a mass for each throw. Example: 0.8"""
     inertia: GivenInertia | None = None
-    """Polar moment of inertia of the whole crankshaft with throws and counterweights, for
-    uneven speed. Example: 90000"""
+    """Polar moment of inertia of the whole crankshaft with throws and counterweights, to compute
+    the uneven speed. Example: 90000"""
     splay: Angle = 0.0
-    """Split pins: angle by which each further bank's pin leads the one before it. Example: -30"""
+    """Split pins: angle by which each bank's pin leads the pin of the bank before. Example: -30"""
 
     @property
     def strokes(self) -> tuple[float, ...]:
-        """Stroke of every throw, or one for all, mm."""
+        """Stroke of every throw, or a single stroke for all throws, mm."""
         return self.stroke if isinstance(self.stroke, tuple) else (self.stroke,)
 
     @property
     def throw_masses(self) -> tuple[float, ...]:
-        """Mass of every throw, or one for all, kg."""
+        """Mass of every throw, or a single mass for all throws, kg."""
         return self.throw_mass if isinstance(self.throw_mass, tuple) else (self.throw_mass,)
 
 
@@ -122,7 +122,7 @@ class RodKeys(FileTable):
     )
 
     length: Size | None = None
-    """Distance between the two centres. Example: 160"""
+    """Distance between the bore centres. Example: 160"""
     ratio: RodRatio | None = None
     """Crank radius over rod length (lambda), instead of length. Example: 0.28"""
     mass: Mass | None = None
@@ -134,8 +134,8 @@ class RodKeys(FileTable):
     big_end: Mass | None = None
     """Mass weighed at the big end, instead of mass and cg. Example: 0.43"""
     inertia: Inertia | None = None
-    """Moment of inertia about the centre of mass; left out: that of two masses at the ends.
-    Example: 2300"""
+    """Moment of inertia about the centre of mass; left out: the rod counts as two masses at its
+    ends. Example: 2300"""
     pendulum: Pendulum | None = None
     """A pendulum test, instead of inertia."""
 
@@ -147,7 +147,7 @@ class Rod(RodKeys):
 
     motion: Annotated[str, OneOf("exact", "harmonic")] = "exact"
     """Harmonic: the pistons have a sinusoidal motion, as with a Scotch yoke or a rod of infinite
-    length; length and ratio may be left out. Example: 'harmonic'"""
+    length; then length and ratio may be left out. Example: 'harmonic'"""
 
     def _check_motion(self) -> Iterator[str]:
         length = self.length is not None or self.ratio is not None
@@ -176,8 +176,8 @@ class Piston(FileTable):
     locks: Mass | None = None
     """Both locks (clips) of the pin. Example: 0.004"""
     skirt: Distance | None = None
-    """Distance from the pin's axis to the edge nearest the crank; for the clearance of
-    counterweights. Example: 38"""
+    """Distance from the pin's axis to the piston edge nearest the crank; needed for the clearance
+    of counterweights. Example: 38"""
     offset: Length = 0.0
     """Offset of the piston pin's path, positive towards the side to which the crank pin moves after
     top dead centre. Example: -1.6
@@ -201,24 +201,24 @@ class Layout(FileTable):
     banks: Angles | None = None
     """Angle of every bank. Example: [-90, 90]"""
     radial: Count | None = None
-    """Number of banks, evenly spaced round the crank. Example: 9"""
+    """Number of banks of a radial, evenly spaced round the crank. Example: 9"""
     rows: Count | None = None
-    """Rows of a radial, each on a throw of its own; left out: one row for each throw. Example:
-    2"""
+    """Number of rows of a radial, each on a throw of its own; left out: one row for each throw.
+    Example: 2"""
     row_angle: Angle | None = None
-    """Angle by which each further row of a radial is turned from the one before it; left out: the
-    banks of all rows are evenly spaced, or in line if rows is left out. Example: 25.714"""
+    """Angle by which each row of a radial is turned from the row before it; left out: the banks
+    of all rows together are evenly spaced, or in line if rows is left out. Example: 25.714"""
     rods: Annotated[str, OneOf("shared", "alternating")] = "shared"
-    """Shared: every throw carries one rod of each bank; alternating: every throw carries one
-    rod, of each bank in turn. Example: 'alternating'"""
+    """Shared: every throw carries one rod of each bank; alternating: every throw carries only one
+    rod, and the throws belong to the banks in turn. Example: 'alternating'"""
     stagger: Length = 0.0
     """Axial distance between adjacent rods on a throw, first bank towards the free end. Example:
     22"""
     firing_order: Annotated[Numbers | None, BeforeValidator(parse_firing_order)] = None
-    """Numbers of the cylinders as they fire. Example: [1, 3, 4, 2]"""
+    """Numbers of the cylinders in the order in which they fire. Example: [1, 3, 4, 2]"""
     firing_intervals: Intervals | None = None
-    """Angle from each firing to the next; left out: the intervals that crank.throws give, or even
-    ones without throws. Example: [405, 315]
+    """Angle from each firing to the next; left out: they follow from crank.throws, and without
+    crank.throws they are equal. Example: [405, 315]
     """
     rotary: Switch = False
     """Whether the crank stands still and the cylinders turn about it. Example: true"""
@@ -226,11 +226,11 @@ class Layout(FileTable):
     """Strokes of a cycle: 2 or 4. Example: 4"""
     numbering: NumbersOfBanks | None = None
     """Cylinder numbers of each bank, free end to flywheel end; in a radial in rows, numbers of each
-    row in the sense of rotation. Example: [[1, 3], [2, 4]]"""
+    row in the direction of rotation. Example: [[1, 3], [2, 4]]"""
 
     @property
     def in_rows(self) -> bool:
-        """Whether this is a radial whose cylinders are numbered row by row."""
+        """Whether `numbering` lists rows of a radial, because `rows` or `row_angle` is given."""
         return self.rows is not None or self.row_angle is not None
 
     def _check_numbers(self) -> Iterator[str]:
@@ -273,8 +273,8 @@ class Bobweight(FileTable):
     oil: Mass = 0.0
     """Allowance for oil, for each rod. Example: 0.004"""
     oil_per_pin: Mass | None = None
-    """Allowance for oil of a whole crank pin, instead of oil; its rods share it equally. Example:
-    0.005"""
+    """Allowance for oil of a whole crank pin, instead of oil; the rods on the pin share it equally.
+    Example: 0.005"""
 
 
 class Ripple(FileTable):
@@ -294,11 +294,11 @@ class Operation(FileTable):
     """Speed and power of the engine."""
 
     speed: Speed = 1000.0
-    """Crank speed (mean over the angle). Example: 3000"""
+    """Crank speed; if it is uneven, its mean over the crank angle. Example: 3000"""
     power: Annotated[float, Number(POWER, above=0, most=1e9)] | None = None
-    """Brake power at this speed, for the power related unbalance. Example: 3820"""
+    """Brake power at this speed, needed for the power related unbalance. Example: 3820"""
     speed_ripple: Annotated[tuple[Ripple, ...], Field(max_length=MOST_RIPPLES)] = ()
-    """Uneven crank speed by orders: whole ones, and half orders of a four-stroke engine."""
+    """Uneven crank speed by orders: whole orders, and half orders of a four-stroke engine."""
 
 
 class Frame(FileTable):
@@ -308,8 +308,8 @@ class Frame(FileTable):
     """x, y, z of the point about which all moments are taken; left out: the point on the crank
     axis half-way between the first and the last throw. Example: [0, 0, 0]"""
     up: Angle | None = None
-    """Direction that points up on the test bed, from the x axis in the sense of rotation; left
-    out: results name x and y. Example: 0"""
+    """Upward direction on the test bed, as an angle from the x axis in the direction of rotation;
+    left out: results name x and y instead of vertical and horizontal. Example: 0"""
 
 
 class Override(FileTable):
@@ -343,15 +343,15 @@ class Override(FileTable):
     rod_pendulum: Pendulum | None = None
     """rod.pendulum of this cylinder."""
     gas: Annotated[float, Number(PLAIN, least=0, most=100)] | None = None
-    """Share of the gas force; 0: a misfire. Example: 0"""
+    """Factor by which the gas force of this cylinder is multiplied; 0: a misfire. Example: 0"""
     heat: Heat | None = None
-    """gas.heat of this cylinder, for a computed cycle; 0: it compresses but does not burn. Example:
-    0"""
+    """gas.heat of this cylinder, for a computed cycle; 0: the cylinder compresses but does not
+    burn. Example: 0"""
     indicator: Annotated[str, FileName()] | None = None
     """gas.indicator of this cylinder. Example: 'p_3.csv'"""
     stroke: Size | None = None
-    """Twice the radius of this cylinder's pin, if it differs from that of its throw.
-    Example: 85"""
+    """Stroke of this cylinder (twice the radius of its crank pin), if it differs from the stroke of
+    its throw. Example: 85"""
     bank: Angle | None = None
     """Angle of this cylinder's axis. Example: 30"""
     throw: Angle | None = None
@@ -361,24 +361,24 @@ class Override(FileTable):
 
 
 class Device(FileTable):
-    """Keys of all devices: the unbalance, or mass and radius; and the position."""
+    """Keys of all devices: the unbalance, or mass and radius; and the axial position."""
 
     choices: ClassVar[tuple[Choice, ...]] = (
         Choice((("unbalance",), ("mass", "radius")), required=True, complete=True),
     )
 
     unbalance: Annotated[float, Number(UNBALANCE, most=1e24, word=FIT)] | None = None
-    """Mass times radius; "fit": `balcli balance` computes it. Example: 9000"""
+    """Mass times radius; "fit": `balcli balance` computes the unbalance. Example: 9000"""
     mass: Mass | None = None
     """Mass, with radius, instead of unbalance. Example: 0.5"""
     radius: Distance | None = None
-    """Radius of the mass, with mass, instead of unbalance. Example: 40"""
+    """Radius of the centre of the mass, with mass, instead of unbalance. Example: 40"""
     position: Length = 0.0
     """Axial position (z). Example: 0"""
 
     @property
     def to_fit(self) -> bool:
-        """Whether the unbalance is "fit": `balcli balance` computes it."""
+        """Whether the unbalance is "fit", which means that `balcli balance` computes it."""
         return self.unbalance is not None and math.isnan(self.unbalance)
 
 
@@ -411,12 +411,14 @@ class Counterweight(Device):
     angle: Angle = 0.0
     """Angle at crank angle 0, from cylinder 1's crank pin. Example: 180"""
     engine: Annotated[str, Label()] | None = None
-    """With [[engine]]: the engine whose crank carries it; left out: the first. Example: 'lower'"""
+    """With [[engine]]: engine whose crank carries the counterweight; left out: the first engine.
+    Example: 'lower'"""
     axle: Name | None = None
-    """Axle of a locomotive that carries it; left out: the driving axle. Example: 'leading'"""
+    """Axle of a locomotive that carries the counterweight; left out: the driving axle. Example:
+    'leading'"""
     inertia: Inertia = 0.0
-    """Polar moment of inertia about the crank axis, for an uneven speed; not used with
-    crank.inertia, which includes it. Example: 2600"""
+    """Polar moment of inertia about the crank axis, for an uneven speed; not used if crank.inertia
+    is given, which includes the counterweights. Example: 2600"""
     sector: Sector | None = None
     """Shape of the counterweight as a sector; give its thickness, or the unbalance, not both."""
 
@@ -464,15 +466,15 @@ class Shaft(Device):
     at: Place = (0.0, 0.0)
     """x, y of the shaft. Example: [-40, 60]"""
     role: Annotated[str, OneOf("balancer", "compensator")] = "balancer"
-    """Compensator: a device far from the engine; its force makes a moment and is meant to remain.
-    Example: 'balancer'"""
+    """Compensator: a shaft far from the engine, used for the moment of its force about the engine;
+    the force itself is meant to remain. Example: 'balancer'"""
     inertia: Inertia = 0.0
-    """Polar moment of inertia about its own axis, for an uneven speed and for sizing the flywheel.
-    Example: 150"""
+    """Polar moment of inertia about the shaft's own axis, for an uneven speed and for sizing the
+    flywheel. Example: 150"""
     bearings: Place | None = None
-    """Axial positions (z) of its two bearings. Example: [-130, 130]"""
+    """Axial positions (z) of the shaft's two bearings. Example: [-130, 130]"""
     gear: Gear | None = None
-    """The gear that drives it."""
+    """The gear that drives the shaft."""
     drag: Annotated[float, Number(TORQUE, least=0, most=1e12)] = 0.0
     """Friction torque on the shaft, which its gear transmits. Example: 0.2"""
 
@@ -487,11 +489,12 @@ class Slider(Device):
     order: Count
     """Oscillations per turn of the crank. Example: 2"""
     direction: Angle
-    """Direction of its path, from the x axis. Example: 90"""
+    """Direction of the mass's path, from the x axis. Example: 90"""
     angle: Angle = 0.0
-    """Phase at crank angle 0: displacement ~ cos(order * theta + angle). Example: 180"""
+    """Phase: the displacement is proportional to cos(order * theta + angle), with theta the crank
+    angle. Example: 180"""
     at: Place = (0.0, 0.0)
-    """x, y of the middle of its path. Example: [0, 0]"""
+    """x, y of the middle of the mass's path. Example: [0, 0]"""
 
 
 class EngineFile(FileTable):
@@ -500,7 +503,7 @@ class EngineFile(FileTable):
     name: str = ""
     """Name of the engine. Example: 'in-line four'"""
     source: str = ""
-    """Where the figures come from, and which are assumed. Example: 'weighed, May 2024'"""
+    """Where the figures come from, and which figures are assumed. Example: 'weighed, May 2024'"""
     crank: Crank
     rod: Rod
     piston: Piston
@@ -543,7 +546,7 @@ class EngineFile(FileTable):
 
     @property
     def cranks(self) -> "tuple[EngineFile, ...]":
-        """Files of the engines that are geared together; of an ordinary file, the file itself."""
+        """Files of the engines that are geared together; for an ordinary file, the file itself."""
         return self._cranks or (self,)
 
     def with_cranks(self, cranks: Sequence["EngineFile"]) -> Self:
@@ -554,16 +557,16 @@ class EngineFile(FileTable):
 
     @property
     def crank_names(self) -> tuple[str, ...]:
-        """Names of the engines in [[engine]]; an engine without a name has a letter."""
+        """Names of the engines in [[engine]]; an engine without a name is called A, B and so on."""
         return tuple(one.name or chr(ord("A") + k) for k, one in enumerate(self.engine))
 
     @property
     def has_gas(self) -> bool:
-        """Whether the engine has [gas]; of engines geared together, at least one."""
+        """Whether the engine, or at least one of the engines geared together, has [gas]."""
         return any(crank.gas is not None for crank in self.cranks)
 
     def with_table(self, key: str, **values: object) -> Self:
-        """Return a copy of this file with other values in one table; they are not checked."""
+        """Return a copy of this file with other values in one table; the values are not checked."""
         table: FileTable = getattr(self, key)
         return self.model_copy(update={key: table.model_copy(update=values)})
 
@@ -597,17 +600,17 @@ class Articulation(FileTable):
 
     master: Annotated[int | tuple[int, ...], OneOrEach(Whole(least=1, most=MOST_LIST_VALUES))] = 1
     """Number of the bank that carries the master rod; in a radial in rows, place of the master rod
-    in the row. A list has a number for each row. Example: 1"""
+    in its row. A list has a number for each row. Example: 1"""
     knuckle_radius: Size
     """Distance from the crank pin to the knuckle pins. Example: 55"""
     knuckle_angles: AnglesOfRows | None = None
     """Angle of each bank's knuckle pin from the master rod's axis (0 for the master's own bank), or
-    such a list for each row; left out: the bank angles from the master's bank. Example: [0, 72,
-    144, 216, 288]"""
+    a list of these angles for each row; left out: the angles of the banks from the master's bank.
+    Example: [0, 72, 144, 216, 288]"""
     rod: ArticulatedRod
     """The articulated rods."""
 
     @property
     def masters(self) -> tuple[int, ...]:
-        """Number (`master`) for each row, or a single number for all rows."""
+        """Values of `master`: a number for each row, or a single number for all rows."""
         return self.master if isinstance(self.master, tuple) else (self.master,)

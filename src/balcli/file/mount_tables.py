@@ -44,7 +44,7 @@ class Body(FileTable):
             yield "gravity [0, 0, 0] has no direction; leave it out for -x, downwards"
 
     def _check_inertia(self) -> Iterator[str]:
-        """Report only the first fault."""
+        """Yield only the first mistake in the inertia tensor."""
         a, b, c, d, e, f = self.inertia
         for name, value in (("xx", a), ("yy", b), ("zz", c)):
             if value <= 0:
@@ -72,10 +72,10 @@ class Mount(FileTable):
     name: Name
     """Name of the mount. Example: 'left'"""
     at: Triple
-    """x, y, z, in the engine's axes. Example: [-66, 463, 156]"""
+    """x, y, z of the mount, in the engine's axes. Example: [-66, 463, 156]"""
     stiffness: Annotated[tuple[float, ...], OneOrEach(_Stiffness, 3, copies=3)]
-    """Static stiffness along its three axes, or one figure for all three. Example: [349.5, 370.5,
-    453]
+    """Static stiffness along the mount's three axes, or one figure for all three. Example: [349.5,
+    370.5, 453]
     """
     axes: Annotated[tuple[Direction, ...], _two] | None = None
     """First and second axis of the mount: perpendicular vectors of any length in the engine's axes;
@@ -88,14 +88,15 @@ class Mount(FileTable):
     loss: Annotated[float, Number(PLAIN, least=0, most=10)] = 0.0
     """Loss factor of the stiffness. Example: 0.1"""
     damping: Annotated[tuple[float, ...], OneOrEach(_Damping, 3, copies=3)] = (0.0, 0.0, 0.0)
-    """Viscous damping along its three axes, or one figure for all three. Example: [0.4, 0.4, 0.4]
+    """Viscous damping along the mount's three axes, or one figure for all three. Example: [0.4,
+    0.4, 0.4]
     """
     dynamic_factor: Annotated[float, Number(PLAIN, above=0, most=100)] = 1.0
     """Ratio of dynamic to static stiffness; not used for the body at rest. Example: 1.3"""
 
     def _check_stiffness(self) -> Iterator[str]:
         if not any(self.stiffness):
-            yield "stiffness [0, 0, 0] holds nothing; give at least one above 0"
+            yield "stiffness [0, 0, 0] carries no load; give at least one value above 0"
 
     def _check_axes(self) -> Iterator[str]:
         if self.axes:
@@ -115,4 +116,4 @@ class Point(FileTable):
     name: Name
     """Name of the point. Example: 'seat rail'"""
     at: Triple
-    """x, y, z, in the engine's axes. Example: [0, 500, 0]"""
+    """x, y, z of the point, in the engine's axes. Example: [0, 500, 0]"""

@@ -1,5 +1,5 @@
-"""Convert the tables of a Python user, or a model, to dicts, lists, numbers and texts; change them;
-and list the defaults that apply if a file leaves keys out.
+"""Convert the tables of a Python user, or an engine file, to dicts, lists, numbers and texts.
+Change these tables, and list the defaults that apply if a file leaves keys out.
 """
 
 from __future__ import annotations
@@ -38,8 +38,8 @@ def normalize_tables(tables: Mapping[Any, object]) -> Node:
 
 
 def take_tables(function: str, source: object, wanted: str) -> tuple[Mapping[str, object], str]:
-    """Return the tables of a source, and the name of its file (empty if it is no file). A source is
-    a path ("-": standard input), the text of a file with several lines, or a dict.
+    """Return the tables of a source, and the name of its file (empty if the source is no file). A
+    source is a path ("-": standard input), the text of a file (several lines), or a dict.
 
     Args:
         function: Function to which the source was given, for messages.
@@ -79,7 +79,7 @@ def _plain(value: object) -> object:
 
 
 def list_tables(value: object) -> Any:
-    """Return the tables of a file, or a value in it; numbers are in the units of the file."""
+    """Return a file, a table or a value as dicts, lists, numbers and texts, in the file's units."""
     if isinstance(value, FileTable):
         fields = type(value).model_fields
         given = [(key, getattr(value, key)) for key in fields if key in value.model_fields_set]
@@ -102,7 +102,7 @@ def change_tables(model: EngineFile, changes: Mapping[str, object]) -> Node:
             they are changed as well.
 
     Raises:
-        InputError: A name refers to a member of a list that the file does not have.
+        InputError: A name refers to a member that a list of the file does not have.
     """
     tables = list_tables(model)
     for path, value in changes.items():
@@ -122,8 +122,8 @@ def change_tables(model: EngineFile, changes: Mapping[str, object]) -> Node:
 
 
 def _descend(place: Any, given: Any, keys: Sequence[str], path: str) -> tuple[Any, Any]:
-    """Return the table or list at these keys, in the written tables and in the model (None if the
-    model lacks it).
+    """Return the table or list at these keys twice: from the written tables, and from the model
+    (None if the model lacks it).
     """
     for key in keys:
         if isinstance(place, list):
@@ -171,7 +171,7 @@ def list_chapter_defaults(model: EngineFile) -> Iterator[str]:
     yield from (default for default, counts in left_out.items() if counts)
 
 
-# Tables on which only some results depend.
+# Tables on which only the results of certain commands depend.
 _OF_CHAPTERS = {"gas", "torsion", "body", "mount", "flywheel"}
 # Keys on which the torque at steady speed does not depend.
 STEADY = ("crank.spacing", "layout.stagger", "crank.throw_mass", "crank.inertia")
@@ -180,8 +180,12 @@ STEADY = ("crank.spacing", "layout.stagger", "crank.throw_mass", "crank.inertia"
 def choose_assumed(
     inferred: Iterable[str], chapters: Collection[str], without: Collection[str] = ()
 ) -> tuple[str, ...]:
-    """Return the lines of `engine.numbering.list_inferred` on which the results of a chapter
-    depend; arguments as for `Engine.list_assumed`.
+    """Return the lines of `engine.numbering.list_inferred` on which certain results depend.
+
+    Args:
+        inferred: Lines such as `rod.cg = 0`.
+        chapters: As for `Engine.list_assumed`.
+        without: As for `Engine.list_assumed`.
     """
     idle = _OF_CHAPTERS.difference(chapters).union(without)
     keys = ((line, line.partition(" =")[0]) for line in inferred)
@@ -189,7 +193,9 @@ def choose_assumed(
 
 
 def join_assumed(each: Mapping[str, Collection[str]]) -> tuple[str, ...]:
-    """Return the defaults of several engines: first those of all, then `NAME.KEY = VALUE` lines."""
+    """Return the defaults of several engines: first those that all engines have, then those of
+    single engines, as `NAME.KEY = VALUE`.
+    """
     lists = [*each.values()]
     common = [line for line in lists[0] if all(line in lines for lines in lists)]
     own = (f"{name}.{x}" for name, lines in each.items() for x in lines if x not in common)

@@ -44,8 +44,8 @@ T = TypeVar("T", bound=FileTable)
 
 
 def refuse(problems: Iterable[Problem], name: str) -> InputError:
-    """Return one error that lists the first mistakes and the number of the others. A key
-    that is probably misspelt is not listed as missing as well.
+    """Return one error that lists the first mistakes and the number of the others. A key that is
+    missing only because it is probably misspelt is not listed as missing.
 
     Args:
         problems: All mistakes of a file.
@@ -64,23 +64,23 @@ class TableReader:
 
     Attributes:
         file_kind: Kind of the file, in words: "a chain file".
-        describe: Function that returns the message for a finding of pydantic, from the table's
-            path, the finding and the table's class.
-        is_engine: Whether the file is an engine file, for which there are more hints.
+        describe: Function that returns the message for a finding of pydantic; its arguments are the
+            table's path, the finding and the table's class.
+        is_engine: Whether the file is an engine file, for which messages have more hints.
         problems: Mistakes found so far.
     """
 
     file_kind: str
     describe: Callable[[str, ErrorDetails, type[FileTable]], Problem] = describe_finding
     is_engine: bool = False
-    problems: list[Problem] = field(default_factory=list)
-    _unknown: int = 0
+    problems: list[Problem] = field(default_factory=list, init=False)
+    _unknown: int = field(default=0, init=False)  # number of unknown keys
 
     def read_list(
         self, key: str, value: object, table: type[T], most: int = MOST_PARTS
     ) -> tuple[T, ...] | None:
-        """Return the tables of a list; None if a table has mistakes, or if the value is not a list,
-        or too long.
+        """Return the tables of a list; None if a table has mistakes, or if the value is not a list
+        or the list is too long.
 
         Args:
             key: Key of the list.
@@ -101,7 +101,7 @@ class TableReader:
 
     def read_table(self, path: str, value: object, table: type[T]) -> T | None:
         """Return a table; None if it has mistakes. Contradictions between its keys are reported
-        only if all keys are known.
+        only if the table has no unknown keys.
 
         Args:
             path: Path of the table; empty: the file itself.
@@ -189,12 +189,12 @@ REQUIRED = {"crank": "stroke = 90", "rod": "length = 160", "piston": "mass = 0.5
 
 
 class Draft(NamedTuple):
-    """The readable part of an engine file.
+    """What could be read of an engine file.
 
     Attributes:
-        model: Engine file; a table with mistakes has its default, or is missing.
-        readable: Tables and keys at the head of the file that were read without mistakes, or that
-            the file does not have.
+        model: Engine file; a table with mistakes has its default values, or is missing.
+        readable: Names of the tables and top-level keys without mistakes, and of those that the
+            file does not have.
         problems: Mistakes of the file.
     """
 
@@ -204,16 +204,16 @@ class Draft(NamedTuple):
 
 
 def read_tables(text: str | bytes, name: str = "", *, bare: bool = False) -> Draft:
-    """Return the readable part of an engine file from its text.
+    """Return what can be read of an engine file, from its text.
 
     Args:
         text: Text of the file (TOML).
         name: Name of the file, for messages.
-        bare: Whether a file with only a body on mounts is allowed; its model has no crank, rods and
-            pistons.
+        bare: Whether a file with only a body on mounts is allowed; the model then has no crank,
+            rods and pistons.
 
     Raises:
-        InputError: The text is not TOML, or a file of another kind.
+        InputError: The text is not TOML, or it is a file of another kind.
     """
     return check_tables(parse_toml(text, name), Path(name).parent, name, bare=bare)
 
@@ -221,12 +221,12 @@ def read_tables(text: str | bytes, name: str = "", *, bare: bool = False) -> Dra
 def check_tables(
     data: Mapping[str, object], folder: Path, name: str = "", *, bare: bool = False
 ) -> Draft:
-    """Return the readable part of an engine file from its tables. pydantic compiles only tables
+    """Return what can be read of an engine file, from its tables. pydantic compiles only tables
     that are present.
 
     Args:
         data: Tables as TOML has them.
-        folder: Folder of the files that they name.
+        folder: Folder of the files that the tables name.
         name: Name of the engine file, for messages.
         bare: As for `read_tables`.
 
@@ -235,7 +235,7 @@ def check_tables(
     """
     refuse_other_kind(data, name, ENGINE)
     inner = data.get("engine")
-    slip = isinstance(inner, Mapping) and "file" not in inner  # a mistaken heading
+    slip = isinstance(inner, Mapping) and "file" not in inner  # [engine], not a table [[engine]]
     geared = bool(inner) and not slip
     body_alone = "body" in data and not geared and not any(key in data for key in REQUIRED)
     if body_alone and not bare:
@@ -270,8 +270,8 @@ def check_tables(
 
 
 def _settle_speed(model: EngineFile) -> EngineFile:
-    """Return the file of a locomotive with its speed on the track as `operation.speed`; the file
-    unchanged if there is no such speed.
+    """Return the file of a locomotive with its speed on the track converted to `operation.speed`;
+    return the file unchanged if it gives no speed on the track.
     """
     table = model.locomotive
     if table is None or None in (table.speed, table.wheel_diameter) or model.operation.has("speed"):
@@ -281,7 +281,7 @@ def _settle_speed(model: EngineFile) -> EngineFile:
 
 
 def _read_part(reader: TableReader, key: str, value: object) -> object:
-    """Return the value of a key at the head of the file; None if it has mistakes."""
+    """Return the value of a top-level key; None if the value has mistakes."""
     if key in TEXTS:
         return _read_text(reader, key, value)
     if key == "cylinder":

@@ -43,17 +43,17 @@ def describe_engine_file() -> Node:
 def describe_file(
     file: type[BaseModel], tables: Iterable[type[BaseModel]], name: str, title: str
 ) -> Node:
-    """Return the JSON Schema (draft 2020-12) of a kind of file, in the form of
-    `describe_engine_file`.
+    """Return the JSON Schema (draft 2020-12) of a kind of file, in the form that
+    `describe_engine_file` returns.
 
     Args:
         file: Class of the whole file.
         tables: Classes of the tables in it.
-        name: End of the schema's identifier.
+        name: End of the schema's identifier, such as "engine-file".
         title: Title of the schema.
     """
     for table in tables:
-        table.model_rebuild()  # pydantic < 2.13 writes no defaults of tables not yet built
+        table.model_rebuild()  # pydantic < 2.13 omits defaults of tables that are not built yet
     document = tidy_schema(file.model_json_schema())
     return {"$schema": DIALECT, "$id": f"urn:balcli:schema:{name}", **document, "title": title}
 

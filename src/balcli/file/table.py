@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
 INTERVAL_TOLERANCE_DEG = 0.5  # tolerance of firing intervals, which are often printed rounded
 
-# The bounds of figures are far beyond any engine, and their products and powers do not overflow.
+# The bounds of figures are far beyond any engine; products and powers of bounds do not overflow.
 Length = Annotated[float, Number(LENGTH, most=1e9)]
 
 Distance = Annotated[float, Number(LENGTH, least=0, most=1e9)]
@@ -56,7 +56,7 @@ Inertia = Annotated[float, Number(INERTIA, least=0, most=1e24)]
 INERTIA_ABOVE_0 = Number(INERTIA, above=0, most=1e24)
 GivenInertia = Annotated[float, INERTIA_ABOVE_0]
 
-FIT = "fit"  # value in place of an unbalance that `balance` computes
+FIT = "fit"  # text in place of a number, for an unbalance that `balance` computes
 
 Speed = Annotated[float, Number(SPEED, above=0, most=1e9)]
 
@@ -103,24 +103,24 @@ class KeyDocument(NamedTuple):
 
 class FileTable(BaseModel):
     """A table of an engine file. It is frozen and rejects unknown keys. Its methods `_check_...`
-    are rules: each yields contradictions between keys, in words.
+    are rules: each yields messages about contradictions between keys.
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
     choices: ClassVar[tuple[Choice, ...]] = ()
-    by_number: ClassVar[bool] = False  # whether dotted names always have numbers
+    by_number: ClassVar[bool] = False  # whether dotted names have numbers even if tables have names
 
     @model_validator(mode="after")
     def _consistent(self) -> FileTable:
-        """Reject contradictions; each is an argument of the error."""
+        """Raise ValueError if there are contradictions; its arguments are their messages."""
         of_choices = [fault for choice in self.choices for fault in choice.mistakes(self.given)]
         if found := [*of_choices, *self.contradictions()]:
             raise ValueError(*found)
         return self
 
     def contradictions(self) -> Iterator[str]:
-        """Yield the contradictions that the rules of this table find; rules of base classes come
-        first.
+        """Yield messages about the contradictions that the rules of this table find. Rules of base
+        classes come first.
         """
         for base in reversed(type(self).__mro__):
             for name, rule in vars(base).items():
@@ -133,7 +133,7 @@ class FileTable(BaseModel):
         return self.model_fields_set
 
     def check_below(self, inner: str, outer: str) -> Iterator[str]:
-        """Yield the contradiction if a length (mm) such as a bore is not below that around it.
+        """Yield a message if a length (mm) such as a bore is not below the length around it.
 
         Args:
             inner: Key of the length.
@@ -204,8 +204,8 @@ def _read_documents(table: type[FileTable]) -> dict[str, KeyDocument]:
 
 
 def label_table(table: FileTable, number: int) -> str:
-    """Return the part of a dotted name that stands for a table in a list: its name with `_` for
-    spaces, if that is an identifier; else its number.
+    """Return the part of a dotted name that stands for a table in a list: the table's name with `_`
+    for spaces, if this is an identifier; otherwise the table's number.
 
     Args:
         table: Table, which may have a name.

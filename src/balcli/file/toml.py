@@ -1,6 +1,4 @@
-"""Read TOML files of any kind, within limits on size and depth. Mistakes become errors with the
-name of the file.
-"""
+"""Read TOML files of any kind, within limits on size and depth. Errors name the file."""
 
 from __future__ import annotations
 
@@ -64,7 +62,9 @@ def read_bytes(source: str | Path) -> bytes:
 
 
 def find_near_file(source: str | Path) -> str:
-    """Return words that name the file or example that was probably meant; empty if none is near."""
+    """Return the end of a message, with the file or example that was probably meant; empty if no
+    name is similar.
+    """
     with_ending, asked = f"{source}.toml", Path(source)
     if Path(with_ending).is_file():
         return f"; {with_ending} is there: did you mean it?"
@@ -103,7 +103,7 @@ def parse_toml(text: str | bytes, file: str, right: str = ENGINE_FILE) -> Node:
             decoded, message = "", _TOO_DEEP
         except ValueError:  # Python limits the number of digits
             decoded, message = "", "has a number of thousands of digits"
-    # A text that is meant as TOML is empty, or has a key or a heading.
+    # A text without any key or heading was not meant as TOML, unless it is empty.
     key = r"""^(?:[\w."' \t-]++=|[ \t]*+\[{1,2}[\w. \t-]*(?:\]|$))"""
     if re.search(r"^[ \t]*[^\s#]", decoded, re.M) and not re.search(key, decoded, re.M):
         message = f"is {right}"
@@ -111,8 +111,8 @@ def parse_toml(text: str | bytes, file: str, right: str = ENGINE_FILE) -> Node:
 
 
 def _decode(text: str | bytes, right: str) -> tuple[str, str]:
-    """Return the text of a file, and the reason why tomllib must not read it (empty if there is
-    none). The text is empty if its format no longer matters.
+    """Return the text of a file, and the reason why tomllib must not read it (empty if there is no
+    reason). The text is empty if the message need not say whether it is TOML.
     """
     if len(text) > LARGEST_FILE_BYTES:
         decoded = text if isinstance(text, str) else text.decode("utf-8-sig", "replace")
@@ -135,8 +135,8 @@ def _decode(text: str | bytes, right: str) -> tuple[str, str]:
 
 
 def _explain(text: str, error: str) -> str:
-    """Return the line that an error of tomllib names (else the last line), and the remedy for some
-    slips: units without quotes, lists without brackets, a decimal comma.
+    """Return the line that an error of tomllib names (if it names none, the last line), and the
+    remedy for some slips: units without quotes, lists without brackets, a decimal comma.
     """
     place = re.search(r"\(at line (\d+), ", error)
     lines = text.rstrip("\n").split("\n")

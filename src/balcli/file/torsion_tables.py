@@ -36,19 +36,19 @@ class ShaftKeys(FileTable):
     """Keys of a shaft: its stiffness, or the dimensions and modulus from which it follows."""
 
     stiffness: Stiffness | None = None
-    """Torsional stiffness, not reduced by gears; "rigid" for a flange or a mesh. Example:
-    1.25e6"""
+    """Torsional stiffness at the shaft's own speed, not referred to another speed; "rigid" for a
+    flange or a gear mesh. Example: 1.25e6"""
     diameter: Size | None = None
     """Diameter of the shaft, needed for its stress. Example: 85"""
     length: Size | None = None
-    """Length of a plain shaft, instead of stiffness. Example: 400"""
+    """Length of a plain shaft, with diameter, instead of stiffness. Example: 400"""
     bore: Size | None = None
-    """Diameter of its bore, if it has one. Example: 30"""
+    """Diameter of the bore of a hollow shaft. Example: 30"""
     shear_modulus: Annotated[float, Number(SHEAR_MODULUS, above=0, most=1e6)] = 79.3
     """Shear modulus of a plain shaft; default: steel. Example: 79.3"""
     density: Density | None = None
-    """Density of a plain shaft, whose inertia is halved between its ends; left out: no inertia.
-    Example: 7.85
+    """Density of a plain shaft; half of the shaft's inertia then counts at each end; left out: the
+    shaft has no inertia. Example: 7.85
     """
     loss: Loss | None = None
     """Loss factor: imaginary part of the stiffness divided by its real part. Example: 0.035"""
@@ -76,7 +76,7 @@ class ShaftKeys(FileTable):
 
     def _check_density(self) -> Iterator[str]:
         if self.density is not None and (self.length is None or self.diameter is None):
-            yield "has a density; also give length and diameter of a plain shaft, or leave it out"
+            yield "has a density without length and diameter; give all three, or leave density out"
 
 
 _KEYS_OF_KIND = {
@@ -84,15 +84,15 @@ _KEYS_OF_KIND = {
     "rubber": ("inertia", "stiffness", "loss"),
     "pendulum": ("mass", "radius"),
 }
-_TUNINGS = "length", "order"  # keys that tune a pendulum; one of them is given
+_TUNINGS = "length", "order"  # keys that tune a pendulum; exactly one of them must be given
 
 
 class Damper(FileTable):
     """A damper on a node."""
 
     kind: Annotated[str, OneOf(*_KEYS_OF_KIND)]
-    """Viscous: a ring in oil; rubber: a ring on rubber; pendulum: masses that swing in the field
-    of rotation. Example: 'viscous'"""
+    """Viscous: a ring in oil; rubber: a ring on rubber; pendulum: masses that swing under
+    centrifugal force. Example: 'viscous'"""
     inertia: GivenInertia | None = None
     """Moment of inertia of the ring. Example: 30000"""
     damping: Annotated[float, Number(TORSIONAL_DAMPING, above=0, most=1e18)] | None = None
@@ -108,8 +108,8 @@ class Damper(FileTable):
     length: Size | None = None
     """Length of a pendulum, from its pivot to its centre of mass. Example: 2.4"""
     order: Annotated[float, Number(PLAIN, above=0, most=1e3)] | None = None
-    """Order, per turn of the node, that the pendulum cancels, instead of length;
-    length = radius/order^2. Example: 4.5"""
+    """Order that the pendulum cancels, in oscillations per turn of the node; instead of length,
+    which is then radius/order^2. Example: 4.5"""
 
     @property
     def swinging_length(self) -> float:
@@ -140,23 +140,23 @@ class NodeKeys(FileTable):
     """Keys of a node: its name, its inertia, and its damper."""
 
     name: Name
-    """Name of the node; no two have the same. Example: 'flywheel'"""
+    """Name of the node; each node needs another name. Example: 'flywheel'"""
     inertia: GivenInertia | None = None
-    """Moment of inertia; left out: a massless node. Example: 2.075e6"""
+    """Moment of inertia; left out: the node is massless. Example: 2.075e6"""
     damper: Damper | None = None
     """Damper on the node. Example: { kind = 'viscous', inertia = 30000, damping = 12 }"""
 
 
 class ChainKeys(FileTable):
-    """Keys of a whole chain: the loss of its shafts, and limits."""
+    """Keys of a whole chain: the loss factor of its shafts, and limits."""
 
     loss: Loss = 0.0
-    """Loss factor of every shaft that has none of its own. Example: 0.035"""
+    """Loss factor of every shaft for which the file gives none. Example: 0.035"""
     limit: Annotated[float, Number(STRESS, above=0, most=1e9)] | None = None
-    """Largest permitted stress of a shaft; speeds above it are barred. Example: 40"""
+    """Largest permitted stress of a shaft; speeds with a larger stress are barred. Example: 40"""
     angle_limit: Annotated[float, Number(ANGLE, above=0, most=1e3)] | None = None
-    """Largest permitted amplitude of the free end (of a chain: of the first node); speeds with a
-    larger one are barred. Example: 0.3
+    """Largest permitted amplitude of the free end (in a chain file: of the first node); speeds with
+    a larger amplitude are barred. Example: 0.3
     """
 
 
@@ -169,11 +169,11 @@ def find_stiffness(shaft: ShaftKeys) -> float:
 
 def find_shaft_inertia(shaft: ShaftKeys, density: float | None) -> float:
     """Return the moment of inertia of a plain shaft, kg m2. It is 0 without a density, and for a
-    shaft that is given by its stiffness.
+    shaft whose table gives the stiffness.
 
     Args:
         shaft: Table of the shaft.
-        density: Density of its material, g/cm3.
+        density: Density of the shaft's material, g/cm3.
     """
     length = (shaft.length or 0.0) / 1e3
     return (density or 0.0) * 1e3 * _find_polar_moment(shaft) * length if length else 0.0
@@ -186,7 +186,7 @@ def _find_polar_moment(shaft: ShaftKeys) -> float:
 
 
 class _Ratio(Number):
-    """A speed ratio: not 0; negative if the gears reverse the rotation."""
+    """A speed ratio: it is not 0, and negative if the gears reverse the rotation."""
 
     def read(self, value: object) -> float:
         ratio = super().read(value)
@@ -199,17 +199,17 @@ SpeedRatio = Annotated[float, _Ratio(PLAIN, most=1e6)]
 
 
 class Part(ShaftKeys, NodeKeys):
-    """A part that turns with the crankshaft before or behind its throws, and the shaft that
-    connects it.
+    """A part that turns with the crankshaft, before or behind its throws, and the shaft that
+    connects the part.
     """
 
     gear: SpeedRatio | None = None
-    """Speed over crank speed; left out: the speed of the part to which it is connected. The mesh is
-    at that part, and the shaft turns with this part. Example: 0.5
+    """Speed of this part over crank speed; left out: the speed of the part to which this part is
+    connected. The gear mesh is at that other part; the shaft turns with this part. Example: 0.5
     """
     of: Name | None = None
-    """The part to which it is connected, or throw 1, throw 2, ...; left out: the part before it in
-    the list, or for the first part the nearest throw. Example: 'throw 1'
+    """Name of the part to which this part is connected, or throw 1, throw 2, ...; left out: the
+    part before this one in the list, or for the first part the nearest throw. Example: 'throw 1'
     """
     node_damping: Damping = 0.0
     """Damping of the part against ground, such as a propeller in water. Example: 5"""
@@ -231,8 +231,8 @@ class Torsion(ChainKeys):
     """Torsional vibration: a node for each throw, and parts before and behind the throws."""
 
     throw_stiffness: Annotated[tuple[float, ...], OneOrEach(_STIFFNESS, copies=1)] | None = None
-    """Torsional stiffness between neighbouring throws: one figure for all, or a list. Example:
-    1.25e6
+    """Torsional stiffness between neighbouring throws: one figure for all of them, or a list.
+    Example: 1.25e6
     """
     throw_inertia: Annotated[tuple[float, ...], OneOrEach(INERTIA_ABOVE_0, copies=1)] | None = None
     """Moment of inertia of the crankshaft at each throw with its counterweights, without rods and
@@ -242,7 +242,7 @@ class Torsion(ChainKeys):
     throw_diameter: Size | None = None
     """Diameter of the crankshaft between throws, needed for its stress. Example: 85"""
     throw_bore: Size | None = None
-    """Diameter of the crankshaft's bore between throws, if it has one. Example: 30"""
+    """Diameter of the bore of a hollow crankshaft between throws. Example: 30"""
     damping: Damping = 0.0
     """Damping at every cylinder against ground. Example: 2"""
     front: _Parts = ()

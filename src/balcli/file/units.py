@@ -2,7 +2,7 @@
 
 A figure is first brought to one spelling (`_RESPELT`), then matched by a regular expression; no
 text is ever evaluated. The arithmetic uses exact fractions, so a figure is rounded only once. Most
-units are defined by others in a table, of which only the needed rows are read.
+units are defined by other units in a table (`_DEFINED`), of which only the needed rows are read.
 
 Sources: the SI brochure (2019) for metric units; the international yard and pound (1959) for the
 inch, the pound and the units made of them; CGPM 1901 for standard gravity; NIST SP 811 (2008),
@@ -24,7 +24,7 @@ from ..limits import LONGEST_FIGURE
 
 # Names and the figures that define them. r, U (German Umdrehung) and tr (French tour) are
 # revolutions; mmHg is 13 595.1 kg/m3 at standard gravity; Btu is that of the International Table.
-# Units of volume, temperature and current fit no key, but are named in messages.
+# No key takes a volume, temperature or current; their units are here so that messages name them.
 _DEFINED = """
 metre meter = 1 m; micron = 1 um; inch inches = 1 in; mil thou = 0.001 in; ft foot feet = 12 in
 yd yard = 3 ft; mile = 5280 ft; mph = 1 mile/h
@@ -98,8 +98,8 @@ PI = Fraction("3.14159265358979323846264338327950288419716939937510")
 
 
 class Unit(NamedTuple):
-    """A unit: its size in m, kg, s and turns, and its exponents of these four. Angle counts as a
-    dimension, so that rpm is not an angle and degrees are not plain numbers.
+    """A unit as a product of powers of m, kg, s and turns: a scale and the exponents of these four.
+    The angle has an exponent as well, so that rpm is not 1/s and degrees are not plain numbers.
     """
 
     scale: Fraction
@@ -170,9 +170,10 @@ VELOCITY = Dimension("km/h", "a velocity", ("80 km/h", "50 mph"))
 STRESS = Dimension("N/mm^2", "a stress", ("40 N/mm^2", "5800 psi"))
 POWER = Dimension("kW", "a power", ("3820 kW", "5200 hp"))
 PLAIN = Dimension("", "a plain number")
-# Below this, a point with exactly three digits behind it probably separates thousands.
+# In a figure below this value, a point with exactly three digits behind it probably separates
+# thousands.
 _LEAST_WITH_DECIMALS = {SPEED: 100, STIFFNESS: 1, TORSIONAL_STIFFNESS: 1000}
-_KINDS = (  # names of kinds of figures; the first with the same powers is used
+_KINDS = (  # names of dimensions for messages; the first with the same exponents is used
     Dimension("J", "a torque or an energy"),
     *(LENGTH, MASS, ANGLE, INERTIA, UNBALANCE, SPEED, TIME, PRESSURE, STIFFNESS, DAMPING),
     *(TORSIONAL_STIFFNESS, TORSIONAL_DAMPING, PLAIN),
@@ -345,9 +346,9 @@ def _measure(figure: str, dimension: Dimension) -> Fraction:
 
 
 def _explain(figure: str) -> str:
-    """Return why a figure cannot be read; the message goes on with the wanted unit."""
+    """Return why a figure cannot be read; `wanted` supplies the rest of the message."""
     if strange := re.search(r"[а-яёА-ЯЁ]+", figure):
-        return f'has "{strange[0]}" in Cyrillic letters, which is no unit; write it in Latin ones;'
+        return f'has "{strange[0]}" in Cyrillic letters, which is no unit; use Latin letters;'
     hint = ""
     if comma := re.match(r"\s*[+-]?(\d+),(\d{3})(?![\d,.])", figure):
         hint = f" is {comma[1]}.{comma[2]} meant, or {comma[1]}{comma[2]}?"
@@ -355,7 +356,9 @@ def _explain(figure: str) -> str:
 
 
 def _spell_out(figure: str, dimension: Dimension) -> str:
-    """Return a figure with its speed spelt in turns, or its angle (pi/2) with the unit pi."""
+    """Return a figure in another spelling: a speed in turns, or an angle such as pi/2 with `pi` as
+    its unit.
+    """
     if dimension is SPEED:  # "150 Hz" -> "150 turn/s", "5500 1/min" -> rpm
         counted = re.sub(_HERTZ, lambda hz: f"{hz[1]} turn/{hz[2] and 'm'}s", figure)
         return re.sub(_PER_MINUTE, r"\1 rpm", counted)
@@ -434,7 +437,7 @@ def _find(name: str) -> Unit | None:
 
 @cache
 def _by_lower_case() -> defaultdict[str, set[str]]:
-    """Return the names of units by their lower case."""
+    """Return the names of all units, grouped by their spelling in lower case."""
     found = defaultdict[str, set[str]](set)
     for name in (*_BASE, *DEFINITIONS, *PREFIXED):
         found[name.lower()].add(name)
@@ -459,18 +462,18 @@ def _find_pair(name: str) -> tuple[Unit, ...]:
 
 
 def ask_unit(unit: str, *others: str) -> str:
-    """Return a question for warnings of an unlikely figure: is it in the unit of bare numbers?
+    """Return the question in the warning of an unlikely figure: is it in the unit of bare numbers?
 
     Args:
         unit: Unit of bare numbers.
-        others: Figures in other units, such as "3.5 in".
+        others: Examples of figures in other units, such as "3.5 in".
     """
     said = " or ".join(f'"{other}"' for other in others)
     return f"is it in {unit}? Give another unit as in {said}"
 
 
 def wanted(dimension: Dimension) -> str:
-    """Return the wanted kind of figure in words, with examples."""
+    """Return in words which kind of figure is wanted, with examples."""
     if dimension is PLAIN:
         return "a plain number is wanted, without quotes"
     examples = " or ".join(f'"{e}"' for e in dimension.examples)

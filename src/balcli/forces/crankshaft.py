@@ -1,17 +1,17 @@
 """Compute the internal loads of an engine: shear force and bending moment in crankshaft and block,
 and loads of the main bearings.
 
-Inertia: the shaft is rigid. At each section the shear force is the sum of all loads towards the
-free end, and the bending moment is their moment about the section, `i sum (z_i - z) F_i` (M_x +
-iM_y). Behind the last load, these are the free force and the free moment about this load. The
-bending moment is linear between loads, so its largest values are at loads.
+Inertia: the shaft is rigid. At each section the shear force is the sum of all loads between the
+free end and the section, and the bending moment is the moment of these loads about the section,
+`i sum (z_i - z) F_i` (M_x + iM_y). Just behind the last load, they are the free force and the free
+moment about this load. The bending moment is linear between loads, so its maxima are at loads.
 
 Gas and inertia: the shaft is treated as cut in each main bearing, so that every span is statically
 determinate. The shaft carries the forces of the rods, of the masses that turn with the throws and
 of counterweights, and the bearings hold it. The block carries the forces of gas on heads, of
 pistons on cylinder walls, of the shaft on bearings, and of balancer shafts and sliders. Gas presses
-equally on throw and head. So in every section, the loads of shaft and block add up to the inertia
-loads (including those of balancer shafts and sliders).
+equally on throw and head. So at every section, the loads of shaft and block add up to the loads by
+inertia alone (including balancer shafts and sliders).
 """
 
 from __future__ import annotations
@@ -81,12 +81,13 @@ class AlongCrank(NamedTuple):
 
 
 class InnerLoads(NamedTuple):
-    """Shear force (N) and bending moment (N m) just behind each load, and inertia loads of the main
-    bearings (N).
+    """Inertia loads: shear force (N) and bending moment (N m) just behind each load, and loads of
+    the main bearings (N).
 
-    Bearings are assumed half-way between neighbouring throws and as far outside the end throws, and
-    the shaft as cut in each of them, so that every span is statically determinate. For a crank with
-    one throw, the positions of bearings are not known, and `bearings` is None.
+    Bearings are assumed half-way between neighbouring throws, and outside the end throws. An end
+    bearing is as far from the end throw as the bearing on the other side of this throw. The shaft
+    is treated as cut in each bearing, so that every span is statically determinate. For a crank
+    with one throw, the positions of bearings are not known, and `bearings` is None.
 
     Attributes:
         with_gas: Loads of shaft, bearings and block by inertia and gas; None without gas, or if
@@ -106,10 +107,10 @@ class CrankLoads:
     """Largest inertia loads within a crankshaft.
 
     Attributes:
-        main_N: Largest load of a main bearing; left out where all throws have the same z.
-        main_mm: Axial position of this bearing; left out where all throws have the same z.
+        main_N: Largest load of a main bearing; left out where all throws are at one position.
+        main_mm: Axial position of this bearing; left out where all throws are at one position.
         inner_moment_Nm: Largest bending moment.
-        inner_mm: Axial position of this moment.
+        inner_mm: Axial position of this bending moment.
     """
 
     main_N: float | None = None
@@ -123,18 +124,18 @@ def compute_inner_loads(engine: Engine, orders: Array | None = None) -> InnerLoa
     orders.
 
     Args:
-        engine: Engine without trailing axes.
+        engine: One engine, not an array of variants.
         orders: Orders that are returned, ascending, shape (orders,); default: 1, 2 and those in
             which the bending moment is worth showing.
 
     Raises:
-        BalcliError: Too many orders of too many loads.
+        BalcliError: Orders x loads exceed a limit; the error states it.
     """
     every = merge_orders(find_relevant_orders(engine), [1, 2] if orders is None else orders)
     loads, z = compute_loads(engine, every)
     sections = list_places(z)
     ahead = find_ahead(z, sections)
-    sizes = ahead * (np.abs(z) + np.abs(sections[:, None]))  # of the terms of the arms
+    sizes = ahead * (np.abs(z) + np.abs(sections[:, None]))  # sizes of the terms of the arms
     shear = sum_weighted(loads, ahead)
     bending = 1j * sum_weighted(loads, find_arms(z, sections), sizes)
     if orders is None:
@@ -155,7 +156,8 @@ def compute_inner_loads(engine: Engine, orders: Array | None = None) -> InnerLoa
 
 def find_crank_loads(engine: Engine) -> CrankLoads | None:
     """Return the largest inertia loads in the crankshaft of an engine with its counterweights; None
-    if positions are not known, for rotary and geared engines, and if there are too many loads.
+    if axial positions are not known, for rotary and geared engines, and if there are too many
+    loads.
     """
     if not engine.places_known or engine.rotary or engine.placed:
         return None
@@ -169,8 +171,8 @@ def find_crank_loads(engine: Engine) -> CrankLoads | None:
 
 
 def place_bearings(throws_m: Array) -> Array | None:
-    """Return positions of main bearings, half-way between throws and as far outside the end throws,
-    m, shape (bearings,); None if all throws have the same position.
+    """Return positions of main bearings (see `InnerLoads`), m, shape (bearings,); None if all
+    throws have the same position.
     """
     places = list_places(throws_m)
     if len(places) < 2:
@@ -216,14 +218,14 @@ ROUNDING = 1e-13  # a sum below this share of its terms is a rounding error
 
 
 class LoadsWithGas(NamedTuple):
-    """Forces (N) and moments (N m) over the cycle, of inertia and gas, with a distributed rod.
+    """Forces (N) and moments (N m) over the cycle by inertia and gas, exact for distributed rods.
 
     Attributes:
         shear: Shear force in the crankshaft, just behind each load and bearing.
         bending: Bending moment in the crankshaft.
         bearings: Forces of the shaft on the main bearings.
-        block_shear: Shear force in the block, which has no other supports.
-        block_bending: Bending moment in the block.
+        block_shear: Shear force in the block, without the forces of its mounts.
+        block_bending: Bending moment in the block, without the forces of its mounts.
     """
 
     shear: AlongCrank
@@ -242,12 +244,12 @@ class BearingsUnknownError(BalcliError):
 
 
 def add_gas_loads(inner: InnerLoads, engine: Engine, orders: Array | None = None) -> InnerLoads:
-    """Return the internal loads with those of inertia and gas; if these are not known, with the
-    reason (`obstacle`). Other errors are as for `compute_loads_with_gas`.
+    """Return the internal loads, completed by `with_gas`, or by the reason why the loads with gas
+    are not known (`obstacle`). Other errors are raised as by `compute_loads_with_gas`.
 
     Args:
         inner: Internal loads of inertia.
-        engine: Engine with gas, without trailing axes.
+        engine: One engine with gas, not an array of variants.
         orders: Orders, shape (orders,); None: the default of `compute_loads_with_gas`.
     """
     try:
@@ -262,7 +264,7 @@ def compute_loads_with_gas(engine: Engine, orders: Array | None = None) -> Loads
     """Return loads of shaft, bearings and block by order, and their largest values over the cycle.
 
     Args:
-        engine: Engine with gas of known pressure, without trailing axes.
+        engine: One engine with gas of known pressure, not an array of variants.
         orders: Orders that are returned, ascending, shape (orders,); default: those of
             `list_gas_orders` in which a bending moment is worth showing.
 
@@ -287,8 +289,8 @@ def compute_loads_with_gas(engine: Engine, orders: Array | None = None) -> Loads
     largest = float(np.abs(samples).max(axis=1).sum())
 
     def follow(z: Array, weights: Array, factor: complex = 1.0, size: float = 1.0) -> AlongCrank:
-        """Return orders and largest values of weighted sums of the forces at some places; 0 below
-        rounding.
+        """Return orders and largest values of weighted sums of the forces at some places. Values
+        below rounding become 0.
 
         Args:
             z: Axial places, m, shape (places,).
@@ -334,7 +336,7 @@ def place_main_bearings(engine: Engine) -> Array:
             crank stands still.
     """
     if engine.rotary:
-        raise BearingsUnknownError("the crank stands still, clamped at its end")
+        raise BearingsUnknownError("the crank of a rotary engine stands still, clamped at its end")
     if not engine.places_known:
         raise BearingsUnknownError("crank.spacing is missing, so their positions are not known")
     span = place_bearings(engine.joined_throws_m)
@@ -352,10 +354,10 @@ def find_breaks(engine: Engine) -> Array:
 
 def compute_bearing_loads(engine: Engine, crank_deg: Array) -> Complex:
     """Return the force of the shaft on each main bearing, x + iy, N, shape (bearings, angles);
-    errors as for `place_main_bearings` and `compute_rod_forces`.
+    errors are raised as by `place_main_bearings` and `compute_rod_forces`.
 
     Args:
-        engine: Engine with gas, without trailing axes.
+        engine: One engine with gas, not an array of variants.
         crank_deg: Crank angles, deg, shape (angles,).
     """
     shares = share_by_lever(_place_forces(engine)[0], place_main_bearings(engine))
@@ -368,7 +370,7 @@ def compute_forces_along(engine: Engine, crank_deg: Array) -> tuple[Complex, Com
     Articulated rods press on the shaft at the positions of their own cylinders.
 
     Args:
-        engine: Engine without trailing axes.
+        engine: One engine, not an array of variants.
         crank_deg: Crank angles, deg, shape (angles,).
     """
     found = compute_rod_forces(engine, crank_deg)
@@ -410,7 +412,7 @@ def refuse_too_many_forces(engine: Engine, angles: int = 0) -> None:
         raise BalcliError(
             f"loads with gas: {count} forces of {cylinders} cylinders at {angles} angles of the "
             f"cycle are {count * angles}, and at most {MOST_FORCES_OVER_CYCLE} are computed; "
-            "lower the number of cylinders, or of the rows of the diagram"
+            "give fewer cylinders, or an indicator diagram with fewer rows"
         )
 
 
@@ -431,8 +433,8 @@ def compute_in_pieces(engine: Engine, compute: Vectors, angles: Array) -> Comple
 
 
 def find_shear_stress(diameter: float, bore: float) -> float:
-    """Return the nominal shear stress at the surface of a round shaft for 1 N m, Pa: `16 D/(pi (D^4
-    - d^4))`.
+    """Return the nominal shear stress at the surface of a round shaft under a torque of 1 N m, Pa:
+    `16 D/(pi (D^4 - d^4))`.
 
     Args:
         diameter: Outer diameter D, m.

@@ -46,7 +46,7 @@ def divide_revolution(step: float = 1.0, revolutions: int = 1) -> Array:
     if not FINEST_STEP_DEG <= step <= 360:
         raise BalcliError(f"--step {step:g}: give {FINEST_STEP_DEG:g} to 360 degrees")
     steps = np.arange(0.0, np.ceil(360 * revolutions / step - 1e-9))
-    return np.round(steps * step, 12)  # 3 steps of 0.1 are 0.3
+    return np.round(steps * step, 12)  # so that 3 steps of 0.1 are 0.3
 
 
 def compute_piecemeal(
@@ -115,7 +115,7 @@ def find_crank_speed(engine: Engine, crank_deg: Array) -> tuple[Array, Array]:
     shape (angles,).
 
     Args:
-        engine: Engine without trailing axes.
+        engine: One engine, not an array of variants.
         crank_deg: Crank angles, deg, shape (angles,).
     """
     ratio, slope = np.ones_like(crank_deg), np.zeros_like(crank_deg)
@@ -129,7 +129,7 @@ def compute_device_forces(engine: Engine, crank_deg: Array) -> Complex:
     """Return the force of each device, x + iy, N, shape (devices, angles).
 
     Args:
-        engine: Engine without trailing axes.
+        engine: One engine, not an array of variants.
         crank_deg: Crank angles, deg, shape (angles,).
     """
     omega, xi = find_crank_speed(engine, crank_deg)
@@ -144,7 +144,7 @@ def compute_device_forces(engine: Engine, crank_deg: Array) -> Complex:
 
 def torque_of_cylinders(motion: EngineMotion) -> Array:
     """Return the inertia torque of each cylinder on the crank, N m, shape (cylinders, angles), from
-    I = m_rec s'^2 + m_rot r^2 - H spin^2 (+ masses of the linkage).
+    I = m_rec s'^2 + m_rot r^2 - H spin^2, plus the inertia of a linkage's masses.
     """
     c, r, m = motion.cylinders, motion.radius, motion.moved
     on_axis = as_rows(c.reciprocating) * r**2 * m.velocity * m.acceleration
@@ -194,7 +194,7 @@ def find_torque_curves(engine: Engine) -> TorqueCurves:
 
     gas, times = take_gas(engine), count_repeats(engine)
     cylinders = [(c.torque, c.fires, c.share) for c in gas.cylinders]
-    # A two-stroke engine geared to a four-stroke one has two cycles in each of the other's
+    # A two-stroke engine geared to a four-stroke engine has two cycles in each of that engine's
     twice = [c for c in gas.cylinders if engine.placed and 1.5 * c.torque.curve.period < gas.cycle]
     cylinders += [(c.torque, c.fires + c.torque.curve.period, 0.0) for c in twice]
     once = crank_torque(cylinders, gas.cycle / times)
@@ -258,7 +258,7 @@ def find_constant_inertia(engine: Engine) -> float | None:
 
 
 def silence(engine: Engine, number: CylinderNumber) -> Engine:
-    """Return the engine without the gas of one cylinder.
+    """Return the engine without the gas pressure of one cylinder, as after a misfire.
 
     Args:
         engine: Engine with gas.
@@ -276,7 +276,7 @@ def silence(engine: Engine, number: CylinderNumber) -> Engine:
 
 
 def _silence_in_file(model: EngineFile, number: CylinderNumber) -> EngineFile:
-    """Return a file without the gas of one cylinder; with [[engine]], that of its engine."""
+    """Return a file without the gas of one cylinder, which may belong to one of several engines."""
     if isinstance(number, str):
         name, _, own = number.rpartition(".")
         cranks, k = list(model.cranks), model.crank_names.index(name)
@@ -292,7 +292,7 @@ def _add_cylinders(engine: Engine, compute: Callable[[EngineMotion], Array]) -> 
     (rad) of any shape.
 
     Args:
-        engine: Engine without trailing axes.
+        engine: One engine, not an array of variants.
         compute: Function that returns the figure for a motion, shape (cylinders, angles).
     """
 

@@ -1,5 +1,5 @@
-"""Compute guide-force moments of inertia and gas, as builders of large engines state them. Sweep,
-search and scatter name them `guide.6.H` and `guide.4.5.X`.
+"""Compute guide-force moments by inertia and gas forces, as builders of large engines state them.
+Sweep, search and scatter name these moments `guide.6.H` and `guide.4.5.X`.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ class GuideMoments(NamedTuple):
     Attributes:
         h: H-type moment: the sum of the roll moments.
         x: X-type moment, the moment of the guides' side forces: `sum roll_i (z_i - z_ref) / L_i`;
-            None if all cylinders have the same position, or positions are not known.
+            None if all cylinders have the same axial position, or positions are not known.
         height_m: Height L of each guide's middle above the crankshaft, by cylinder number, shape
             (cylinders,).
         with_gas: Whether the moments include the gas.
@@ -51,14 +51,14 @@ class GuideMoments(NamedTuple):
 def compute_guide_moments(
     engine: Engine, orders: Array | None = None, height_m: float | None = None
 ) -> GuideMoments:
-    """Return the guide-force moments of an engine's cylinders; devices have none.
+    """Return the guide-force moments of an engine's cylinders; devices contribute nothing.
 
-    Roll moments are taken about the crank axis, wherever the point of reference is in x and y. The
-    X-type is defined as in section 17.05 of the project guides of MAN B&W two-stroke engines: the
-    bi-moment `sum force couple x distance` divided by the height of the guide.
+    Roll moments are about the crank axis, even if the point of reference is away from this axis.
+    The X-type is defined as in section 17.05 of the project guides of MAN B&W two-stroke engines:
+    the bi-moment `sum force couple x distance` divided by the height of the guide.
 
     Args:
-        engine: Engine without trailing axes.
+        engine: One engine, not an array of variants.
         orders: Orders, ascending, shape (orders,); default: those worth showing.
         height_m: Height of the guide's middle above the crankshaft; default: each rod's length.
     """
@@ -67,7 +67,7 @@ def compute_guide_moments(
     about_crank = replace(engine, reference_m=(0.0, 0.0, z_ref))
     roll = "roll" if engine.gas is None else "roll_total"
     every = find_relevant_orders(engine) if orders is None else orders
-    if orders is None and engine.gas is not None:  # only orders that are listed for gas
+    if orders is None and engine.gas is not None:  # higher ones: `list_gas_orders`
         few = every[every <= HIGHEST_GAS_ORDER_UNASKED]
         every = merge_orders(few, list_gas_orders(engine))
     rolls = compute_spectra(about_crank, every, [roll], each=True)[roll]
@@ -128,7 +128,7 @@ def evaluate_engine(engine: Engine, quantities: Sequence[TargetQuantity]) -> lis
     """Return the amplitude of each quantity of one engine, N m.
 
     Args:
-        engine: Engine without trailing axes.
+        engine: One engine, not an array of variants.
         quantities: Wanted quantities, all of them known.
     """
     orders = np.array(sorted({float(q.target) for q in quantities}))

@@ -1,8 +1,8 @@
 """Define the table of all kinds of forces and moments: names, symbols, keys and units.
 
 All code that computes, shows, compares, records or searches kinds reads this table. A new kind
-needs a line here, a member of `spectrum.Spectra`, and the computation. `KINDS` are the kinds of
-inertia, which every engine has; `GAS_KINDS` exist only for engines with [gas].
+needs a line here, an attribute of `spectrum.Spectra`, and its computation. `KINDS` are caused by
+inertia, and every engine has them; `GAS_KINDS` exist only for engines with [gas].
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ class Kind(NamedTuple):
     """One kind of force or moment.
 
     Attributes:
-        name: Name in lists of kinds, quantities (`force.2.major`) and members of `Spectra`.
+        name: Name in lists of kinds and in quantities (`force.2.major`); attribute of `Spectra`.
         label: Words for headings and legends.
         symbol: Symbol for formulas and narrow columns.
         key: Key in JSON, with its SI unit as the ending.
@@ -44,7 +44,7 @@ class Kind(NamedTuple):
 
     @property
     def parts(self) -> tuple[str, ...]:
-        """Names of the kinds from which this one is computed: its terms, or only itself."""
+        """Names of the kinds from which this one is computed: its terms, or itself."""
         return (*self.plus, *self.minus) or (self.name,)
 
     @property
@@ -65,7 +65,7 @@ class Kind(NamedTuple):
         return f"{self.upright[0]} {self.name}", f"{self.upright[1]} {self.name}"
 
     def key_along(self, axis: str) -> str:
-        """Return the JSON key of its component along an axis: `force_x_N`."""
+        """Return the JSON key of the component along an axis: `force_x_N`."""
         stem, _, unit = self.key.rpartition("_")
         return f"{stem}_{axis}_{unit}"
 

@@ -40,7 +40,7 @@ class Quantity(NamedTuple):
     Attributes:
         kind: Kind of force or moment.
         order: Order; 0 for a peak.
-        part: Part of the phasor, or "peak".
+        part: Figure of the order, such as "major" (`VECTOR_PARTS`, `SCALAR_PARTS`), or "peak".
         called: First word of its name if it differs from the kind: with gas, `torque` means the
             torque of gas and inertia.
     """
@@ -190,13 +190,13 @@ def _group_by_orders(quantities: Iterable[Quantity]) -> list[tuple[list[float], 
 
 @dataclass(frozen=True)
 class TargetQuantity:
-    """One figure of a chapter such as torsion or mounts. Most figures have a target, such as a
-    mount: `kind.target.part`.
+    """One figure that another module computes, such as those of torsion or mounts. Most figures
+    belong to a target, such as a mount: `kind.target.part`.
 
     Attributes:
         name: Name as a user writes it.
         unit: SI unit, or percent.
-        chapter: Chapter that computes it, a key of `names.QUANTITIES`.
+        chapter: Key in `names.QUANTITIES` of the module that computes the figure.
     """
 
     name: str

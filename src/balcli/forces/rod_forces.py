@@ -1,11 +1,12 @@
 """Compute the forces in each cylinder of an engine with gas: on the piston, on the cylinder wall,
 along the rod and on its lower pin. They are exact for a rod of distributed mass.
 
-In the cylinder's frame, u points along the axis away from the crank, and v is 90 deg ahead in the
-sense of rotation. The piston pin is at p, the lower pin of the rod (crank pin, or knuckle pin of an
-articulated rod) at f, and `d = p - f`. A rod is equivalent to two masses at its ends (a at the
-small end, b at the big end) and a massless body with the moment of inertia -H (docs/theory.md).
-With the gas force P towards the crank, the piston mass M and the rod's angular acceleration alpha,
+In the cylinder's frame, u points along the axis away from the crank, and v is 90 deg ahead of u in
+the direction of rotation. The piston pin is at p, the lower pin of the rod (crank pin, or knuckle
+pin of an articulated rod) at f, and `d = p - f`. A rod is equivalent to two masses at its ends (a
+at the small end, b at the big end) and a massless body with the moment of inertia -H
+(docs/theory.md). With the gas force P towards the crank, the piston mass M and the rod's angular
+acceleration alpha,
 
     W_x = M Re p'' + P                                    rod on piston
     W_y = (Im d (W_x + a Re p'') + H alpha + S)/Re d - a Im p''
@@ -13,8 +14,8 @@ With the gas force P towards the crank, the piston mass M and the rod's angular 
     Q   = a p'' + b f'' + W - sum K                       pin on rod
 
 Derivatives are by time; p'' has a component across the axis only if the cylinder itself turns. K
-are the forces of articulated rods on the knuckle pins of a master rod, S is their moment about its
-crank pin. The crank pin, at c, gives the torque `Im(conj(c) (-Q))`, which agrees with virtual work.
+are the forces of articulated rods on the knuckle pins of a master rod, S is their moment about the
+crank pin. At the crank pin c, the rod causes the torque `Im(conj(c) (-Q))`, as virtual work does.
 """
 
 from __future__ import annotations
@@ -60,18 +61,18 @@ def compute_rod_forces(engine: Engine, crank_deg: Array) -> RodForces:
     """Return the forces at crank angles; at a jump of the pressure, the forces after it.
 
     Args:
-        engine: Engine with gas of known pressure, without trailing axes.
-        crank_deg: Crank angles, shape (angles,).
+        engine: One engine with gas of known pressure, not an array of variants.
+        crank_deg: Crank angles, deg, shape (angles,).
 
     Raises:
-        BalcliError: The engine has no gas, or no pressures.
+        BalcliError: The engine has no gas, or its cylinder pressure is not known.
     """
     source, motion = take_gas(engine), EngineMotion(engine, crank_deg)
     angles = np.radians(crank_deg) - as_rows(source.fires)
     pressure, gas = np.empty_like(angles), np.empty_like(angles)
     for torque, rows in source.group_equal():
         if torque.pressure is None:
-            raise BalcliError("loads of pins need pressures; harmonics of the torque have none")
+            raise BalcliError("loads of pins need pressures, but [gas] has only torque harmonics")
         pressure[rows] = torque.pressure.at(angles[rows])
         gas[rows] = torque.force_under(pressure[rows])
     gas *= as_rows(source.shares)
@@ -84,13 +85,13 @@ def compute_rod_forces(engine: Engine, crank_deg: Array) -> RodForces:
     m, c, side = motion.moved, engine.cylinders, 1 if engine.rotary else -1
     lean = np.broadcast_to(m.cosine + 1j * side * m.lean, turned.shape)
     span = as_rows(c.lam) / (motion.radius * lean.real)  # 1/Re d, 0 in harmonic motion
-    piston, (foot, foot_rate) = _follow_ends(engine, motion, throw)
+    piston, (foot, foot_acceleration) = _follow_ends(engine, motion, throw)
     up, aside = piston.real, piston.imag
     along = heads * up + gas
     spin_rate = m.spin_rate * motion.omega**2 + m.spin * motion.xi
     across = lean.imag / lean.real * (along + small * up) - small * aside
     across += as_rows(c.couple) * spin_rate * span
-    pin = -(small * piston + big * foot_rate + along + 1j * across)
+    pin = -(small * piston + big * foot_acceleration + along + 1j * across)
     for master, hung in list_hung_rows(engine).items():
         loads = axis[hung] * pin[hung]
         arms = axis[hung] * foot[hung] - axis[master] * foot[master]
@@ -131,7 +132,7 @@ def _follow_ends(
         return r * turned * point.z, np.asarray(acceleration, complex)
 
     if engine.rotary:  # points of a rotary engine are relative to the direction of the pin
-        piston, *knuckle = (follow(point, throw) for point in m.points)
-        return piston[1], knuckle[0] if knuckle else (r * throw, np.zeros_like(throw))
+        (_, piston), *knuckle = (follow(point, throw) for point in m.points)
+        return piston, knuckle[0] if knuckle else (r * throw, np.zeros_like(throw))
     piston_rate = m.acceleration * motion.omega**2 + m.velocity * motion.xi
     return np.asarray(r * piston_rate, complex), follow(m.pin)

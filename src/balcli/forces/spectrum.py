@@ -1,4 +1,4 @@
-"""Compute the free forces and moments of an engine by order, of inertia and gas.
+"""Compute the forces and moments that inertia and gas cause in an engine, by order.
 
 An order is a number of oscillations per revolution of the crankshaft. The motion of pistons, rods
 and devices repeats after each revolution, so its orders are whole. Gas pressure in a four-stroke
@@ -16,7 +16,6 @@ order n = h/2.
 
 from __future__ import annotations
 
-import math
 import re
 from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass, replace
@@ -117,7 +116,7 @@ class Spectra:
         return Spectra(wanted, self.up_deg, **found)
 
     def select_place(self, place: int) -> Spectra:
-        """Return the spectra of one place along the trailing axis."""
+        """Return the spectra at one index of the trailing axis."""
         found = {kind.name: p.select_place(place) for kind, p in self.items()}
         return Spectra(self.orders, self.up_deg, **found)
 
@@ -175,9 +174,10 @@ def place_spectra(
     """Return the phasors of one of several geared engines, over the crank angle of the first one.
 
     A crank that turns against the first makes its engine a mirror image (y changes its sign): a
-    force becomes its conjugate, and moment and couple change their sign as well. Kinetic energies
+    force becomes its conjugate, and moment and couple also change their signs. Kinetic energies
     add, so a torque keeps its sign, whichever way its crank turns. The load takes part of the
-    reaction: the roll of the frame is the couple less the torque in the sense of the load.
+    reaction: the roll of the frame is the couple less the torque, which here counts as positive in
+    the direction in which the load turns.
 
     Args:
         one: The engine, with the point of reference of all engines.
@@ -245,7 +245,7 @@ def compute_device_force(engine: Engine, device: Device, orders: Array) -> Phaso
     """Return the force of one device by order, N, shape (orders,).
 
     Args:
-        engine: Engine without trailing axes.
+        engine: One engine, not an array of variants.
         device: A device.
         orders: Orders, shape (orders,).
     """
@@ -348,7 +348,7 @@ def dense_orders(highest: float, mixed: Iterable[float]) -> Array:
     return np.arange(round(highest / step) + 1.0) * step
 
 
-SHOWN = 1e-6  # orders below this share of a quantity's largest order are not worth showing
+SHOWN = 1e-6  # smallest amplitude worth showing, as a share of the largest among all orders
 
 
 def is_order(number: float) -> bool:
@@ -383,8 +383,8 @@ def check_orders(orders: Iterable[float], engines: Collection[Engine] = ()) -> A
 
 def parse_order(text: str) -> float | None:
     """Return the order that a text names, such as `2` or `1.5`; None if it names none."""
-    number = float(text) if re.fullmatch(r"[0-9]+(\.[05])?", text) else math.nan
-    return number if is_order(number) else None
+    written = re.fullmatch(r"[0-9]+(\.[05])?", text)
+    return float(text) if written and is_order(float(text)) else None
 
 
 def split_order(text: str) -> tuple[float | None, str]:
@@ -398,8 +398,8 @@ def split_order(text: str) -> tuple[float | None, str]:
 
 
 def find_relevant_orders(engine: Engine) -> Array:
-    """Return the orders 1 .. n, shape (orders,); above n, all orders are rounding errors. At uneven
-    speed, return 0 .. n, with half orders if the speed has some.
+    """Return the orders 1 .. n, shape (orders,); above n, all amplitudes are below rounding errors.
+    At uneven speed, return 0 .. n, with half orders if the speed has some.
     """
     if engine.placed:
         return merge_orders(*(find_relevant_orders(one.engine) for one in engine.cranks))
@@ -413,11 +413,12 @@ def find_relevant_orders(engine: Engine) -> Array:
 
 def list_gas_orders(engine: Engine, highest: float = HIGHEST_GAS_ORDER_UNASKED) -> Array:
     """Return orders of gas torque, shape (orders,): multiples of 1/2 (of 1 in two-stroke engines).
-    If the order of firing is above `highest`, add it and its double: all lower ones may cancel.
+    If the engine fires more than `highest` times a revolution, the order with this number and its
+    double are added, because all lower orders may cancel.
 
     Args:
         engine: Engine with gas.
-        highest: Highest order, except for the order of firing and its double.
+        highest: Highest order, except for the two that may be added.
     """
     if engine.placed:
         fired = (one.engine for one in engine.cranks if one.engine.gas is not None)
@@ -429,8 +430,8 @@ def list_gas_orders(engine: Engine, highest: float = HIGHEST_GAS_ORDER_UNASKED) 
 
 
 def mark_considerable(phasors: Phasors) -> NDArray[np.bool_]:
-    """Return whether each order exceeds the share SHOWN of the largest order, shape (orders,);
-    False above HIGHEST_ORDER_UNASKED.
+    """Return whether the amplitude of each order exceeds the share SHOWN of the largest amplitude,
+    shape (orders,); False above HIGHEST_ORDER_UNASKED.
     """
     sizes = phasors.major.reshape(len(phasors.orders), -1).max(axis=1, initial=0)
     large = sizes > SHOWN * sizes.max(initial=0)
@@ -439,7 +440,7 @@ def mark_considerable(phasors: Phasors) -> NDArray[np.bool_]:
 
 def choose_orders(found: Spectra, listed: Iterable[float]) -> Array:
     """Return the orders worth showing, shape (orders,): 0, 1 and 2 if computed, and each order in
-    which some kind is considerable.
+    which some kind is worth showing (`mark_considerable`).
 
     Args:
         found: Computed phasors of every kind.
@@ -458,7 +459,7 @@ def merge_orders(*several: Iterable[float]) -> Array:
     return np.array(sorted({float(order) for orders in several for order in orders}))
 
 
-_LEAST = 24  # the largest harmonic of a gas torque is among the first of this number
+_LEAST = 24  # the largest harmonic of a gas torque is among this many first harmonics
 _QUADRATURE = 8 * EPS  # error of a coefficient, relative to the largest one
 
 
@@ -480,7 +481,7 @@ class GasAtSpeeds(NamedTuple):
         torque: Function that returns torques by order, N m, shape (orders, *speeds, ...), at
             speeds, rpm.
         imep: Function that returns the indicated mean effective pressure, Pa, at speeds, rpm.
-        law: Law by which the gas depends on the speed; None: it does not.
+        law: Law by which the gas depends on the speed; None: it does not depend on it.
     """
 
     torque: Callable[[ArrayLike], Complex]
@@ -496,7 +497,7 @@ def follow_gas(engine: Engine, find: Callable[[Engine], Complex]) -> GasAtSpeeds
     """Return the gas of an engine at any speeds.
 
     Args:
-        engine: Engine with gas, without trailing axes.
+        engine: One engine with gas, not an array of variants.
         find: Function that returns gas torques by order, shape (orders, ...), for the engine with
             the gas of one speed.
 
@@ -516,7 +517,7 @@ def compute_gas_torque(engine: Engine, orders: Array, *, each: bool = False) -> 
     """Return the torque of the gas on the crank, N m; rounding errors are not yet set to 0.
 
     Args:
-        engine: Engine with gas, without trailing axes, or variants with `gas_of_variants`.
+        engine: One engine with gas, or an array of variants with `gas_of_variants`.
         orders: Multiples of 1/2, shape (orders,).
         each: Whether to return the torque of each cylinder instead of the sum, shape (orders,
             cylinders), in the order of `engine.numbers`.

@@ -1,12 +1,12 @@
 """Phasor stars: the rotating vectors of the cylinders, and their sums.
 
 Each cylinder contributes two vectors to an order of the free force: one turns with the crank, one
-against it (`core.phasors`). Drawn from one point, at crank angle 0, the vectors that turn one way
-are the star of the order; in an in-line engine with equal cylinders, the directions in the star of
-order n are n times the crank angles. Put one after the other, the vectors form a polygon. If it
-closes, their sum is 0 and this part of the force is balanced. Moments have stars as well: each
-vector is that of the force times the cylinder's distance along the crank, turned ahead by a quarter
-turn. Source: W. Thomson, Fundamentals of Automotive Engine Balance.
+against it (`core.phasors`). Drawn from one point, at crank angle 0, the vectors that turn in one
+direction are a star of the order; in an in-line engine with equal cylinders, the directions in the
+star of order n are n times the crank angles. Put one after the other, the vectors form a polygon.
+If it closes, their sum is 0: no force of this order turns in this direction. Moments have stars as
+well: each vector is that of the force times the cylinder's distance along the crank, turned ahead
+by a quarter turn. Source: W. Thomson, Fundamentals of Automotive Engine Balance.
 """
 
 from __future__ import annotations
@@ -71,7 +71,7 @@ class Bank(NamedTuple):
 
 
 class Star(NamedTuple):
-    """Vectors of one order that turn one way, without those of devices.
+    """Vectors of one order that turn in one direction, without those of devices.
 
     Attributes:
         order: Order.
@@ -96,9 +96,9 @@ def find_stars(
     against it; a star without vectors is left out.
 
     Args:
-        engine: Engine without trailing axes, with one crank.
+        engine: One engine with one crank, not an array of variants.
         asked: Orders, ascending; there is no star of order 0.
-        kinds: "force", and "moment" for an engine whose moments are known, if wanted.
+        kinds: "force", and also "moment" if it is wanted and known.
     """
     orders = np.array([order for order in asked if order > 0])
     alone = without_devices(engine)

@@ -1,5 +1,5 @@
-"""Compare an engine with one of its cylinders: free forces and moments as multiples of the
-cylinder's, and whether an order is balanced by symmetry or by chance.
+"""Express free forces and moments as multiples of those of one cylinder, and find out whether an
+order is balanced by symmetry or by chance.
 
 Multiples: textbooks state forces of order n as multiples of one cylinder's `F_n = A_n F1`, with `F1
 = m_rec r omega^2`, and moments as multiples of `F_n a`, where a is the smallest distance of
@@ -100,7 +100,7 @@ def find_textbook(engine: Engine, orders: Array, kinds: Collection[str]) -> Text
     multiples.
 
     Args:
-        engine: Engine without trailing axes.
+        engine: One engine, not an array of variants.
         orders: Orders, shape (orders,).
         kinds: Names of kinds of forces and moments.
     """
@@ -128,19 +128,19 @@ def find_textbook_units(engine: Engine, orders: Array) -> TextbookUnits:
     """Return the units in which textbooks express the forces of an engine.
 
     Args:
-        engine: Engine without trailing axes.
+        engine: One engine, not an array of variants.
         orders: Orders, shape (orders,).
     """
     c, row = engine.cylinders, engine.numbers.index(1)
     if c.linkage is not None and not engine.rotary:
         row = int(cast("Articulated", c.linkage).master[row])
     figures = (c.lam, c.eps, c.reciprocating * c.radius)
-    lam, eps, moved = (np.broadcast_to(v, c.count)[row : row + 1] for v in figures)
+    lam, eps, unbalance = (np.broadcast_to(v, c.count)[row : row + 1] for v in figures)
     series = harmonics.find_harmonics(orders, lam, eps, {"piston"})["piston"]
     gaps = np.diff(np.unique(np.round(engine.throws_m, 9)))
     return TextbookUnits(
         orders=orders,
-        force=float(moved[0]) * float(engine.omega) ** 2,
+        force=float(unbalance[0]) * float(engine.omega) ** 2,
         arm=float(gaps.min()) if gaps.size else float("nan"),
         ratios=np.abs(series.c[:, 0]),
         cylinder=int(engine.numbers[row]),
@@ -159,7 +159,7 @@ _GROUPS = {
 }
 _WORDS = {"turning": "torque and roll", "gas": "gas torque"}
 _INERTIA = ("force", "moment", "couple", "torque", "roll")
-NEARLY = 1e-2  # an order below this share of one cylinder is nearly balanced
+NEARLY = 1e-2  # an order below this share of that of one cylinder is nearly balanced
 _DRAWS = 3
 _SEED = 1
 _EVEN = 1e-11  # intervals that differ by less than this share of a cycle are equal
@@ -194,7 +194,7 @@ class Reason(NamedTuple):
         """The verdict in words, with the remaining amplitude in the textbook's unit if there is
         one.
         """
-        rest = f"{self.size:.4g} of one cylinder"
+        rest = f"{self.size:.4g} times that of one cylinder"
         if self.reciprocating is not None:
             alone, built = f"{self.reciprocating:.4g}", f"{self.built:.4g}"
             rest = f"{alone} {self.unit}" + (f" ({built} as built)" if built != alone else "")
@@ -204,7 +204,7 @@ class Reason(NamedTuple):
             "none": "zero in every cylinder",
             "symmetry": "balanced by symmetry of the layout",
             "chance": "balanced by chance, for these figures only",
-            "nearly": f"nearly balanced: {self.size:.1g} of one cylinder",
+            "nearly": f"nearly balanced: {self.size:.1g} times that of one cylinder",
             "unbalanced": f"unbalanced: {rest}",
         }[self.verdict]
 
@@ -246,7 +246,7 @@ def explain_symmetry(
     axis.
 
     Args:
-        engine: Engine without trailing axes.
+        engine: One engine, not an array of variants.
         orders: Orders, multiples of 1/2 above 0.
         kinds: Any of force, moment, couple, torque, roll and gas; torque and roll have one reason
             in common.

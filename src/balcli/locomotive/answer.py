@@ -6,11 +6,12 @@ cylinder 1's crank pin, on an axle at a position z. The revolving masses are tho
 pins, the coupling masses, and the counterweights of the file. The lever rule divides each unbalance
 between the two planes of its axle's balance masses. A share c of the reciprocating masses of all
 cylinders is balanced as if it turned with the crank; each axle balances its part f of this share.
-Let S be the revolving unbalance in a plane, and Q the unbalance of all reciprocating masses in it.
-The wheel then gets the balance mass `B = -(S + c f Q)`. The remaining unbalance `S + B` loads and
-unloads the rail once a turn: the hammer blow is `|S + B| w^2`, not `|B| w^2`. For an inclined
-cylinder, Q takes the crank angle minus the bank angle, so that the balance mass points straight
-back along the track when the piston is at the outer dead centre.
+Let S be the revolving unbalance in one of these planes, and Q the unbalance of all reciprocating
+masses in this plane. The wheel then gets the balance mass `B = -(S + c f Q)`. The remaining
+unbalance `S + B` loads and unloads the rail once a turn: at the crank speed w, the hammer blow is
+`|S + B| w^2`, not `|B| w^2`. In Q, the unbalance of an inclined cylinder stands at the angle of its
+crank pin minus the bank angle, so that the balance mass points straight back along the track when
+the piston is at the outer dead centre.
 
 Sources: Sarkar, Theory of Machines, ch. 12; Khurmi and Gupta, Theory of Machines, ch. 22; Bridge
 Stress Committee 1928 (blow of a rail and of the engine).
@@ -42,12 +43,12 @@ from ..shell.arguments import tell_arguments
 from ..show.result import Result
 from ..sizing.remedy import Remedy, fit_devices
 
-_ROUNDING = 1e-12  # a sum below this share of its terms is 0
+_ROUNDING = 1e-12  # a sum below this share of its terms' magnitudes is 0
 _WHY = "In the wheels, opposite all revolving masses"
 NO_TABLE = "write [locomotive] with planes and factor, or start from `balcli new locomotive`"
-NO_SPEED = "give km/h (with wheel_diameter), or operation.speed in rpm"
+NO_SPEED = "give it in km/h (with wheel_diameter), or give operation.speed in rpm"
 _NOTE = "by balcli locomotive"
-NO_CRANKS = "the cylinders of a locomotive stand still, each with a rod on a crank pin"
+NO_CRANKS = "does not suit [locomotive]: give fixed cylinders, each with a rod on a crank pin"
 
 
 class WheelLoads(NamedTuple):
@@ -56,12 +57,12 @@ class WheelLoads(NamedTuple):
     Attributes:
         plane_mm: Position z of the balance mass.
         unbalance: Unbalance of the balance mass, angle from cylinder 1's crank pin.
-        mass_kg: Balance mass; null without a radius.
+        mass_kg: Balance mass; null without `locomotive.radius`.
         hammer_blow_N: Amplitude of the load that the remaining unbalance adds.
         least_rail_load_N: Static load less the hammer blow; below 0 the wheel lifts.
         most_rail_load_N: Sum of static load and hammer blow.
-        lift_rpm: Crank speed at which the wheel lifts; null without a hammer blow.
-        lift_km_h: Speed at which the wheel lifts.
+        lift_rpm: Crank speed at which the wheel lifts; null without wheel load or hammer blow.
+        lift_km_h: Speed on the track at which the wheel lifts; null without a wheel diameter.
     """
 
     plane_mm: float
@@ -79,8 +80,8 @@ class AxleLoads(NamedTuple):
 
     Attributes:
         name: Name of the axle.
-        driving: Whether it has cranks.
-        hammer_blow_N: Amplitude of the load of both wheels together.
+        driving: Whether the axle has cranks.
+        hammer_blow_N: Amplitude of the varying load of both wheels together.
         wheels: Its wheels, by ascending z.
     """
 
@@ -94,7 +95,7 @@ class RailLoad(NamedTuple):
     """Load of one rail.
 
     Attributes:
-        hammer_blow_N: Amplitude of the load of all wheels on this rail together.
+        hammer_blow_N: Amplitude of the varying load of all wheels on this rail together.
     """
 
     hammer_blow_N: float
@@ -112,7 +113,7 @@ class LocomotiveBalance(Result):
             sized.
         axles: Coupled axles, front to rear.
         rails: Rails, by ascending z.
-        hammer_blow_N: Amplitude of the load of all wheels together.
+        hammer_blow_N: Amplitude of the varying load of all wheels together.
         tractive_variation_N: Amplitude of order 1 of the free force along the track.
         tractive_variation_peak_N: Largest absolute value of this force, all orders together.
         swaying_couple_Nm: Amplitude of order 1 of the free moment about y.
@@ -224,7 +225,8 @@ def analyze_locomotive_of_engine(
         speed: Speed instead of the file's: crank speed in rpm, or "80 km/h".
 
     Raises:
-        InputError: The file has no [locomotive], or no speed.
+        InputError: The file has no [locomotive], speed or positions of throws, or its cylinders are
+            articulated or turn.
         BalcliError: An argument is out of its range.
         TypeError: `engine` is not an Engine.
 
@@ -347,7 +349,7 @@ def _list_weights(
 
     Args:
         table: [locomotive] of the file.
-        names: Names of the axles in the file; None: it has no [[axle]].
+        names: Names of the axles in the file; only None if the file has no [[axle]].
         added: Unbalances, shape (axles, 2).
     """
     for name, row in zip(names, added.tolist(), strict=True):
@@ -365,9 +367,9 @@ def insert_weights(text: bytes, result: LocomotiveBalance, file: str, rpm: float
 
     Args:
         text: Text of the file, UTF-8.
-        result: Its balance.
-        file: Its name in messages.
-        rpm: Crank speed to write; None: that of the file remains.
+        result: Balance of the locomotive.
+        file: Name of the file, for messages.
+        rpm: Crank speed to write; None: the speed of the file remains.
     """
     new = set_keys(text.decode("utf-8-sig"), "locomotive", {"factor": None}, _NOTE)
     if rpm is not None:

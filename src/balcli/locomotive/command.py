@@ -41,9 +41,9 @@ def locomotive(
     lift, variation of tractive effort and swaying couple.
 
     The file has [locomotive] and, for coupled wheels, [[axle]] with the masses of the coupling rods
-    (side rods); `balcli new locomotive` writes one to start from. Several factors make a table with
-    a row for each: a larger factor (more overbalance) means less nosing and a larger dynamic
-    augment.
+    (side rods); `balcli new locomotive` writes a file to start from. Several factors make a table
+    with a row for each factor: a larger factor (more overbalance) means a smaller swaying couple
+    and a larger hammer blow.
 
     \b
     Examples:
@@ -68,7 +68,7 @@ def locomotive(
     warn_each(results[0].doubts, name_file(path))
     if hammer_blow is not None and results[0].factor == 1:
         blow = max(wheel.hammer_blow_N for wheel in results[0].wheels)
-        warn(f"--hammer-blow: not reached; the factor 1 makes at most {blow:.4g} N")
+        warn(f"--hammer-blow: not reached; even the factor 1 makes only {blow:.4g} N")
     if write is not None:
         refuse_leaving_files(source.text, path, write)
         rpm = None if speed is None else results[0].speed_rpm

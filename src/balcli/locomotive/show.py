@@ -29,8 +29,8 @@ _LEFT_OUT = ("format", "axles", "rails", "name", "wheels", "plane_mm")
 
 # ------------------------------------------------------------------ CSV
 def rows(result: LocomotiveBalance, system: System) -> Rows:
-    """Return the rows of CSV, one for each figure: of a wheel, an axle (without a plane), a rail
-    (without an axle), or the whole locomotive (without both).
+    """Return the rows of CSV, one for each figure of a wheel, an axle, a rail or the locomotive.
+    The cell `plane` is empty for an axle, `axle` for a rail, and both for the locomotive.
     """
     document = to_document(result)
     planes = [system.length.of(wheel.plane_mm / 1e3) for wheel in result.axles[0].wheels]
@@ -113,7 +113,7 @@ def _make_wheel_table(result: LocomotiveBalance, system: System) -> Grid:
         (f"rail load, {force.name}", ["…".join(pair) for pair in loads]),
         _write_column("lifts at", _list_values(wheels, "lift_km_h"), system.velocity),
     ]
-    note = "Angles count from cylinder 1's crank pin, in the sense of rotation."
+    note = "Angles count from cylinder 1's crank pin, in the direction of rotation."
     if result.factor is None:
         note = "No factor is given: the figures are those of the counterweights in the file."
     return Grid.of_columns("Wheels", columns, note)
@@ -142,7 +142,7 @@ def sheet_of_factors(results: Results, system: System) -> Sheet:
     columns = [_write_column(*column) for column in _list_columns(results, system)]
     speed = _tell_speed(results[0].speed_rpm, results[0].speed_km_h, system)
     title = f"{results[0].engine.name or NAMELESS}: balance factors"
-    note = "Largest values of all wheels and rails; speed at which the first wheel lifts."
+    note = "Largest blow of all wheels and rails; speed at which the first wheel lifts."
     return Sheet(title, (Facts((("speed", speed),)), Grid.of_columns("", columns, note)))
 
 

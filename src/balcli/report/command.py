@@ -34,16 +34,16 @@ PICTURE = "File to write; .svg, .png or .pdf."
 SPEEDS = "Speeds for torsion, rpm; default: 0.5 to 1.5 times the file's speed."
 WHAT = (
     "overview: locus of the force (of the moment if the force is balanced), and spectrum; "
-    "polar: loci; orders: both vectors of each order; spectrum: bars; curves: values over the "
-    "crank angle; all: loci, bars and curves on one page; "
+    "polar: loci; orders: forward and backward vector of each order; spectrum: bars; "
+    "curves: values over the crank angle; all: loci, bars and curves on one page; "
     "ladder: loci with the devices of each balancing step; factor: peaks over the balance factor; "
-    "bank: force of a vee over its bank angle (with --scheme two-shaft, radii of the shafts); "
-    "inner: loads along the crankshaft; stars: vectors of all cylinders and their polygons; "
-    "piston: travel, velocity and acceleration (with [gas], also side thrust and rod force); "
-    "journals: torque in the main journals; with [gas]: pressure, p-v, "
-    "torque (with surplus areas), pin and main (polar diagrams of bearing loads); with "
-    "[torsion]: modes, campbell, response, waterfall. Several pages are written as one "
-    "PDF, or as one file each (v8-pin.svg)."
+    "bank: force of a vee over its bank angle, or distances of both shafts from the crank axis "
+    "(--scheme two-shaft); inner: loads along the crankshaft; stars: vectors of all cylinders and "
+    "their polygons; piston: travel, velocity and acceleration (with [gas], also side thrust and "
+    "rod force); journals: torque in the main journals; with [gas]: pressure, p-v, torque (with "
+    "surplus areas), pin and main (polar diagrams of bearing loads); with [torsion]: modes, "
+    "campbell, response, waterfall. A PDF contains all pages; otherwise each of several pages "
+    "becomes a file (v8-pin.svg)."
 )
 
 
@@ -62,11 +62,11 @@ def report(
     small: Small = None,
     speed: Speed = None,
     orders: Orders = None,
-    cylinder: Annotated[int | None, optional("N", "Also show the motion of this piston.")] = None,
+    cylinder: Annotated[int | None, optional("N", "Also show the motion of piston N.")] = None,
     units: UnitsOption = Units.SI,
 ) -> None:
-    """Write a self-contained page: the engine in motion, and its free forces and moments without
-    and with a balance scheme.
+    """Write a self-contained HTML page: the engine in motion, and its free forces and moments
+    without and with a balance scheme.
 
     \b
     Example:

@@ -1,10 +1,10 @@
-"""Describe an engine for the live page, on which the reader changes its numbers.
+"""Describe an engine for the HTML page, on which the reader can change the engine's numbers.
 
 The page computes the engine itself (`assets/engine.js`). Axes, crank pins and positions of the
 cylinders are linear functions of numbers of the file (throws, splay, bank angle, spacing, stagger).
 The page gets the constant and the coefficients of each function. The coefficients are found by
-adding 1 to one number at a time. All other figures of a cylinder are given by dotted names of
-numbers.
+adding 1 to one number at a time. For each other figure of a cylinder, the page gets the
+dotted name of a number of the file.
 """
 
 from __future__ import annotations
@@ -115,7 +115,7 @@ def describe_engine(model: EngineFile, engine: Engine, text: str) -> Node:
     parts = Parts(model)
     numbers = list(_list_numbers(model))
     speed = float(engine.speed_rpm)
-    throws: dict[int, int] = {}  # by throw, the cylinder whose firing determines its angle
+    throws: dict[int, int] = {}  # by throw, the cylinder whose firing sets the throw's angle
     if not parts.throws_given and parts.order is not None:
         fired = (cell for cell in reversed(parts.plan.cells) if cell.number in parts.order)
         throws = {cell.throw: cell.number for cell in fired}
@@ -153,7 +153,7 @@ def describe_one(
     name: str = "",
     small: float = SMALL,
 ) -> Node | None:
-    """Return the data of the panel on an engine's page; None if the page cannot compute the engine.
+    """Return the data of the panel of numbers on the page; None if it cannot compute the engine.
 
     Args:
         model: Engine file.
@@ -161,7 +161,7 @@ def describe_one(
         system: Units of the drawings.
         text: Text of the file.
         name: Name of the file; empty if unknown.
-        small: Share of one cylinder's first order below which a force or moment is small.
+        small: Share of one cylinder's first order below which a force or moment is ignored.
     """
     if explain_still(engine):
         return None
@@ -177,14 +177,14 @@ def make_book(
     choice: str = "",
     small: float = SMALL,
 ) -> Node:
-    """Return the data of the panel for one or more engines.
+    """Return the data of the panel of numbers for one or more engines.
 
     Args:
         engines: Engines from `describe_engine`, by key.
         system: Units of the drawings.
         file: Name of the file; empty if unknown.
         choice: Initial engine if the reader can choose among several; empty if there is one engine.
-        small: Share of one cylinder's first order below which a force or moment is small.
+        small: Share of one cylinder's first order below which a force or moment is ignored.
     """
     return {
         "engines": engines,
@@ -209,7 +209,7 @@ def make_book(
 
 
 def name_unit(unit: ShownUnit) -> Node:
-    """Return the names of a unit and of its thousandfold; the latter is empty unless it is SI."""
+    """Return the names of a unit and of its thousandfold (empty if the unit is not SI)."""
     return {"name": unit.name, "thousand": f"k{unit.name}" if unit.size == 1 else ""}
 
 
@@ -244,7 +244,7 @@ def _is_plain(text: str) -> bool:
 
 
 def _sort_changeable(tables: Iterable[tuple[str, Node]]) -> list[tuple[str, Node]]:
-    """Return the tables with numbers to change, by name; tables of one name keep their order."""
+    """Return the tables with numbers to change, sorted by name; equal names keep their order."""
     shown = (table for table in tables if table[0].startswith((*_TABLES, *_DEVICES)))
     return sorted(shown, key=itemgetter(0))
 
@@ -282,7 +282,7 @@ def _write_plainly(text: str) -> str:
 def _free_throws(model: EngineFile, parts: Parts) -> Node | None:
     """Return the keys of [layout] that the page must change when the reader changes throws, banks
     or splay; None if no change is needed. A firing order that fits only the given throws becomes
-    "none", and the numbering that follows from it is written.
+    "none", and the numbering that follows from that order is written.
     """
     layout = model.layout
     if model.crank.throws is None or layout.firing_order is None or model.gas is not None:

@@ -11,7 +11,7 @@ OF_GAS = ("pressure", "p-v", "torque", "pin", "main")
 OF_PARTS = ("stars", "piston", "journals")
 OF_TORSION = ("modes", "campbell", "response", "waterfall")
 PAGES = (
-    *("overview", "all", "polar", "orders", "spectrum", "curves"),  # also pages of a Balance
+    *("overview", "all", "polar", "orders", "spectrum", "curves"),  # also pages for a Balance
     *("ladder", "factor", "bank", "inner"),
     *OF_PARTS,
     *OF_GAS,

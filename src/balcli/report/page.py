@@ -1,6 +1,6 @@
-"""Write a self-contained HTML page on an engine, with pictures, tables and animation. The data for
-its scripts are the mechanism and its vectors (mm, deg), the body on its mounts (mm, rad), and
-torque and pressure over the cycle.
+"""Write a self-contained HTML page on an engine, with pictures, tables and animation. Its scripts
+get the mechanism, its forces and moments (mm, deg), the body on its mounts (mm, rad), and torque
+and pressure over the cycle.
 """
 
 from __future__ import annotations
@@ -62,8 +62,8 @@ ASSUMED_BORE = 0.95  # bore over stroke for drawing pistons if the file gives no
 
 
 def scene(now: Analysis, shown: Mapping[str, Analysis], system: System) -> Node:
-    """Return the mechanism, and forces and moments of each shown engine by label. All are turned
-    upright if the file gives `frame.up`.
+    """Return the data of the moving drawings: the mechanism, and forces and moments of each variant
+    in `shown`. All are turned so that `frame.up`, if the file gives it, is up.
     """
     engine = now.engine
     stroke, bore = 2e3 * float(engine.cylinders.radius.max()), clean(engine.bore_m * 1e3)
@@ -91,7 +91,7 @@ def scene(now: Analysis, shown: Mapping[str, Analysis], system: System) -> Node:
 def _cylinder_entries(engine: Engine) -> list[Node]:
     """Return an entry for each cylinder, mm and degrees: axis, the cylinder's own angle at crank
     angle 0, rod length (0 in harmonic motion), offset and position; its crank radius if the radii
-    differ; for an articulated rod, its knuckle pin and the row of its master.
+    differ; for an articulated rod, its knuckle pin and the index of its master cylinder.
     """
     c, linkage = engine.cylinders, engine.cylinders.linkage
     rods = linkage.hung if isinstance(linkage, Rotary) else linkage
@@ -154,7 +154,7 @@ def place_beside(engine: Engine, bore: float) -> dict[int, complex]:
     across, reach = np.sin(leans), c.radius + rods + bore
     width = float(np.max(np.abs(across) * reach + (1 - np.abs(across)) * bore, initial=1.5 * r))
     found: dict[int, complex] = {}
-    rows: dict[tuple[int, bool], int] = {}  # row on its side, by order and sense
+    rows: dict[tuple[int, bool], int] = {}  # row on its side, by order and direction
     for k, device in enumerate(engine.devices):
         if device.kind is not DeviceKind.SHAFT or abs(complex(device.place)) >= r:
             continue
@@ -194,8 +194,8 @@ _STILL = (("force", "polar"), ("moment", "polar"))
 
 
 class Answers(NamedTuple):
-    """Results in a report on an engine; None for a chapter that its file does not have. If a
-    cylinder is named, the motion of its piston is drawn.
+    """Results on the page of an engine. `mounted` and `twisted` are None if the file has no [body]
+    and no [torsion]. The motion of the piston of `cylinder` is drawn if a number is given.
     """
 
     result: Analysis
@@ -213,7 +213,7 @@ def find_answers(
     options: SchemeOptions,
     name: str,
 ) -> Answers:
-    """Compute the chapters that the file of an engine has.
+    """Compute the results on an engine's page, with mounts and torsion if its file has them.
 
     Args:
         model: Tables of the file.
@@ -242,7 +242,7 @@ def find_answers(
 
 @contextmanager
 def _warning(chapter: str) -> Iterator[None]:
-    """Turn the error of a chapter that cannot be computed into a warning."""
+    """Turn an error within the context into a warning that the page does not show this chapter."""
     try:
         yield
     except BalcliError as error:
@@ -256,7 +256,7 @@ def page(found: Answers, system: System, live: Node | None = None, tell: Tell = 
     Args:
         found: Results to show.
         system: Units of figures and pictures.
-        live: Data of the numbers to change, from `live.make_book`; None: no panel for them.
+        live: Data of the panel of numbers, from `live.make_book`; None: no panel.
         tell: Progress callback; it receives the share of the pictures that are drawn.
 
     Raises:
@@ -360,8 +360,8 @@ def _draw_torsion(twisted: TorsionAnalysis, system: System) -> Iterator[str]:
 def _draw_panels(
     subject: PageSubject, panels: Sequence[tuple[str, str]], told: Collection[str]
 ) -> list[str]:
-    """Return pictures as SVG. A quantity without a picture has only its first panel, at the end;
-    it shows words in place of the picture.
+    """Return pictures as SVG. A quantity without a picture has a single panel, at the end, with
+    words in place of the picture.
     """
     words = {quantity: subject.find_words(quantity) for quantity in told}
     shown = [(what, name) for name, what in panels if name in told and not words[name]]
@@ -388,7 +388,8 @@ _SPEEDS = 48  # largest number of speeds on the page
 
 def rocking(result: MountReport) -> Node | None:
     """Return the block and its mounts relative to the centre of gravity, and the block's motion by
-    speed and order: six cosine parts, then six sine parts (mm, rad). None without an engine.
+    speed and order: cosine coefficients, then sine coefficients, each of three displacements (mm)
+    and three rotations (rad). None for mounts without an engine.
     """
     response = result.response
     if response is None:

@@ -3,8 +3,8 @@
 A force or moment that is balanced, negligible or unknown has no picture; a line below the page
 reports it.
 
-The page `bank` shows the force of a vee over its bank angle: the path of its tip, and its two
-rotating vectors.
+The page `bank` shows the force of a vee over its bank angle: the path of the vector's tip,
+and the two rotating vectors that make up the force.
 """
 
 from __future__ import annotations
@@ -107,7 +107,7 @@ def draw_radii(ax: Axes, banks: Banks) -> None:
     )
     if banks.own_deg <= 180:
         ax.axvline(banks.own_deg, color=INK, linewidth=0.9, linestyle=":")
-    ax.set_title(f"Shafts at +{banks.order:g} and -{banks.order:g}: radii without a roll")
+    ax.set_title(f"Shafts at +{banks.order:g} and -{banks.order:g}: radii without a roll moment")
     put_legend_above(ax, 3)
 
 
@@ -161,7 +161,7 @@ def draw_roses(ax: Any, banks: Banks, unit: ShownUnit) -> None:
     marks = np.arange(-90, 91, 30)
     ax.set_thetagrids(marks, [f"{abs(2 * mark):g}°" for mark in marks])
     ax.set(thetamin=-90, thetamax=90, rmax=1.08 * largest / s.size or 1)
-    ax.set_title(f"Its two vectors by bank angle, {s.name} (dotted: this engine)", pad=6)
+    ax.set_title(f"Rotating vectors by bank angle, {s.name} (dotted: this engine)", pad=6)
     ax.legend(loc="lower center", bbox_to_anchor=(0.5, 0.02), ncols=2)
 
 
@@ -181,7 +181,7 @@ class PageSubject:
 
     @property
     def now(self) -> Analysis:
-        """The engine, with the devices of the scheme if there is one."""
+        """Analysis of the engine, with the devices of the scheme if a scheme is given."""
         return self.study.now
 
     def phasors(self, quantity: str) -> tuple[Phasors, Phasors | None]:
@@ -225,7 +225,7 @@ class PageSubject:
         return ""
 
     def find_pictured(self, quantities: Sequence[str]) -> tuple[list[str], str]:
-        """Return the quantities with a picture, and a line on the others."""
+        """Return the quantities with a picture, and a line of text on the others."""
         words = {quantity: self.find_words(quantity) for quantity in quantities}
         line = "; ".join(f"{_TITLES[each]}: {said}" for each, said in words.items() if said)
         return [quantity for quantity, said in words.items() if not said], line
@@ -414,7 +414,7 @@ def _lay_out_inner(fig: Figure, subject: PageSubject) -> str:
         ax.label_outer()
     axes[-1].set_xlabel(f"z, {system.length.name} (free end on the left)")
     missing = (title for title, curves, _ in pictures if not curves)
-    return "".join(f"{title}: one throw, bearings not known" for title in missing)
+    return "".join(f"{title}: not known for a single throw" for title in missing)
 
 
 def _lay_out_gas(fig: Figure, subject: PageSubject, *, what: str) -> None:

@@ -68,23 +68,25 @@ def plot(
 ) -> Figure:
     """Draw an engine or a result as a figure of matplotlib; see also `balcli plot`.
 
-    Global state is unchanged and no display is needed. A notebook shows the figure if it is the
-    last line of a cell; `figure.savefig("a.svg")` writes it; `figure.axes` can be changed.
+    The global state of matplotlib is unchanged, and no display is needed. A notebook shows the
+    figure if the call is the last line of a cell; `figure.savefig("a.svg")` writes the figure;
+    `figure.axes` can be changed.
 
     Args:
         shown: Engine, or result of a function such as `analyze` or `sweep`.
         what: Page of an engine, its analysis or balance: "overview" (default; one locus and the
-            spectrum), "polar" (loci of force and moment), "orders" (both vectors of each order),
+            spectrum), "polar" (loci of force and moment), "orders" (two vectors of each order),
             "spectrum", "curves", "all" (loci, spectra and curves), "inner" (loads along the
             crankshaft), "ladder" (loci for each balancing step), "bank" (force of a vee over its
-            bank angle; with scheme "two-shaft", the radii of the shafts), "factor" (peaks over the
-            balance factor), "stars" (each cylinder's vectors), "piston", "journals"; with gas
-            "pressure", "p-v", "torque", "pin", "main"; with torsion "modes", "campbell",
-            "response", "waterfall". A result of `analyze_torque` has the pages with gas, one of
-            `analyze_torsion` those with torsion and "all". Other results have one picture.
+            bank angle; with scheme "two-shaft", distances of the shafts from the crank axis),
+            "factor" (peaks over the balance factor), "stars" (each cylinder's vectors), "piston",
+            "journals"; with gas "pressure", "p-v", "torque", "pin", "main"; with torsion "modes",
+            "campbell", "response", "waterfall". A result of `analyze_torque` has the pages with
+            gas, a result of `analyze_torsion` those with torsion and "all". Other results have one
+            picture.
         orders: Orders of an engine to draw; default: all that are not negligible.
-        scheme: Balance scheme of an engine to compare with.
-        speeds_rpm: Speeds for torsion of an engine; default: 0.5 to 1.5 times its speed.
+        scheme: Balance scheme; the page compares the engine without and with its devices.
+        speeds_rpm: Speeds for the pages of torsion; default: 0.5 to 1.5 times its speed.
         small: Share of one cylinder's first order below which the ladder of an engine ignores a
             force or moment.
         cylinder: Number of the cylinder whose piston is drawn.
@@ -151,7 +153,7 @@ def _plot_torsion(result: TorsionAnalysis, what: str) -> Figure:
     return make_torsion(result, check_page(what, known))
 
 
-_SHOWN = {"inner": "inner", "bank": "force", "ladder": "ladder"}  # result that a page shows
+_SHOWN = {"inner": "inner", "bank": "force", "ladder": "ladder"}  # result on a page
 
 
 class Asked(NamedTuple):

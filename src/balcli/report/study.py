@@ -35,9 +35,10 @@ _ALONE = ("ladder", "bank", *OF_GAS, *OF_PARTS)  # pages that show the engine wi
 
 
 class Banks(NamedTuple):
-    """Free force of one order over the bank angle of a vee; all else is unchanged.
+    """Free force of one order over the bank angle of a vee; nothing else changes.
 
     Attributes:
+        order: Order of the force.
         angles_deg: Bank angles, shape (angles,).
         own_deg: Bank angle of the engine.
         middle_deg: Direction of the middle of the vee, deg from x.
@@ -51,9 +52,9 @@ class Banks(NamedTuple):
     force: Phasors
 
     def find_radii(self) -> tuple[Array, Array, Array]:
-        """Return the radii at which a forward and a backward shaft cancel the force without a roll
-        moment, as shares of the longest radius, and their ratio, which is nan where no force turns
-        with the crank. Each has the shape (angles,).
+        """Return the distances from the crank axis (radii) at which a forward and a backward shaft
+        cancel the force without a roll moment, as shares of the longest radius, and their ratio,
+        which is nan where no force turns with the crank. Each has the shape (angles,).
 
         Radii are inversely proportional to the forces. Their sign follows Liu: it is
         positive if one shaft is above and one below the crank, on the same side of the middle
@@ -73,10 +74,10 @@ class Study(NamedTuple):
 
     Attributes:
         now: Analysis of the engine.
-        before: Analysis of the engine without fitted devices; None if no device is fitted.
+        before: Analysis of the engine without the scheme's devices; None without a scheme.
         remedy: Fitted devices.
         factors: Peaks by balance factor, ascending, including the best factor.
-        banks: One order over the bank angle.
+        banks: Force of one order over the bank angle, for the page "bank".
         pair: Whether the page shows the two shafts that cancel the force at each bank angle.
         bent: Loads along the crankshaft now, and before devices were fitted.
         steps: Engine with the devices of each step of the ladder, by name.
@@ -99,7 +100,7 @@ def analyze_steps(
     number and name of the step.
     """
     return {
-        f"{k} {step.step}": analyze(
+        f"{k} {step.title}": analyze(
             fit_devices(engine, step.remedy), orders, [kind.name for kind in VECTORS]
         )
         for k, step in enumerate(ladder.steps)
@@ -116,9 +117,9 @@ def compute_study(
     """Return the data of the page `what`.
 
     Args:
-        engine: Single engine (no trailing axes).
+        engine: A single engine, not an array of variants.
         orders: Orders to show; "bank" shows the first one.
-        scheme: Balance scheme to compare with, if any.
+        scheme: Balance scheme; the page compares the engine without and with its devices.
         options: Options of the scheme; the page "factor" uses only `planes`, "ladder" only
             `small`.
 
@@ -139,7 +140,7 @@ def compute_study(
         force = now.spectra["force"]
         free = force.orders[(force.orders >= 1) & ~force.balanced].tolist()
         order = asked.order or [*(orders or free), 2][0]
-        # For a pair of shafts, counterweights cancel all but the reciprocating masses.
+        # The pair of shafts cancels the reciprocating masses; counterweights cancel the others.
         swung = with_reciprocating_only(engine) if pair else engine
         return Study(now, banks=swing_banks(swung, order), pair=pair)
     if scheme is not None:
@@ -161,7 +162,7 @@ def compute_study(
 def refuse_scheme(scheme: str | None, what: str) -> None:
     """Raise BalcliError if a scheme is given for a page that shows the engine without one."""
     if scheme is not None:
-        alone = "; it takes only --scheme two-shaft with --order" if what == "bank" else ""
+        alone = "; bank takes only --scheme two-shaft with --order" if what == "bank" else ""
         raise BalcliError(
             f"--what {what} shows the engine as it is: leave --scheme and its options out{alone}"
         )
@@ -194,7 +195,7 @@ def swing_banks(engine: Engine, order: float) -> Banks:
         raise BalcliError(
             "--what bank needs the two banks of a vee; this engine has "
             f"{counted(len(axes), 'bank')}"
-            f"{' and articulated or turning cylinders' if c.linkage is not None else ''}"
+            f"{' and articulated rods or turning cylinders' if c.linkage is not None else ''}"
         )
     middle, side = axes.mean(), np.sign(axes - axes.mean())
     angles = np.arange(0.0, 180.5, 1.0)

@@ -31,7 +31,8 @@ def tell_arguments(**others: str) -> Callable[[Callable[P, Answer]], Callable[P,
     `damper_inertia` in place of `--damper-inertia`.
 
     Args:
-        others: Arguments whose option has another name, by option (`speeds="speeds_rpm"`).
+        others: Names of arguments whose option has another name; the keys are the options
+            (`speeds="speeds_rpm"`).
     """
 
     def decorate(function: Callable[P, Answer]) -> Callable[P, Answer]:
@@ -59,7 +60,7 @@ def tell_arguments(**others: str) -> Callable[[Callable[P, Answer]], Callable[P,
 
 
 def join_names(function: str, words: Words | None) -> str | None:
-    """Return names as one text, separated by commas as on the command line; None for None.
+    """Return names as one text, separated by commas as on the command line; None without names.
 
     Args:
         function: Name of the public function, for messages.
@@ -74,14 +75,15 @@ def join_names(function: str, words: Words | None) -> str | None:
 
 
 def check_speeds(function: str, speeds_rpm: ArrayLike | None) -> Array | None:
-    """Return speeds as a rising array without repetition, rpm; None for None.
+    """Return speeds as a rising array without repetition, rpm; None if no speeds are given.
 
     Args:
         function: Name of the public function, for messages.
         speeds_rpm: Speeds, rpm, shape () or (speeds,).
 
     Raises:
-        BalcliError: A speed is not above 0, or there are too many speeds or axes.
+        BalcliError: A speed is not above 0, there are too many speeds, or the array has more than
+            one axis.
         TypeError: The values are not numbers.
     """
     if speeds_rpm is None:
@@ -108,7 +110,8 @@ def check_speeds(function: str, speeds_rpm: ArrayLike | None) -> Array | None:
 
 
 def check_torsion_orders(orders: Iterable[float] | None) -> Array | None:
-    """Return orders of a torsional excitation, ascending and without repetition; None for None.
+    """Return orders of a torsional excitation, ascending and without repetition; None if no orders
+    are given.
 
     Raises:
         BalcliError: There are no orders, or one is not a multiple of 1/2, not above 0, or too high.
@@ -123,7 +126,7 @@ def check_torsion_orders(orders: Iterable[float] | None) -> Array | None:
 
 
 def check_inertia(name: str, value: object) -> float | None:
-    """Return a moment of inertia, kg m2; None for None.
+    """Return a moment of inertia, kg m2; None if the value is None.
 
     Args:
         name: Name of the argument, for messages.

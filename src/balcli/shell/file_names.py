@@ -52,10 +52,10 @@ def parse_output(path: Path | None) -> Path | None:
 
 
 def choose_target(second: Path | None, output: Path | None, example: str) -> Path:
-    """Return the file of a page or picture.
+    """Return the file to which a page or picture is written.
 
     Args:
-        second: Second argument of the command; None: not given.
+        second: Second argument of the command, which may name this file; None: not given.
         output: Value of `--output`; None: not given.
         example: File name for the message.
 
@@ -108,13 +108,13 @@ def format_of(
     default: F | None = None,
     option: str = "--output",
 ) -> F:
-    """Return the format of a file: by its ending, or by `--format` if the ending is unknown.
+    """Return the format of an output: by the ending of the file, or by `--format`.
 
     Args:
         output: File; None: standard output.
         asked: Value of `--format`; None: not given.
         endings: Formats that can be written, by ending (`.csv`).
-        default: Format of standard output and of files without an ending.
+        default: Format of standard output and of files without an ending if `asked` is None.
         option: Option that names the file, for messages.
 
     Raises:

@@ -60,7 +60,7 @@ def read_engine(
         path: Path of the file.
         speed_rpm: Crank speed of the engine instead of the file's.
         asked: Names of requested quantities and tables; None: all that the command shows. If
-            none of them needs moments, unknown moments cause no warning.
+            none of these results includes moments, unknown moments cause no warning.
         prepare: Function that changes the file before the engine is built.
         over: Speeds for which results are computed, rpm; None: the engine's own speed.
 
@@ -92,8 +92,8 @@ def read_engine(
 
 
 def _tell_unknown(name: str, asked: Collection[str] | None) -> None:
-    """Warn that moments are unknown if results with moments are requested; raise an error if
-    moments are requested by name.
+    """Raise an error if unknown moments are requested by name; warn that they are unknown if other
+    results that include moments are requested.
     """
     words = ABOUT_MOMENTS if asked is None else asked
     if by_name := [quantity for quantity in ("moment", "inner") if quantity in words]:
@@ -121,8 +121,8 @@ def try_each(
     Args:
         paths: Files to work on.
         work: Function that returns the result of a file.
-        found: Files that were found in a folder. If they are of another kind, they are skipped with
-            a note.
+        found: Those of the files that were found in a folder, not named by the user. If such a file
+            is of another kind, it is skipped with a note.
     """
     results, errors = [], []
     for path in paths:
@@ -137,7 +137,7 @@ def try_each(
 
 
 def exit_on_errors(errors: Sequence[str]) -> None:
-    """Print these messages on standard error and end with exit status 2, if there are any."""
+    """If there are messages, print them on standard error and end with exit status 2."""
     for text in errors:
         say(f"balcli: {text}")
     if errors:

@@ -23,10 +23,11 @@ from ..sizing.options import check_small
 from .file_names import TEXTS, format_option, parse_output
 from .values import argument, optional, read_figure, read_length, read_share
 
-# Words of `analyze --only` for tables and texts of quantities that are always computed.
+# Words of `analyze --only` for views of force and moment, which need no further computation.
 PARTS = ("xy", "textbook", "verdict")
-CLOSER = ("inner", "guide", "journals", "masses", "parts", "pru")  # words of further quantities
-OF_ONE = (*PARTS, *CLOSER[2:])  # words of tables that describe one engine at one speed
+# Words for results that are computed only on request
+CLOSER = ("inner", "guide", "journals", "masses", "parts", "pru")
+OF_ONE = (*PARTS, *CLOSER[2:])  # words for tables that describe one engine at one speed
 WORDS_OF_ONLY = (*KINDS, "peak", "sizing", "ladder", *GAS_KINDS, *CLOSER, *PARTS)
 
 
@@ -64,13 +65,13 @@ Orders = Annotated[
     str | None,
     optional(
         "1-8|0.5-8|1,2,4",
-        "Orders to show; default: 1, 2 and others that are not negligible; with gas, all to 12.",
+        "Orders to show; default: 1, 2 and others that are not negligible; with gas, all up to 12.",
         "--orders",
     ),
 ]
 _ONLY = (
     f"Show only these: {', '.join(KINDS)}, peak, sizing, ladder, gas, inner (shear, bending, "
-    "bearing loads along crankshaft and block), guide (H- and X-type)"
+    "bearing loads along crankshaft and block), guide (H- and X-type moments)"
 )
 Only = Annotated[str | None, optional("WHAT,...", f"{_ONLY}.", "--only")]
 OnlyParts = Annotated[
@@ -79,7 +80,7 @@ OnlyParts = Annotated[
         "WHAT,...",
         f"{_ONLY}, journals (torque along the crankshaft), masses, parts (balancer shafts in their "
         "bearings, counterweights as sectors), pru (power related unbalance); or these "
-        "views: xy (components), textbook (multiples of F1), verdict.",
+        "views: xy (components), textbook (multiples of F1, m r ω²), verdict.",
         "--only",
     ),
 ]
@@ -88,21 +89,21 @@ Small = Annotated[
     optional("5%", "Ignore orders below this share of one cylinder's first order."),
 ]
 Whole = Annotated[
-    bool, typer.Option("--all", help="Show every table and every order above rounding errors.")
+    bool, typer.Option("--all", help="Show every table, and orders that are negligible.")
 ]
 Misfire = Annotated[
     list[str] | None,
     optional(
         "N|NAME.N",
         "Cylinder without gas pressure (NAME.N: cylinder N of engine NAME of several); repeat for "
-        "more cylinders. If it still compresses, give [cylinder.N] heat = 0 in the file.",
+        "more cylinders. If a cylinder still compresses, give it heat = 0 in [cylinder.N].",
     ),
 ]
 GuideHeight = Annotated[
     str | None,
     optional(
         "MM",
-        "With --only guide: distance of the guides' middle from the crankshaft, mm or "
+        "With --only guide: distance of the middle of the guides from the crankshaft, mm or "
         "'80 in'; default: rod length.",
         "--guide-height",
     ),
@@ -126,8 +127,8 @@ def read_orders(text: str, right: str, bounds: str, least: float, most: float) -
     ends with a half order includes half orders.
 
     Args:
-        right: Hint on the right form, for messages.
-        bounds: Hint that ranges must rise between the bounds, for messages.
+        right: Text about the right form, for messages.
+        bounds: Text about the bounds of ranges, which must rise, for messages.
 
     Raises:
         BalcliError: The text has another form.
@@ -155,8 +156,8 @@ def _count_halves(text: str) -> int | None:
 
 
 def parse_only(text: str | None) -> list[str] | None:
-    """Return the names in the value of `--only`, which are separated by commas or blanks; plurals
-    are allowed.
+    """Return the names in the value of `--only`, which commas or blanks separate; some plurals are
+    accepted.
 
     Raises:
         BalcliError: The word "all" is among them.
@@ -174,8 +175,8 @@ def parse_only(text: str | None) -> list[str] | None:
 def parse_parts(text: str | None) -> tuple[list[str] | None, frozenset[str]]:
     """Return the quantities to compute for `analyze --only`, and all its words.
 
-    If a word names only a table (`PARTS`), force and moment are computed for it, unless one of them
-    is named.
+    For a view (`PARTS`), force and moment are computed, unless the text names at least one of these
+    two.
 
     Raises:
         BalcliError: A word is unknown.
@@ -194,7 +195,7 @@ def parse_parts(text: str | None) -> tuple[list[str] | None, frozenset[str]]:
 
 
 def parse_small(text: str | None) -> float:
-    """Return the share of `--small`.
+    """Return the share in the value of `--small`; the default without a value.
 
     Raises:
         BalcliError: The value is not a share from 0 to MOST_SMALL.
@@ -207,7 +208,7 @@ _SEVERAL_SPEEDS = re.compile(r"[\d.]+(:[\d.]+)+|\d\d[\d.]*(,[1-9]\d[\d.]*)+")
 
 
 def parse_speed(text: str | None) -> float | None:
-    """Return the speed of `--speed`, rpm.
+    """Return the speed in the value of `--speed`, rpm; None if not given.
 
     Raises:
         BalcliError: The speed is not positive and finite.
@@ -223,7 +224,7 @@ def parse_speed(text: str | None) -> float | None:
 
 
 def parse_guide_height(text: str | None, units: Units) -> float | None:
-    """Return the height of `--guide-height`, m; None if not given.
+    """Return the height in the value of `--guide-height`, m; None if not given.
 
     Args:
         text: Value of the option.

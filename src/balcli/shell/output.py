@@ -155,9 +155,9 @@ def refuse_overwriting(*, reads: Sequence[str], writes: Mapping[str, Path | None
         writes: Target by option (`--output`); None: the option is not given.
 
     Raises:
-        BalcliError: A target is also a file that is read or that an engine file names, or the
-            target of another option, or its folder does not exist; standard input is read twice;
-            `-` is given for an option that does not allow it.
+        BalcliError: A target is also a file that is read, a file that an engine file names, or the
+            target of another option; the folder of a target does not exist; standard input is read
+            twice; or `-` is given for an option that does not allow it.
     """
     if list(reads).count("-") > 1:
         raise BalcliError("standard input (-) is named twice, and can be read only once")
@@ -183,14 +183,14 @@ def refuse_overwriting(*, reads: Sequence[str], writes: Mapping[str, Path | None
 
 
 def _is_same_file(one: Path, other: Path) -> bool:
-    """Return whether two paths mean the same (perhaps future) file; devices may be used twice."""
+    """Return whether two paths mean the same file, which need not exist yet; false for devices."""
     if not os.path.exists(one):
         return os.path.realpath(one) == os.path.realpath(other)
     return os.path.isfile(one) and os.path.exists(other) and os.path.samefile(one, other)
 
 
 def refuse_leaving_files(text: bytes, source: str, target: Path) -> None:
-    """Check that an engine file, written into another folder, still finds the files that it names.
+    """Check that the files that an engine file names are in the folder into which it is written.
 
     Args:
         text: Text of a valid engine or chain file.
@@ -198,7 +198,7 @@ def refuse_leaving_files(text: bytes, source: str, target: Path) -> None:
         target: Path of the new file.
 
     Raises:
-        BalcliError: The target's folder lacks a named file, or has a different one of that name.
+        BalcliError: The target's folder lacks a named file, or has another file of this name.
     """
     folder = Path(source).parent
     if folder.resolve() == target.parent.resolve():
@@ -211,7 +211,7 @@ def refuse_leaving_files(text: bytes, source: str, target: Path) -> None:
 
 
 def _list_named_files(source: Path) -> list[Path]:
-    """Return the files that an engine file names; empty for an unreadable file, reported later."""
+    """Return the files that an engine file names; empty if it cannot be read (reported later)."""
     try:
         data = parse_toml(read_bytes(source), str(source)) if os.path.isfile(source) else {}
         return [source.parent / name for name in _list_names(data)]

@@ -24,10 +24,10 @@ _SILENT_S, _EVERY_S = 2.0, 0.5  # time before the bar appears, and between updat
 
 
 class Progress:
-    """Callback that receives the work done so far and shows it on a terminal.
+    """Callback that receives the amount of work done so far and shows it on a terminal.
 
     Attributes:
-        done: Work done so far.
+        done: Work done so far, as a number or (without a total) a share from 0 to 1.
         stopped: Whether Ctrl-C asks the computation to end with the results so far.
     """
 
@@ -39,7 +39,7 @@ class Progress:
         self._bar = _make_bar(what, total) if wanted else None
 
     def __call__(self, done: float) -> bool:
-        """Report the work done so far; return whether to stop."""
+        """Report the work done so far; return whether the computation should stop."""
         self.done = done
         if self._bar is not None and time.monotonic() >= self._next:
             self._next = time.monotonic() + _EVERY_S
@@ -88,7 +88,7 @@ def reporting(what: str, total: float | None = None, shown: bool = True) -> Iter
     Args:
         what: Noun for the work, such as "samples".
         total: Total number; None: the callback receives the share of the work, from 0 to 1.
-        shown: Whether to show a bar; false if results are written to the terminal meanwhile.
+        shown: Whether to show a bar; false if results appear on the terminal meanwhile.
     """
     progress = Progress(what, total, shown)
     try:

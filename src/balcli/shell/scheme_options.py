@@ -31,7 +31,7 @@ Scheme = Annotated[
 Order = Annotated[int | None, optional("N", "Order to balance; default: lowest suitable order.")]
 At = Annotated[
     list[str] | None,
-    optional("X,Y", "Position of a shaft, mm; for two shafts twice, the shaft at -N first."),
+    optional("X,Y", "Position of a shaft, mm; repeat for two, the shaft against the crank first."),
 ]
 Position = Annotated[
     str | None, optional("Z|Z,Z", "Axial position of new devices, mm; two values for compensators.")
@@ -71,9 +71,10 @@ def parse_scheme_options(
         position: Axial position of new devices.
         planes: "ends", "throws", or axial positions of new weights.
         factor: Share of the reciprocating mass, or a range of shares.
-        measured: Mass that balances a bare pin.
+        measured: Mass that, on a bare crank pin, balances the crankshaft.
         roll: "zero" to cancel the roll of inertia.
         units: System of units of bare numbers.
+        small: Share of one cylinder's first order below which orders are ignored.
 
     Raises:
         BalcliError: A text cannot be read.
@@ -88,19 +89,20 @@ def parse_scheme_options(
         position=along[0] if len(along) == 1 else along or None,
         planes=None if planes is None else _parse_planes(planes, units),
         factor=None if factor is None else parse_factors(factor),
-        measured=weighed and weighed / 1e3,
+        measured=None if weighed is None else weighed / 1e3,
         roll=roll,
         small=None if small is None else parse_small(small),
     )
 
 
 def choose_scheme(asked: str | None, options: SchemeOptions, usual: str = "auto") -> str:
-    """Return the given scheme; without one, `factor` if a factor is given, otherwise `usual`.
+    """Return the given scheme. If none is given, return `factor` if a factor or measured mass is
+    given, otherwise `usual`.
 
     Args:
         asked: Value of `--scheme`; None: not given.
         options: Options of the scheme.
-        usual: Scheme if neither is given.
+        usual: Scheme if nothing of this is given.
     """
     if asked is not None:
         return asked
@@ -109,7 +111,8 @@ def choose_scheme(asked: str | None, options: SchemeOptions, usual: str = "auto"
 
 
 def choose_beside(asked: str | None, options: SchemeOptions) -> str | None:
-    """Return the scheme to compare with the engine; None if neither scheme nor options are given.
+    """Return the scheme whose devices are shown in addition to the engine as it is; None if neither
+    a scheme nor options of a scheme are given.
 
     Args:
         asked: Value of `--scheme`; None: not given.

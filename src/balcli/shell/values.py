@@ -47,7 +47,7 @@ _IMPERIAL_AND_SI = {
 
 
 def read_length(option: str, text: str, units: Units = Units.SI) -> float:
-    """Return a length, m; an error names the option and its text.
+    """Return a length, m. Errors name the option and the text.
 
     Args:
         option: Name of the option, for messages.
@@ -63,10 +63,10 @@ def read_length(option: str, text: str, units: Units = Units.SI) -> float:
 def read_lengths(
     option: str, text: str, needed: str, count: int | None = None, units: Units = Units.SI
 ) -> tuple[float, ...]:
-    """Return the lengths in a text, separated by commas, m.
+    """Return the lengths (m) in a text, which commas separate; see `read_length`.
 
     Args:
-        needed: Description of the right value, for messages: `one place along z in mm, such as 40`.
+        needed: Description of valid values, for messages: `one place along z in mm, such as 40`.
         count: Required number of lengths; None: one or more.
 
     Raises:
@@ -83,8 +83,8 @@ def read_lengths(
 
 
 def read_inertia(option: str, text: str, units: Units = Units.SI) -> float:
-    """Return a moment of inertia, kg m2; raise BalcliError with the option and its text, also if it
-    is not above 0.
+    """Return a moment of inertia, kg m2. If the text is not such a figure, or not above 0, raise
+    BalcliError with the option and the text.
     """
     found = read_figure(option, text, INERTIA, units) / 1e6
     if not 0 < found < LARGEST_INERTIA:
@@ -108,8 +108,8 @@ def as_bare_angles(option: str, text: str) -> str:
 
 
 def read_number(option: str, text: str, needed: str) -> float:
-    """Return a finite plain number; raise BalcliError with the option, its text and the right
-    value.
+    """Return a finite number without a unit. If the text is anything else, raise BalcliError with
+    the option, the text and `needed`, which describes valid values.
     """
     value = _as_bare(text)
     if value is None or not math.isfinite(value):
@@ -126,7 +126,7 @@ def read_share(option: str, text: str, needed: str) -> float:
 
 
 def read_figure(option: str, text: str, dimension: Dimension, units: Units = Units.SI) -> float:
-    """Return a finite figure in the unit of bare numbers of its dimension.
+    """Return a finite figure, converted to the default unit of its dimension (mm for a length).
 
     Args:
         option: Name of the option, for messages.
@@ -135,7 +135,7 @@ def read_figure(option: str, text: str, dimension: Dimension, units: Units = Uni
         units: System of units of a bare number.
 
     Raises:
-        BalcliError: The text is not such a figure; the error names the option and the text.
+        BalcliError: The text is not a figure of this dimension; the error names option and text.
     """
     value = _as_bare(text)
     if units is Units.IMPERIAL and value and dimension in _IMPERIAL_AND_SI:
@@ -170,7 +170,7 @@ def optional(metavar: str, text: str, *names: str, **more: Any) -> object:
     """Return an option whose help shows no default.
 
     Args:
-        metavar: Placeholder of its value in help.
+        metavar: Placeholder for the option's value in help.
         text: Help of the option.
         names: Names as typed, such as --scheme; default: the parameter's name.
         more: Further arguments of `typer.Option`.
@@ -179,7 +179,7 @@ def optional(metavar: str, text: str, *names: str, **more: Any) -> object:
 
 
 def argument(metavar: str, text: str, **more: Any) -> object:
-    """Return an argument of a command whose help shows no default; parameters as for `optional`."""
+    """Return an argument of a command; help shows no default for it. See `optional`."""
     return typer.Argument(metavar=metavar, help=text, **{"show_default": False, **more})
 
 
@@ -192,7 +192,7 @@ Speeds = Annotated[
     str | None,
     optional(
         "RPM:RPM:STEP|RPM,...",
-        "Crank speeds; default: 1/8 to 1 times the file's speed.",
+        "Crank speeds; default: from 1/8 of the file's speed to the file's speed.",
         "--speeds",
         "--speed",
     ),

@@ -52,8 +52,8 @@ def engine_facts(
     engine: Engine, system: System, *, whole: bool, speeds_rpm: Sequence[float] = ()
 ) -> Facts:
     """Return cylinders, crank, firing, speed, included masses, and devices. If `whole`, the
-    highest order, the reference of moments and the source follow. Several engines have a line each,
-    followed by the facts that they have in common.
+    highest order, the point of reference of the moments and the source follow. Several engines have
+    a line each, followed by the facts that they have in common.
 
     Args:
         whole: Whether all facts are returned.
@@ -146,7 +146,7 @@ def tell_speed(engine: Engine, *, steady: bool = False) -> str:
         engine: Engine at this speed.
         steady: Whether the figures ignore an uneven speed.
     """
-    counts = "uneven: figures are those of the uneven speed"
+    counts = "uneven; all figures take this into account"
     counts = "steady; the uneven speed of the file is not used" if steady else counts
     uneven = f", {counts}" if engine.ripple else ""
     return f"{given(float(engine.speed_rpm))} rpm{uneven}"
@@ -175,7 +175,7 @@ def _throws(engine: Engine) -> str:
     shown = ", ".join(angles[:THROWS_SHOWN])
     more = ", …" * (len(pins) > THROWS_SHOWN)
     start = "" if angles[0] == "0" else " from cylinder 1's pin"
-    splay = f", split pins: the next bank's at {lead:+g} deg" if lead else ""
+    splay = f", split pins: the next bank's pin at {lead:+g} deg" if lead else ""
     return f"{shown}{more} deg{start}{splay}"
 
 
@@ -272,7 +272,7 @@ def _firing(engine: Engine) -> str:
     intervals, even, splay = f"every {gaps[0]:.4g}", "", engine.splay_for_even_firing
     if max(gaps) - min(gaps) >= EVEN_DEG:
         intervals = f"after {', '.join(f'{gap:.4g}' for gap in gaps)}"
-        even = "" if splay is None else f" (crank.splay = {splay:g} makes it even)"
+        even = "" if splay is None else f" (crank.splay = {splay:g} makes them equal)"
     order = "-".join(map(str, engine.fires_deg))
     return f"{order}, {intervals} deg{even}, {tell_strokes(engine)}"
 

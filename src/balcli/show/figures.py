@@ -22,11 +22,11 @@ from .units import ShownUnit, System
 
 
 class Component(NamedTuple):
-    """One order along an axis: amplitude * cos(order * angle - phase).
+    """One order of a force or moment along an axis: amplitude * cos(order * angle - phase).
 
     Attributes:
         amplitude: Amplitude.
-        phase_deg: Phase; null for a mean and for an amplitude of 0.
+        phase_deg: Phase; null for order 0 (a mean) and for an amplitude of 0.
     """
 
     amplitude: float
@@ -41,7 +41,7 @@ class Vector:
     Attributes:
         forward: Vector that turns with the crank: real and imaginary part.
         backward: Vector that turns against the crank: real and imaginary part.
-        major: Longer semi-axis of the ellipse, the largest value.
+        major: Longer semi-axis of the ellipse, which is the largest magnitude.
         minor: Shorter semi-axis; 0 for a straight line.
         axis_deg: Direction of the major axis, from x; null for a circle and a point.
         x: Component along x.
@@ -65,7 +65,8 @@ class FreeForce(Vector):
 
     Attributes:
         vertical: Component along `frame.up`; left out if the file does not give `frame.up`.
-        horizontal: Component 90 deg ahead of `frame.up`; left out without `frame.up`.
+        horizontal: Component along the axis 90 deg after `frame.up` in the direction of crank
+            rotation; left out without `frame.up`.
     """
 
     vertical: Component | None = None
@@ -78,7 +79,8 @@ class FreeMoment(Vector):
 
     Attributes:
         yawing: Component about `frame.up`; left out if the file does not give `frame.up`.
-        pitching: Component about the axis 90 deg ahead of `frame.up`; left out without `frame.up`.
+        pitching: Component about the axis 90 deg after `frame.up` in the direction of crank
+            rotation; left out without `frame.up`.
     """
 
     yawing: Component | None = None
@@ -89,10 +91,10 @@ class Harmonic(NamedTuple):
     """One order of a couple, torque or roll: cos * cos(order * angle) + sin * sin(order * angle).
 
     Attributes:
-        cos: Cosine part, N·m.
-        sin: Sine part, N·m.
+        cos: Coefficient of the cosine, N·m.
+        sin: Coefficient of the sine, N·m.
         amplitude: Amplitude, N·m.
-        peak_deg: First crank angle of the largest value; null for a mean and a zero amplitude.
+        peak_deg: First crank angle of the largest value; null for order 0 and an amplitude of 0.
         balanced: Whether the value is 0 except for rounding errors.
     """
 
@@ -171,12 +173,12 @@ class EngineName(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True)
 class EngineState:
-    """State of an engine while it is analyzed.
+    """Speed, gas and point of reference for which an engine is analyzed.
 
     Attributes:
         speed_rpm: Mean speed of the crank.
         no_gas_in: Cylinders without gas force.
-        no_burning_in: Cylinders that compress and burn nothing.
+        no_burning_in: Cylinders that compress their gas but burn nothing.
         reference_mm: Point of reference: x, y, z.
     """
 
@@ -194,7 +196,7 @@ class OrdersAndPeaks:
 
     @property
     def moments_known(self) -> bool:
-        """Whether moments are known: if the file gives the positions of the throws."""
+        """Whether the file gives the positions of the throws, without which moments are unknown."""
         raise NotImplementedError
 
     @property
@@ -220,7 +222,7 @@ def find_peaks(spectra: Spectra) -> Peaks:
 
 
 def measure_engine(engine: Engine) -> EngineSize:
-    """Return name and size of a single engine (no trailing axes)."""
+    """Return name and size of a single engine (not of an array of variants)."""
     count, volume = len(engine.numbers), float(engine.displacement_m3)
     return EngineSize(engine.name, count, volume, engine.placed or None)
 
@@ -243,7 +245,7 @@ def list_assumed(
     names: Sequence[str], assumed: Iterable[tuple[str, ...] | None]
 ) -> tuple[str, ...] | None:
     """Return the values that are assumed because the files of several engines leave them out: first
-    those common to all, then those of single engines after the engine's name; None: no value.
+    those common to all, then those of single engines after the engine's name; None if empty.
 
     Args:
         names: Names of the engines.
@@ -270,7 +272,7 @@ def clean(value: Figure) -> float | None:
 
 # ------------------------------------------------------------------ order by order
 def list_orders(spectra: Spectra) -> list[OrderFigures]:
-    """Return one record for each order, with the computed kinds."""
+    """Return one record for each order, with the computed kinds of force and moment."""
     free: dict[Kind, type[Vector]] = {FORCE: FreeForce, MOMENT: FreeMoment}
     columns: Node = {
         kind.key: list_vectors(phasors, free[kind], spectra.up_deg)
@@ -286,8 +288,8 @@ def list_orders(spectra: Spectra) -> list[OrderFigures]:
 def list_vectors(
     phasors: Phasors, record: type[Vector] = Vector, up_deg: float | None = None
 ) -> list[Vector]:
-    """Return a force or moment for each order, with vertical and horizontal components if `up_deg`
-    is known.
+    """Return a record of a force or moment for each order, with vertical and horizontal components
+    if `up_deg` is given.
     """
     p = phasors
     columns = (column.tolist() for column in (p.forward, p.backward, p.major, p.minor, p.axis_deg))
@@ -303,7 +305,7 @@ def _list_components(phasors: Phasors) -> Iterator[list[Component]]:
 
 
 def list_harmonics(phasors: Phasors) -> list[Harmonic]:
-    """Return a couple, torque or roll for each order."""
+    """Return a record of a couple, torque or roll for each order."""
     return list_coefficients(phasors.orders, phasors.x, phasors.balanced)
 
 
@@ -331,7 +333,7 @@ def size_or_mean(c: complex, order: float) -> float:
 
 def peak_deg(c: complex | Complex, orders: ArrayLike) -> Array:
     """Return the first crank angle in [0, 360/order) at which `Re(c e^{i n theta})` is largest,
-    deg; nan for a mean or an amplitude of 0.
+    deg; nan for order 0 and for an amplitude of 0.
 
     Args:
         c: Coefficients, any shape.
@@ -378,8 +380,8 @@ def figure_rows(
 def record_rows(
     cylinder: CylinderNumber, quantity: str, order: float | None, record: object, *without: str
 ) -> Iterator[FigureRow]:
-    """Yield every figure of a record in SI units, without those of some keys; other arguments as
-    for `FigureRow`.
+    """Yield every figure of a record in SI units, except the keys `without`; the other arguments
+    are those of `FigureRow`.
     """
     for figure in list_figures(to_document(record), without):
         yield FigureRow(cylinder, quantity, order, *figure)

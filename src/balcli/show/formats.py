@@ -90,7 +90,7 @@ def stamp(document: object) -> Any:
 
 
 class Format(StrEnum):
-    """Format of a written result; only one command has each of the last four."""
+    """Format of a written result; each of the last four belongs to one command."""
 
     TABLE = "table"
     JSON = "json"

@@ -107,7 +107,7 @@ def draw_locus(
         if largest:
             inset, t = ax.inset_axes((0.7, 0.7, 0.3, 0.3)), unit.fit(largest)
             set_up_plane(inset, largest / t.size)
-            inset.plot(path.imag / t.size, path.real / t.size, color=BLUE)  # angles would overlap
+            inset.plot(path.imag / t.size, path.real / t.size, color=BLUE)  # no room for angles
             inset.set_title(f"after, {t.name}", fontsize=8)
             inset.tick_params(labelsize=6)
         else:
@@ -137,7 +137,7 @@ def draw_paths(
         paths: Paths by label, in the unit of the axes, real upwards, each of shape (angles,).
         names: Names of the axes.
         unit: Unit of the axes.
-        taper: Difference of line widths between a path and the one drawn over it.
+        taper: Difference of line widths between a path and the path drawn over it.
     """
     from matplotlib import colormaps
 
@@ -223,7 +223,7 @@ def draw_order(
 # ------------------------------------------------------------------ stars
 _BANKS = (BLUE, RED, GREEN, SOFT)
 _WAYS = {"forward": "with the crank", "backward": "against it"}
-_SAME = 1e-6  # vectors whose directions differ by less are parallel
+_SAME = 1e-6  # vectors whose directions differ by less (rad) are parallel
 # Sideways shift of a number from its vector, and of a vector that runs back along the vector before
 # it, as a share of half the side of the picture.
 _GAP = 0.07
@@ -314,8 +314,8 @@ def _set_up_square(ax: Axes, middle: complex, limit: float) -> None:
 
 
 def _write_numbers(ax: Axes, numbers: Iterable[tuple[complex, complex, str]]) -> None:
-    """Write each number (place, shift and text) at its place plus its shift; where these lie close
-    together, the numbers stand side by side.
+    """Write each number (place, shift and text) at its place plus its shift; where
+    numbers would overlap, they stand side by side.
     """
     found: dict[complex, tuple[complex, list[str]]] = {}
     for place, out, name in numbers:

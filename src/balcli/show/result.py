@@ -53,7 +53,7 @@ class Result:
         return html_text(Sheet(repr(self)[1:-1], (outline(list_columns(self)),)), self.doubts)
 
     def to_dict(self) -> Node:
-        """Return the command's JSON document (docs/json.md) as a dict; its keys name SI units."""
+        """Return the command's JSON document (docs/json.md) as a dict; keys contain SI units."""
         return stamp(find_renderer(self).document(self))
 
     def rows(self) -> list[Node]:

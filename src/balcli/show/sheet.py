@@ -33,7 +33,8 @@ def get_digits(usual: int = USUAL_DIGITS) -> int:
 
 
 NAMELESS = "engine without a name"
-# An order below this share of one cylinder's value, or of the largest order, is negligible.
+# An order is negligible if its amplitude is below this share of one cylinder's amplitude, or of the
+# largest amplitude of all orders.
 NEGLIGIBLE = 1e-3
 NOTHING, UNKNOWN = "balanced", "–"  # words for a force of 0, and for an unknown force
 
@@ -200,7 +201,7 @@ def degrees(value: float, turn: float = 360) -> str:
     return "0.0" if tenths == 360 else f"{tenths:.1f}"
 
 
-VISIBLE = 1e-3  # orders below this share of the largest order are invisible in pictures
+VISIBLE = 1e-3  # amplitudes below this share of the largest one are invisible in pictures
 
 
 R = TypeVar("R")

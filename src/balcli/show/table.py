@@ -117,7 +117,7 @@ def _longest_word(texts: Iterable[str]) -> int:
 
 def _share_out(width: int, least: Sequence[int], natural: Sequence[int], gap: int) -> list[int]:
     """Return the width of each column: its least width, plus a share of the remaining width. Each
-    remaining place goes to the column that lacks most.
+    remaining place goes to the column that lacks the most places.
 
     Args:
         width: Width of the table.

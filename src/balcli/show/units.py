@@ -68,7 +68,7 @@ class System(NamedTuple):
 
     @property
     def of_parts(self) -> dict[str, ShownUnit]:
-        """Units of masses, moments of inertia and lengths of single parts, by the SI unit."""
+        """Units of masses, moments of inertia and lengths of machine parts, by the SI unit."""
         mass, inertia = self.mass, self.inertia
         if self is SI:
             mass, inertia = ShownUnit("g", 1e-3), ShownUnit("kg·mm²", 1e-6)
@@ -79,8 +79,8 @@ class System(NamedTuple):
         return self.force if kind.dimension == "force" else self.moment
 
     def instead_of(self, name: str) -> ShownUnit:
-        """Return this system's unit for the SI unit of a name; names of other units (rpm, deg) are
-        kept.
+        """Return this system's unit in place of the SI unit with this name; other units (rpm, deg)
+        are kept.
         """
         pairs = zip(SI, self, strict=True)
         return next((ours for si, ours in pairs if si.name == name), ShownUnit(name, 1))
@@ -125,7 +125,7 @@ SYSTEMS = {"si": SI, "imperial": IMPERIAL}
 
 
 def unit_of_name(name: str) -> ShownUnit:
-    """Return the unit of this name. Units of force, moment and stress have larger units for large
+    """Return the unit with this name. Units of force, moment and stress have larger units for large
     values.
     """
     scaled = (SI.force, SI.moment, SI.stress)

@@ -64,8 +64,8 @@ class Bobweight(NamedTuple):
         rotating_g: Sum of all rotating parts.
         reciprocating_g: Sum of all reciprocating parts.
         bobweight_g: Rotating mass plus factor times reciprocating mass.
-        throw_g: Share of this pin in the throw mass at the crank radius; counterweights balance it
-            in addition to the bobweight.
+        throw_g: Part of the throw mass (at the crank radius) that belongs to this pin;
+            counterweights balance this mass in addition to the bobweight.
         lines: All parts that are weighed, in the order of the card.
     """
 
@@ -152,9 +152,9 @@ class PlaneNeed(NamedTuple):
 
     Attributes:
         position_mm: Position of the plane along the crankshaft.
-        wanted: Counterweight that the masses on the pins require in this plane, kg m.
+        wanted: Unbalance that the masses on the pins require in this plane, kg m.
         present: Unbalance of the file's counterweights in this plane, kg m.
-        missing: Unbalance that has to be added, kg m.
+        missing: Unbalance that has to be added: wanted minus present, kg m.
     """
 
     position_mm: float

@@ -1,6 +1,6 @@
 """The scheme `factor` of balancing shops: counterweights opposite each crank pin balance all
-rotating mass and a share (the factor) of the reciprocating mass of its rods. Counterweights of the
-file are subtracted.
+rotating mass and a share (the factor) of the reciprocating mass of its rods. Counterweights that
+the engine file already has are subtracted.
 """
 
 from __future__ import annotations
@@ -28,11 +28,11 @@ from .options import SchemeOptions
 from .planes import SAME_PLACE, find_unbalance, move_along, read_planes
 from .remedy import Remedy, fit_devices, remove_counterweights
 
-_NEARLY = 0.05  # masses nearly cancel if their vector sum is below this share of the largest
-_FLAT = 1e-9  # factors are equally good if their peaks differ by less than this share of the peak
-_ROUNDS = 32  # steps of the search, which narrow the range of factors to 2e-7
+_NEARLY = 0.05  # masses nearly cancel if their vector sum is below this share of the largest mass
+_FLAT = 1e-9  # factors are equally good if their peaks differ by this share of the largest or less
+_ROUNDS = 32  # number of search steps; they narrow the range of factors to 2e-7 of its width
 _MEASURED = "Opposite the pin: the counterweights that the measured mass implies"
-_UNCHANGED = 1e-9  # a change of a weight by a smaller share counts as 0
+_UNCHANGED = 1e-9  # a bobweight that changes by a smaller share counts as unchanged
 
 
 class _Pin(NamedTuple):
@@ -41,7 +41,7 @@ class _Pin(NamedTuple):
     Attributes:
         cylinders: Numbers of its cylinders.
         unbalance: Unbalance to be balanced (throw included) at crank angle 0, kg m.
-        z: Centre of these masses along the crank, m.
+        z: Centre of the masses on the pin along the crank, m.
     """
 
     cylinders: tuple[CylinderNumber, ...]
@@ -68,15 +68,16 @@ def size_by_factor(engine: Engine, options: SchemeOptions) -> Remedy:
     """Fit counterweights by the given factor (default 0.5), or by the mass measured on a pin.
 
     Counterweights of the file are subtracted, and the missing unbalance is fitted in the given
-    planes; pins and weights are transferred to them by the lever rule. Default planes are those of
-    the file's counterweights, or, if these are in fewer than two planes, those of the pins. Pins at
-    the same z share a plane if the file has a counterweight, since it is not known to which of them
-    the weight belongs; otherwise each pin has its own plane.
+    planes. The lever rule divides the unbalance of each pin and of each counterweight of the file
+    between these planes. By default, the planes are those of the file's counterweights if these are
+    in at least two planes, else those of the pins. Pins at the same z share a plane if the file has
+    a counterweight, since it is not known to which of these pins the weight belongs; otherwise each
+    pin has its own plane.
 
-    For several factors, the peaks of each are listed, and the factor with the smallest peak force
-    is fitted. If the pins balance each other (`FactorPeaks.by_moment`), the factor with the
-    smallest peak moment is fitted instead. The details list the best factors between the smallest
-    and the largest given one; for a single factor, between 0 and 1.
+    If several factors are given, the peaks for each factor are listed, and the factor with the
+    smallest peak force is fitted. If the pins balance each other (`FactorPeaks.by_moment`), the
+    factor with the smallest peak moment is fitted instead. The details list the best factors
+    between the smallest and the largest given factor; for a single given factor, between 0 and 1.
 
     Raises:
         BalcliError: A factor is out of range, planes are given but moments are not known, or the
@@ -86,7 +87,7 @@ def size_by_factor(engine: Engine, options: SchemeOptions) -> Remedy:
         return _size_each(engine, options)
     if engine.rotary:
         raise BalcliError(
-            "scheme factor: crank pins that stand still have no rotating mass; use auto"
+            "scheme factor is for pins that turn; a rotary engine's pin stands still; use auto"
         )
     if options.measured is not None and options.factor is not None:
         return _change_measured(engine, options)
@@ -107,8 +108,8 @@ def size_by_factor(engine: Engine, options: SchemeOptions) -> Remedy:
     note = _note(fitting, best, found.z, own)
     if not note and options.planes is None and planes is not None:
         note = (
-            "these are the planes of the counterweights of the file; --planes throws computes "
-            "weights at every throw instead"
+            "the weights are in the planes of the file's counterweights; --planes throws computes "
+            "weights for every throw instead"
         )
     return fitting.remedy._replace(
         note=note,
@@ -338,8 +339,8 @@ def _choose_planes(engine: Engine, options: SchemeOptions) -> tuple[float, ...] 
 
 
 def _describe(engine: Engine, options: SchemeOptions, factor: float) -> Node:
-    """Return the factor as a share of all mass on the pin and as a share of one cylinder's, and the
-    measured mass if given.
+    """Return the factor as a share of all reciprocating mass on the pin and as a share of one
+    cylinder's reciprocating mass, and the measured mass if given.
     """
     details: Node = {
         "factor": factor,
@@ -386,7 +387,7 @@ def _fit_factor(
 def _find_needs(engine: Engine, factor: float, planes: tuple[float, ...] | None) -> _Planes:
     """Return the unbalance that each plane needs, has and lacks. Without given planes, each pin has
     its own plane; but if the file has counterweights, pins at the same position share a plane,
-    because it is not known to which of them a weight belongs.
+    because it is not known to which of these pins a weight belongs.
     """
     pins = _list_pins(engine, factor)
     places, weights = _find_counterweights(engine)
@@ -413,7 +414,7 @@ def _find_needs(engine: Engine, factor: float, planes: tuple[float, ...] | None)
 def _size_each(engine: Engine, options: SchemeOptions) -> Remedy:
     """Fit counterweights to geared engines, to each on its own crank as if it were alone."""
     if options.measured is not None or len(options.factor or ()) > 1:
-        raise BalcliError("geared engines take one --factor, no --measured; or balance one alone")
+        raise BalcliError("geared engines: give one --factor, no --measured, or balance each alone")
     remedy, cards, needs = Remedy("factor", 1), list[Bobweight](), list[PlaneNeed]()
     for one in map(move_along, engine.cranks):
         own = size_by_factor(one.engine, options)

@@ -33,7 +33,7 @@ from .residual import (
     hold_steady,
 )
 
-# Quantities that can be targets, and their parts; roll_total includes the gas.
+# Possible targets, and the parts of a residual that each contains; roll_total includes the gas.
 TARGETS = {
     "force": FORCE,
     "moment": MOMENT,
@@ -41,8 +41,8 @@ TARGETS = {
     ROLL_TOTAL.name: (ROLL,),
 }
 _LOST = 1e-10  # singular values below this share of the largest count as 0
-_ROUNDING = 1e-12  # unbalances below this share of the largest of their order are rounding
-_REASON = "Place from the file; smallest sum of squares of the {} left at the device's order"
+_ROUNDING = 1e-12  # unbalances below this share of the largest unbalance of their order count as 0
+_REASON = "Place from the file; leaves the least sum of squares of {} at the device's order"
 
 
 def list_to_fit(model: EngineFile) -> list[tuple[str, DeviceTable]]:
@@ -69,15 +69,15 @@ def size_fit(engine: Engine, model: EngineFile, targets: Sequence[str] | None = 
     """Fit the unbalances of all devices of a file that are "fit".
 
     An angle that the file gives is kept. If the targets do not determine the unbalances, the
-    smallest ones are used.
+    smallest unbalances are used that cancel the targets best.
 
     Args:
         engine: Engine without these devices.
         model: Engine file with these devices.
-        targets: Quantities to cancel, of `TARGETS`; default: force and, if known, moment.
+        targets: Quantities to cancel (keys of `TARGETS`); default: force and, if known, moment.
 
     Raises:
-        BalcliError: A target is unknown, or the file does not determine it.
+        BalcliError: A target does not exist, or the file lacks data for it.
     """
     refuse_geared(engine)
     chosen, named = _check_targets(engine, targets), list_to_fit(model)
@@ -101,7 +101,7 @@ def size_fit(engine: Engine, model: EngineFile, targets: Sequence[str] | None = 
     if undetermined := unknowns - rank:
         are = "unknowns are" if undetermined > 1 else "unknown is"
         told = f"{undetermined} {are} not determined by these targets"
-        notes.insert(0, f"{told}; the smallest weights are given.")
+        notes.insert(0, f"{told}; the smallest unbalances are used.")
     details = {"target": list(chosen), "unknowns": unknowns, "undetermined": undetermined}
     remedy = Remedy(FIT, note=" ".join(notes), details=details)
     fitted = [found[name] for name, _ in named]
@@ -127,7 +127,8 @@ def _set_up(
 ) -> tuple[list[Array], Array]:
     """Return the effect of each device of an order, shape (values, unknowns), and the values to
     cancel, shape (values,). Values are real and imaginary parts of the targets as shares of one
-    cylinder's first order. A device has one unknown if its angle is given, else two.
+    cylinder's first order. A device has one unknown (its unbalance) if its angle is given, else
+    two (real and imaginary part of the unbalance).
     """
     residual, scales = find_residual(engine, order), find_scales(engine)
     if not scales.force:
@@ -154,8 +155,8 @@ def _set_up(
 
 
 def _fill(table: DeviceTable, values: Array) -> DeviceTable:
-    """Return the table with a fitted unbalance (kg m): one value if its angle is given, else
-    two.
+    """Return the table with a fitted unbalance (kg m). `values`: the unbalance if its angle is
+    given, else real and imaginary part.
     """
     angle = measure_direction(complex(*values)) if values.any() else 0.0
     if len(values) == 1:

@@ -1,15 +1,16 @@
 """Size devices order by order by least squares, and explain them in sentences.
 
-Each order is fitted to the residual with all earlier devices. A reason is one sentence: it names
-the part that a device cancels, and why a simpler device does not. Sizes are not in the reasons but
-in the tables, which use the units of the reader.
+For each order, devices are fitted to the residual that all earlier devices leave. A reason is one
+sentence: it names the part that a device cancels, and why a simpler device cannot cancel it. Sizes
+are not in the reasons but in the tables, which use the units of the reader.
 
 The effect of a device is linear in its complex unbalance (docs/theory.md), so all sizing is
-weighted linear least squares. In units of `n^2 omega^2`, a device of order n with unbalance u at z
-and place p adds `u` to the free force, `(z - z_ref) u` to the moment divided by i, and `Im(conj(p)
-u ...)` to the roll; a slider adds to both rotating vectors. A *slot* is a place and
-kind for a device. A *part* is one rotating vector of force or moment, or the roll. A scheme chooses
-slots and the parts to cancel.
+weighted linear least squares. A shaft that turns with the crank at order n, with unbalance u at z
+along the crank and at `p = x + iy`, adds (divided by `n^2 omega^2`) `u` to the free force, `(z -
+z_ref) u` to the moment divided by i, and `Im(conj(p) u e^{in theta})` to the roll. A slider adds to
+both rotating vectors: the one that turns with the crank and the one that turns against it. A *slot*
+is a place and kind for a device. A *part* is one rotating vector of force or moment, or the roll. A
+scheme chooses slots and the parts to cancel.
 """
 
 from __future__ import annotations
@@ -66,7 +67,7 @@ _LEFT_OF = {  # keys of details, and the parts whose remaining size each detail 
     "force_with_crank_left_N": (FORWARD_FORCE,),
     "moment_with_crank_left_Nm": (FORWARD_MOMENT,),
 }
-LEFT = 1e-12  # largest share of a part that may remain after it is cancelled
+LEFT = 1e-12  # a cancelled part may remain up to this share of its size
 
 
 class Slot(NamedTuple):
@@ -74,12 +75,12 @@ class Slot(NamedTuple):
 
     Attributes:
         kind: Kind of the device.
-        order: Speed over crank speed.
-        sense: Sense of rotation: 1 with the crank, -1 against it; 0 for a slider.
+        order: Speed of the device over crank speed.
+        sense: Direction of rotation: 1 with the crank, -1 against it; 0 for a slider.
         z: Position along the crank, m.
         place: Position x + iy in the plane, m.
         direction_deg: Direction of a slider's path, from x.
-        role: Role of a shaft.
+        role: Role of a shaft: "balancer" or "compensator".
         carrier: For geared engines, the engine whose crank carries the counterweight.
     """
 
@@ -94,7 +95,7 @@ class Slot(NamedTuple):
 
     @classmethod
     def on_crank(cls, one: Placed, z: float) -> Slot:
-        """Return the slot of a counterweight on a crank: of the only engine, or of a geared one."""
+        """Return the slot of a counterweight on the crank of a single engine or a geared engine."""
         if not one.name:
             return cls("counterweight", 1, 1, z)
         place = complex(place_in_plane(*one.at_m[:2]))
@@ -134,13 +135,13 @@ class Slot(NamedTuple):
 
 
 class Fit(NamedTuple):
-    """Solution of the least squares.
+    """Solution of the least squares problem.
 
     Attributes:
         unbalances: Unbalance for each slot, kg m.
         condition: Condition number of the weighted system; infinite if the slots cannot produce
             some combination of the parts.
-        left: Share of the parts that is not cancelled.
+        left: Share of the parts that remains.
     """
 
     unbalances: tuple[complex, ...]
@@ -176,14 +177,14 @@ def size_unbalances(
 ) -> Fit:
     """Return the smallest unbalances that cancel these parts as well as the slots can.
 
-    Moments and roll are weighted by the longest arm of a slot. Parts that can be cancelled leave a
-    residual of a few ulp.
+    Before the least squares, moments and roll are divided by the longest lever arm of a slot. Parts
+    that can be cancelled leave a residual of a few ulp.
 
     Args:
         slots: Slots for devices.
-        residual: Residual of their order.
+        residual: Residual of the order of the slots.
         parts: Parts to cancel.
-        least_arm: Least arm by which moments and roll are divided, m.
+        least_arm: Moments and roll are divided by at least this arm, m.
     """
     weights = _weigh(slots, residual, parts, least_arm)
     devices = [slot.make_device(u) for slot in slots for u in (1 + 0j, 1j)]
@@ -215,7 +216,7 @@ def solve_exactly(
     if left > max(noise, LEFT * size):
         raise BalcliError(
             f"order {residual.order}: unbalances of {largest * 1e6:.3g} g mm would work against "
-            f"each other and leave {left / size:.1g} of the parts; choose planes farther apart"
+            f"each other, leaving {left / size:.1g} of force or moment; choose planes farther apart"
         )
     if len(slots) == 1:  # least squares would leave rounding in the force
         return fit._replace(unbalances=size_unbalances(slots, residual, parts[:1]).unbalances)
@@ -226,8 +227,8 @@ def _weigh(
     slots: Sequence[Slot], residual: Residual, parts: Sequence[ResidualPart], least_arm: float = 0.0
 ) -> NDArray[np.float64]:
     """Return the weights of the parts: 1 for forces; for moments and roll the inverse of the
-    longest arm of a slot about the point of reference (at least `least_arm`; 1 m if there is no
-    arm).
+    longest arm of a slot about the point of reference (at least `least_arm`; 1 m if all arms are
+    0).
     """
     place, z = residual.reference
     arms = [max(abs(slot.z - z), abs(slot.place - place)) for slot in slots]
@@ -273,7 +274,7 @@ class Fitting(NamedTuple):
         reason: str,
         residual: Residual | None = None,
     ) -> Fitting:
-        """Return the fitting with devices in these slots that cancel the parts of their order.
+        """Return the fitting with devices in these slots that cancel these parts.
 
         Args:
             slots: Slots for devices.
@@ -321,7 +322,7 @@ class Fitting(NamedTuple):
         return self.cancel(slots, FORWARD, _ROTATING, turning)
 
     def describe_left(self, order: int, *keys: str, group: str = "") -> Fitting:
-        """Return the fitting with details on the residual; `keys` are keys of `_LEFT_OF`."""
+        """Return the fitting with the residual in its details; `keys` are keys of `_LEFT_OF`."""
         left = self.find_residual(order)
         return self.add_details(group, **{key: left.size(*_LEFT_OF[key]) for key in keys})
 
@@ -355,8 +356,8 @@ def _size_total_roll(engine: Engine, order: int) -> float:
 
 
 def explain_counterweights(residual: Residual, sense: int = 1) -> str:
-    """Return the reason for counterweights against the part of order 1 that turns in this sense: 1
-    as the first crank, -1 against it.
+    """Return the reason for counterweights against the part of order 1 that turns in the direction
+    `sense`: 1 as the first crank, -1 against it.
     """
     both = "both" if residual.force(sense) and residual.moment(sense) else "it"
     turn = "counterweights also turn with it and cancel"
@@ -367,12 +368,12 @@ def explain_counterweights(residual: Residual, sense: int = 1) -> str:
 def explain_shaft(
     residual: Residual, sense: int, count: int, stays: str = "", *, halves: bool = False
 ) -> str:
-    """Return the reason for a shaft with this many eccentrics against the parts that turn in one
-    sense.
+    """Return the reason for a shaft with this many eccentrics against the force and moment that
+    turn in one direction.
 
     Args:
         residual: Residual of the order.
-        sense: Sense of rotation: 1 with the crank, -1 against it.
+        sense: Direction of rotation: 1 with the crank, -1 against it.
         count: Number of eccentrics.
         stays: Words on the moment that remains (`tell_moment`); empty if no moment remains.
         halves: Whether the eccentric is divided into two halves.
@@ -389,13 +390,13 @@ def explain_shaft(
 
 
 def tell_moment(residual: Residual, sense: int, z: float, cure: str) -> str:
-    """Return words on the moment that one eccentric at z (m) leaves, with the remedy; empty if no
-    moment remains.
+    """Return words on the moment that one eccentric at z (m) leaves, ending in `cure`, a clause on
+    how to cancel that moment; empty if no moment remains.
     """
     return "" if takes_moment(residual, sense, z) else f"; a moment remains, which {cure}"
 
 
 def _name(residual: Residual, sense: int) -> str:
-    """Return the order and the kinds of its parts that turn in this sense, in words."""
+    """Return in words the order and whether force, moment or both turn in this direction."""
     kinds = [part.kind for part in list_parts(sense) if residual.parts[part]]
     return f"Order {residual.order} {' and '.join(kinds)}"

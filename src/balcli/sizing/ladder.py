@@ -4,8 +4,8 @@ leaves.
 Counterweights in the end planes cancel the part of order 1 that turns with the crank.
 Counterweights at every throw cancel it where it arises, so that main bearings do not carry it.
 Shafts cancel the part of order 1 that turns against the crank, and order 2. A step is listed if the
-part that it cancels, or the main bearing load that it saves, is not small compared with one
-cylinder.
+part that it cancels, or its reduction of the main bearing load, is not small compared with one
+cylinder's first order.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ _AT_THROWS = (
 
 
 class Scale(NamedTuple):
-    """Force and moment of one cylinder, with which parts of orders are compared.
+    """Force and moment of one cylinder, with which the forces and moments of orders are compared.
 
     Attributes:
         force_N: Largest first-order force of a cylinder alone.
@@ -91,6 +91,20 @@ class Step:
     mass_kg: float
     remedy: Annotated[Remedy, HIDDEN]
 
+    @property
+    def title(self) -> str:
+        """Name of the step in tables (`name_step`)."""
+        return name_step(self.remedy._replace(step=self.step))
+
+
+def name_step(remedy: Remedy) -> str:
+    """Return the name of the step of these devices. If a step needs only one of the two shafts of
+    order 2, ": only +2" or ": only -2" is added. Empty if the devices are not those of a step.
+    """
+    ratios = {shaft.ratio for shaft in remedy.shafts if abs(shaft.ratio) == 2}
+    alone = f": only {min(ratios):+d}" if remedy.step == SHAFTS and len(ratios) == 1 else ""
+    return f"{remedy.step}{alone}"
+
 
 class LeftOut(NamedTuple):
     """A step that is not listed because its effect is small.
@@ -117,7 +131,7 @@ class Ladder(NamedTuple):
         auto: Step that is fitted by default.
         steps: Steps that are worth listing.
         left_out: Steps that would cancel something but are not listed.
-        small: Parts below this share of one cylinder's first order are not balanced.
+        small: Forces and moments below this share of one cylinder's first order are not balanced.
     """
 
     scale: Scale
@@ -154,8 +168,8 @@ class Ladder(NamedTuple):
         raise BalcliError(f'step "{step[:60]}": the choices are {rows}; 0 is the engine as drawn')
 
     def _explain(self, out: LeftOut) -> str:
-        """Return in words the effect of an omitted step, and the option that lists it, if there is
-        one.
+        """Return in words the effect of an omitted step and, if an option can list the step, this
+        option.
         """
         share, fall = self.measure(out), out.main_bearing_N
         does, hint = "cancel", f"; --small {math.floor(share)}% lists it"
@@ -165,8 +179,9 @@ class Ladder(NamedTuple):
         return f"it would {does} {abs(share):.2g} % of one cylinder's first order{hint}"
 
     def measure(self, out: LeftOut) -> float:
-        """Return the part that an omitted step would cancel, or the reduction of the main bearing
-        load, in % of one cylinder's first order; nan if one cylinder has none.
+        """Return the force or moment that an omitted step would cancel, or its reduction of the
+        main bearing load, in % of one cylinder's first order; nan if one cylinder has no force of
+        first order.
         """
         sizes = [(out.force_N, self.scale.force_N), (out.moment_Nm or 0.0, self.scale.moment_Nm)]
         if out.main_bearing_N is not None:
@@ -176,10 +191,10 @@ class Ladder(NamedTuple):
 
 # ------------------------------------------------------------------ devices
 def add_at_throws(fitting: Fitting) -> Fitting:
-    """Return the fitting with a counterweight at every throw, against the part of its cylinders'
-    force of order 1 that turns with the crank. Each counterweight of the file is subtracted at the
-    nearest throw. If a force or moment remains (from stagger, or weights of the file), the smallest
-    additional unbalances cancel it.
+    """Return the fitting with a counterweight at every throw. Each cancels, of the force of order 1
+    of the throw's cylinders, the part that turns with the crank. Each counterweight of the file is
+    subtracted at the nearest throw. If a force or moment remains (from stagger, or weights of the
+    file), the smallest additional unbalances cancel it.
     """
     engine, throws = fitting.engine, fitting.engine.joined_throws_m
     forward = compute_spectra(engine, [1], ("force",), each=True)["force"].forward[0]
@@ -197,8 +212,9 @@ def add_at_throws(fitting: Fitting) -> Fitting:
 
 
 def add_at_ends(fitting: Fitting, first: Residual, sense: int = 1) -> Fitting:
-    """Return the fitting with weights in the end planes for the part that turns with the crank. In
-    geared engines, the weights are on the first crank that turns in the sense `sense`.
+    """Return the fitting with counterweights in the end planes. They cancel the part of order 1
+    that turns in the direction `sense` (1: as the first crank, -1: against it), and are on the
+    first crank that turns in this direction.
     """
     one = find_carriers(fitting.engine)[sense]
     slots = [Slot.on_crank(one, z) for z in find_ends(one.engine)]
@@ -206,8 +222,8 @@ def add_at_ends(fitting: Fitting, first: Residual, sense: int = 1) -> Fitting:
 
 
 def add_shafts(fitting: Fitting, residual: Residual, senses: Iterable[int]) -> Fitting:
-    """Return the fitting with shafts for the parts of an order that turn in these senses. A shaft
-    has one eccentric if that cancels force and moment, else two in the end planes.
+    """Return the fitting with shafts for the parts of an order that turn in these directions. A
+    shaft has one eccentric if that cancels force and moment, else two in the end planes.
     """
     for sense in senses:
         planes = find_planes(fitting.engine, residual, sense)
@@ -231,7 +247,7 @@ def ignore_compensators(engine: Engine) -> Engine:
 
 
 def size_complete(engine: Engine) -> Remedy:
-    """Return devices that cancel all of orders 1 and 2, however small."""
+    """Return devices that cancel all forces and moments of orders 1 and 2, even small ones."""
     fitting = Fitting.start(ignore_compensators(engine), "complete")
     first, second = fitting.find_residual(1), fitting.find_residual(2)
     carriers = find_carriers(engine)
@@ -247,8 +263,8 @@ def find_ladder(engine: Engine, small: float = SMALL) -> Ladder:
     """Return the ladder of an engine.
 
     Args:
-        engine: Engine without trailing axes.
-        small: Parts below this share of one cylinder's first order are not balanced.
+        engine: One engine, not an array of variants.
+        small: Forces and moments below this share of one cylinder's first order are not balanced.
 
     Raises:
         BalcliError: `small` is not a share from 0 to 50 %.
@@ -283,7 +299,7 @@ def _list_weights(
         drawn: Fitting without devices.
         first: Residual of order 1.
         scales: Force, moment and roll of one cylinder.
-        small: Parts below this share of one cylinder's first order are not balanced.
+        small: Forces and moments below this share of one cylinder's first order are not balanced.
     """
     senses = find_carriers(engine)
     turning = {sense: find_size(first, list_parts(sense), scales) for sense in senses}
@@ -315,7 +331,7 @@ def _leave_out(
     senses: Iterable[int],
     main_bearing: float | None = None,
 ) -> LeftOut:
-    """Return an omitted step with the largest parts that it would cancel."""
+    """Return an omitted step with the largest force and moment that it would cancel."""
     forces, moments = zip(*(map(residual.size, list_parts(sense)) for sense in senses), strict=True)
     return LeftOut(
         step=step,

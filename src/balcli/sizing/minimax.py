@@ -5,8 +5,8 @@ direction and shape.
 Seen from the turning crank, the force is the closed curve `f = F e^{-i theta}`, and a counterweight
 shifts it. So the best weight moves the centre of the smallest enclosing circle to the origin. The
 circle is found by exchange: take the smallest circle around a few points of the curve, which can
-only be too small; add the points of the curve that are farthest from its centre; repeat until both
-radii agree. Their difference bounds the error.
+only be too small; add the points of the curve that are farthest from its centre; repeat until no
+point is farther away than the radius. The remaining difference bounds the error.
 """
 
 from __future__ import annotations
@@ -34,8 +34,8 @@ from .planes import (
 from .remedy import Remedy, remove_counterweights
 from .residual import FORWARD, FORWARD_FORCE, NothingToBalanceError
 
-_SAME = 8 * EPS  # radii are equal if they differ by no more than this share of the amplitude sum
-_TOUCHING = 1e-11  # share of the radius by which a point at a reported angle may lie inside
+_SAME = 8 * EPS  # radii that differ by up to this share of the sum of all amplitudes are equal
+_TOUCHING = 1e-11  # share of the radius by which a reported point may lie inside the circle
 _APART = 1e-3  # rad; angles closer together are one peak
 _FIXED = 1e-9  # share of the radius by which a point that fixes a circle may lie inside it
 _ROUNDS = 60
@@ -64,7 +64,7 @@ def enclose_curve(curve: Phasors) -> Circle:
     """Return the smallest circle around `F e^{-i theta}`.
 
     Args:
-        curve: Phasors of whole orders (order 1 included) without trailing axes.
+        curve: Phasors of whole orders (order 1 included) of one engine, not of variants.
     """
     there = np.flatnonzero((curve.major != 0) | (curve.orders == 1))
     if not np.any(curve.major):
@@ -203,7 +203,7 @@ def size_ellipse(engine: Engine, options: SchemeOptions) -> Remedy:
     largest = 2 * abs(against) / (1 + options.ratio) * residual.newtons_per_kg_m
     reason = (
         "The force of order 1 keeps its part that turns against the crank. The weight sets the "
-        "other part such that the ellipse has the wanted direction and ratio of axes"
+        "other part so that the ellipse has the wanted direction and ratio of axes"
     )
     fitting = fitting.add(slots, unbalances, reason)
     return fitting.remedy.add_details(
@@ -231,7 +231,8 @@ def _split(
 
 def _compare_with_half(engine: Engine, circle: Circle) -> dict[str, float]:
     """Return the largest force with counterweights of factor 0.5 instead of those of the file, and
-    the relative improvement of the circle over it; empty for a rotary engine, which has no factor.
+    by which share of this force the radius of `circle` is smaller; empty for a rotary engine, which
+    has no factor.
     """
     if engine.rotary:
         return {}

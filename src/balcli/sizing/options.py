@@ -14,14 +14,14 @@ from ..file.fields import nearest
 from ..limits import FARTHEST_DEVICE_M, HIGHEST_SHAFT_ORDER, MOST_SMALL, SMALL
 
 DESIGNS = ("a", "b")  # a: pin on the shaft, slot in the disc; b: pin on the disc, slot on the shaft
-CRITERIA = ("largest", "mean")  # value of the remaining force that eccentric-slider minimises
+CRITERIA = ("largest", "mean")  # eccentric-slider minimises this value of the remaining force
 LADDER = ("auto", "step")  # schemes that fit steps of the ladder
 KNUCKLES = "knuckles"  # fits no device, but changes the engine file (balcli.balancing.answer)
 FIT = "fit"  # fits the devices that the file leaves open (balcli.sizing.fit)
 
 # Name, options and meaning of each scheme.
 _SCHEMES = """
-auto | | orders 1 and 2: counterweights, and shafts that cancel enough
+auto | | orders 1 and 2: counterweights; shafts if they cancel much
 complete | | all of orders 1 and 2: counterweights, and even small shafts
 step | step | a step of the ladder that balance prints, by name or number
 counterweights | order planes | counterweights for the part of order 1 turning with the crank
@@ -29,12 +29,12 @@ factor | factor measured planes | the shop's balance factor, with the bobweight 
 minimax | planes position orders | the counterweight that leaves the smallest peak force
 ellipse | direction ratio planes position | counterweight that gives order 1 a wanted \
 direction and shape
-single-shaft | order at position planes | one shaft against the crank, and counterweights for the \
-rest
+single-shaft | order at position planes | one shaft against the crank; for order 1 also \
+counterweights
 two-shaft | order at position roll | two shafts turning against each other: force of one order
-four-shaft | at position | two pairs of such shafts: forces of orders 1 and 2
+four-shaft | at position | as two-shaft, with four shafts: forces of orders 1 and 2
 couple-shaft | order at planes | shafts with two opposite eccentrics: moment of one order
-compensator | order at position | pairs of masses far away: vertical moment of one order
+compensator | order at position | masses far from the engine: vertical moment of one order
 slider | order at position | reciprocating masses along the axes of the force of one order
 eccentric-slider | design criterion radius | a pair of shafts of variable speed, for one cylinder
 oldham | radius | an Oldham coupling for orders 1 and 2 of one cylinder
@@ -70,22 +70,25 @@ class SchemeOptions(NamedTuple):
     options of each scheme.
 
     Attributes:
-        order: Order to balance; default: the lowest with a part that the scheme cancels.
+        order: Order to balance; default: the lowest order with a force or moment that the scheme
+            cancels and that is not small.
         at: Positions x + iy of shafts or sliders; for a pair of shafts, the position of the shaft
             that turns against the crank comes first.
         position: Position z of new devices; compensators take one z, or two (fore and aft).
         planes: "ends", "throws", or positions z of new devices.
-        factor: Shares of the reciprocating mass to try; the best one is fitted; default: 0.5.
-        measured: Mass on each bare pin that balances the crank, kg; replaces a factor.
+        factor: Shares of the reciprocating mass to try; the best share is fitted; default: 0.5.
+        measured: Mass on each bare pin that balances the crank, kg; its factor is fitted, unless
+            `factor` gives another one.
         roll: "zero" places two shafts such that they also cancel the inertia roll of their order.
         orders: Orders of the force whose largest value scheme minimax minimises; default: all.
-        small: Share of one cylinder below which a part of an order is left unbalanced.
+        small: Share of one cylinder's first order below which a force or moment of an order is left
+            unbalanced.
         step: Name or number of a step of the ladder (scheme step).
         radius: Radius of the weights of eccentric-slider and oldham; default: the crank radius.
         direction: Direction of the largest force of order 1 that is to remain, deg from x.
         ratio: Smallest over largest force of order 1 that is to remain.
-        design: Design of shafts that turn unevenly, one of `DESIGNS`.
-        criterion: Criterion by which these shafts are sized, one of `CRITERIA`.
+        design: Design of the unevenly turning shafts of eccentric-slider, one of `DESIGNS`.
+        criterion: Criterion by which the shafts of eccentric-slider are sized, one of `CRITERIA`.
     """
 
     order: int | None = None
@@ -105,11 +108,11 @@ class SchemeOptions(NamedTuple):
     criterion: str | None = None
 
     def read_small(self) -> float:
-        """Return the share below which a part is small."""
+        """Return `small`, or its default if it is not given."""
         return SMALL if self.small is None else self.small
 
     def check(self, scheme: str) -> None:
-        """Reject options that the scheme does not have.
+        """Reject options that the scheme does not take, and values out of range.
 
         Raises:
             BalcliError: The scheme is unknown or does not take an option, or a value is out of
@@ -130,11 +133,11 @@ class SchemeOptions(NamedTuple):
             raise BalcliError(f"--order {self.order}: give 1 to {HIGHEST_SHAFT_ORDER}")
         check_small(self.read_small())
         if scheme == "step" and self.step is None:
-            raise BalcliError("scheme step: give one, such as --step 1; balance lists all steps")
+            raise BalcliError("scheme step: give a step, such as --step 1; balance lists all steps")
         if not isinstance(self.step, (str, int, NoneType)):
             raise wrong_type("SchemeOptions: step", self.step, "give a name or number, such as 1")
         if self.radius is not None and not 0 < self.radius < math.inf:
-            raise BalcliError(f"--radius: {1e3 * self.radius:g} mm; give figures above 0")
+            raise BalcliError(f"--radius: {1e3 * self.radius:g} mm; give a radius above 0")
         if isinstance(self.planes, str) and self.planes not in ("ends", "throws"):
             raise BalcliError(
                 f'--planes "{self.planes[:60]}": give ends, throws, or places along z'
@@ -142,7 +145,7 @@ class SchemeOptions(NamedTuple):
         self._check_choices()
 
     def _check_choices(self) -> None:
-        """Raise BalcliError for a word that is no choice, and for a ratio that is no share."""
+        """Raise BalcliError for a word that is no choice, and for a ratio outside 0 to 1."""
         if self.ratio is not None and not 0 <= self.ratio <= 1:
             raise BalcliError(f"--ratio {100 * self.ratio:g} %: give a share from 0 to 100 %")
         for name, choices in _CHOICES.items():
@@ -174,12 +177,12 @@ class SchemeOptions(NamedTuple):
         """
         at = self.at or (0j,)
         if len(at) > 1:
-            raise BalcliError("--at: this scheme fits its devices at one place; give one")
+            raise BalcliError("--at: this scheme fits its devices at one place; give one place")
         return at[0]
 
 
 def check_small(share: float) -> float:
-    """Return a share below which a part is small.
+    """Return the share below which forces and moments are small, if it is valid.
 
     Raises:
         BalcliError: The share is not between 0 and MOST_SMALL.
@@ -190,7 +193,9 @@ def check_small(share: float) -> float:
 
 
 def _are(values: object, kind: type, finite: bool) -> bool:
-    """Return whether there are values, and all are numbers of this kind (`finite`: and finite)."""
+    """Return whether `values` is a tuple of numbers of this kind, not empty; all finite if
+    `finite`.
+    """
     if not isinstance(values, tuple) or not all(isinstance(one, kind) for one in values):
         return False
     try:
@@ -204,7 +209,8 @@ def find_taken(scheme: str) -> tuple[str, ...]:
     """Return the options that a scheme takes.
 
     Raises:
-        BalcliError: There is no such scheme (the error names the nearest), or it sizes no devices.
+        BalcliError: There is no scheme of this name (the error names the nearest scheme), or the
+            scheme is knuckles or fit, which only the command `balance` runs.
     """
     if scheme in SCHEMES:
         return SCHEMES[scheme]

@@ -1,6 +1,6 @@
 """Choose positions of devices along the crank, and handle devices as tables of the engine file (g
-mm, degrees, mm). Analyses use the figures of these tables, so the written file gives the same
-results.
+mm, degrees, mm). Analyses use the figures of these tables, so an engine file with the same tables
+gives the same results.
 """
 
 from __future__ import annotations
@@ -41,8 +41,8 @@ def find_ends(engine: Engine) -> tuple[float, float]:
 
 
 def find_carriers(engine: Engine) -> dict[int, Placed]:
-    """Return the first crank that turns in each sense (1: as the first crank, -1: against it),
-    moved to its position along z.
+    """Return the first of the cranks that turn in each direction (1: as the first crank, -1:
+    against it), moved to its position along z.
     """
     first = {one.ratio: one for one in reversed(engine.cranks)}
     return {sense: move_along(first[sense]) for sense in sorted(first, reverse=True)}
@@ -67,15 +67,16 @@ def find_length(engine: Engine) -> tuple[float, float]:
 
 
 def locate_force(residual: Residual, sense: int) -> float:
-    """Return the z (m) at which the force in this sense (not 0) would cause as much of the moment
-    as possible: `z_ref + Re(M / iV)`.
+    """Return the z (m) at which the force that turns in the direction `sense` would cause as much
+    of the moment as possible: `z_ref + Re(M / iV)`. The force must not be 0.
     """
     return residual.reference.z + (residual.moment(sense) / residual.force(sense)).real
 
 
 def find_single_plane(engine: Engine, residual: Residual, sense: int) -> tuple[float, bool]:
-    """Return the z (m) within the engine that is nearest to where the force in this sense (not 0)
-    acts, and whether a device there cancels the moment as well.
+    """Return the z (m) within the engine that is nearest to where the force that turns in the
+    direction `sense` acts, and whether a device at this z that cancels the force cancels the moment
+    as well. The force must not be 0.
     """
     low, high = find_length(engine)
     near = min(max(locate_force(residual, sense), low), high)
@@ -87,30 +88,31 @@ def find_single_plane(engine: Engine, residual: Residual, sense: int) -> tuple[f
 
 
 def takes_moment(residual: Residual, sense: int, z: float) -> bool:
-    """Return whether a device at z (m) that cancels the force in this sense also cancels the
-    moment.
+    """Return whether a device at z (m) that cancels the force turning in the direction `sense` also
+    cancels the moment turning in this direction.
     """
     left = residual.moment(sense) - (z - residual.reference.z) * residual.force(sense)
     return abs(left) <= residual.noise[ResidualPart("moment", sense)]
 
 
 def choose_plane(engine: Engine, options: SchemeOptions, residual: Residual, sense: int) -> float:
-    """Return the given z, m; by default the z within the engine that is nearest to where the force
-    in this sense acts.
+    """Return the z (m) of the option `position`; by default, the z within the engine that is
+    nearest to where the force that turns in the direction `sense` acts.
     """
     return read_position(options, find_single_plane(engine, residual, sense)[0])
 
 
 def read_position(options: SchemeOptions, usual: float) -> float:
-    """Return the given z, m, by default `usual`; BalcliError for several."""
+    """Return the z (m) of the option `position`, by default `usual`; BalcliError for several z."""
     if isinstance(options.position, tuple):
-        raise BalcliError("--position: this scheme has one position along z; give one")
+        raise BalcliError("--position: this scheme takes only one position along z")
     return usual if options.position is None else options.position
 
 
 def find_planes(engine: Engine, residual: Residual, sense: int) -> tuple[float, ...]:
-    """Return the fewest planes (z, m) in which devices cancel force and moment in this sense: one
-    if that suffices, else both ends; empty if there is nothing to cancel.
+    """Return the fewest planes (z, m) in which devices cancel the force and the moment that turn in
+    the direction `sense`: one plane if that suffices, else the two end planes; empty if there is
+    nothing to cancel.
     """
     if residual.force(sense):
         z, enough = find_single_plane(engine, residual, sense)
@@ -151,7 +153,7 @@ FIELDS: dict[type[DeviceTable], tuple[str, ...]] = {
 }
 KINDS = tuple(FIELDS)
 TABLES = ("counterweight", "shaft", "slider")  # tables of these kinds in an engine file
-_ROUNDING = 1e-12  # a sum of eccentrics below this share of the largest is no force
+_ROUNDING = 1e-12  # a sum of eccentrics below this share of the largest eccentric counts as 0
 
 
 def name_kind(device: DeviceTable) -> str:
@@ -160,14 +162,14 @@ def name_kind(device: DeviceTable) -> str:
 
 
 def find_order(device: DeviceTable) -> int:
-    """Return the turns or oscillations of a device per turn of the crank."""
+    """Return the number of turns or oscillations of a device per turn of the crank."""
     if isinstance(device, Counterweight):
         return 1
     return abs(device.ratio) if isinstance(device, Shaft) else device.order
 
 
 def find_unbalance(device: DeviceTable) -> float:
-    """Return the unbalance of a device that a scheme made, kg m."""
+    """Return the unbalance of a device with given or fitted unbalance, kg m."""
     return (device.unbalance or 0.0) / 1e6
 
 

@@ -80,7 +80,8 @@ class Remedy(NamedTuple):
         """Return the remedy with further details.
 
         Args:
-            group: Name of the dict to which they are added, such as `order_2`; empty: no dict.
+            group: Name of the dict in `details` that takes the further details, such as `order_2`;
+                empty: they are added to `details` itself.
             figures: Details by their keys.
         """
         if group:

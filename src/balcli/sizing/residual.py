@@ -23,7 +23,7 @@ PartKind = Literal["force", "moment", "roll"]  # names in `forces.kinds`
 
 
 class ResidualPart(NamedTuple):
-    """One part of the free force, moment or roll of an order.
+    """One rotating vector of the free force or moment of an order, or the roll of an order.
 
     Attributes:
         kind: "force", "moment" or "roll".
@@ -39,12 +39,12 @@ FORWARD_FORCE, FORWARD_MOMENT = FORWARD = (ResidualPart("force", 1), ResidualPar
 BACKWARD_FORCE, BACKWARD_MOMENT = BACKWARD = (ResidualPart("force", -1), ResidualPart("moment", -1))
 FORCE, MOMENT = (FORWARD_FORCE, BACKWARD_FORCE), (FORWARD_MOMENT, BACKWARD_MOMENT)
 ROLL = ResidualPart("roll", 0)
-_SCHEMES = {FORWARD_FORCE: "two-shaft", BACKWARD_FORCE: "single-shaft"}  # these cancel the parts
+_SCHEMES = {FORWARD_FORCE: "two-shaft", BACKWARD_FORCE: "single-shaft"}  # schemes that cancel parts
 _SCHEMES |= dict.fromkeys(MOMENT, "couple-shaft")
 
 
 def list_parts(sense: int) -> tuple[ResidualPart, ResidualPart]:
-    """Return force and moment that turn in a sense: 1 with the crank, -1 against it."""
+    """Return the force and moment that turn in one direction: 1 with the crank, -1 against it."""
     return FORWARD if sense > 0 else BACKWARD
 
 
@@ -56,7 +56,8 @@ class ReferencePoint(NamedTuple):
 
 
 class Residual(NamedTuple):
-    """Parts of one order that remain to be cancelled, as the unbalance that would cause them.
+    """Force, moment and roll of one order that remain to be cancelled, as the unbalances that would
+    cause them.
 
     Attributes:
         order: Order n.
@@ -74,12 +75,12 @@ class Residual(NamedTuple):
     newtons_per_kg_m: float
 
     def force(self, sense: int) -> complex:
-        """Return the force that turns in this sense (1 with the crank, -1 against it), kg m."""
+        """Return the force that turns in one direction (1 with the crank, -1 against it), kg m."""
         return self.parts[ResidualPart("force", sense)]
 
     def moment(self, sense: int) -> complex:
-        """Return the moment over i that turns in this sense (1 with the crank, -1 against it), kg
-        m^2.
+        """Return the moment (divided by i) that turns in one direction (1 with the crank, -1
+        against it), kg m^2.
         """
         return self.parts[ResidualPart("moment", sense)]
 
@@ -103,7 +104,9 @@ class Scales(NamedTuple):
 
 
 def find_scales(engine: Engine) -> Scales:
-    """Return the scales of an engine at its speed; for geared engines, the largest of each."""
+    """Return the scales of an engine at its speed; for several geared engines, the largest force,
+    moment and roll among them.
+    """
     if engine.placed:
         each = (find_scales(one.engine) for one in engine.cranks)
         return Scales(*map(max, zip(*each, strict=True)))
@@ -189,12 +192,13 @@ def choose_residual(
         engine: Engine with its devices.
         options: Options of the scheme.
         kinds: Kinds of parts that the scheme cancels.
-        senses: Senses of rotation that the scheme cancels: 1 with the crank, -1 against it.
+        senses: Directions of rotation of the force and moment that the scheme cancels: 1 with the
+            crank, -1 against it.
 
     Raises:
-        NothingToBalanceError: There is no such part.
+        NothingToBalanceError: The engine has no force or moment that the scheme could cancel.
         BalcliError: A moment is wanted but not known.
-        OnlySmallError: All such parts are small.
+        OnlySmallError: All forces and moments that the scheme could cancel are small.
     """
     if "moment" in kinds and not engine.places_known:
         raise BalcliError(MOMENTS_UNKNOWN)
@@ -225,7 +229,7 @@ def _find_lowest(
         raise OnlySmallError(tell_small(sought, found, scales, least))
     raise NothingToBalanceError(
         f"there is no free {what} of orders 1 to {HIGHEST_ORDER_SOUGHT}: nothing to balance; "
-        "--order selects a higher one"
+        "--order selects a higher order"
     )
 
 
@@ -233,13 +237,14 @@ def tell_small(
     sought: Sequence[ResidualPart], found: Sequence[Residual], scales: Scales, least: float
 ) -> str:
     """Return the text for `OnlySmallError`. It states the largest part that the scheme could
-    cancel, and which other scheme cancels a large part, preferably one turning in the same sense.
+    cancel, and which other scheme cancels a large part, preferably a part with the same
+    direction of rotation.
 
     Args:
         sought: Parts that the scheme cancels.
         found: Residuals of all orders.
         scales: Force, moment and roll of one cylinder.
-        least: Share of one cylinder below which a part is small.
+        least: Share of one cylinder's first order below which a part is small.
     """
 
     def find_size_of(each: tuple[Residual, ResidualPart]) -> float:
@@ -248,7 +253,7 @@ def tell_small(
     one, part = max(product(found, sought), key=find_size_of)
     told = (
         f"the largest {part.kind} turning {tell_sense(part.sense)} is {_tell_size(one, part)} "
-        f"(order {one.order}), small compared with one cylinder's; --order {one.order} fits it"
+        f"(order {one.order}), small compared with one cylinder's; --order {one.order} cancels it"
     )
     every = product(found, (*FORWARD, *BACKWARD))
     large = [each for each in every if not is_small(find_size_of(each), least)]
@@ -263,7 +268,7 @@ def tell_small(
 
 
 def tell_sense(sense: int) -> str:
-    """Return a sense of rotation in words."""
+    """Return a direction of rotation in words."""
     return "with the crank" if sense > 0 else "against the crank"
 
 
@@ -272,7 +277,8 @@ def _tell_size(residual: Residual, part: ResidualPart) -> str:
 
 
 def _tell_rest(residual: Residual) -> str:
-    """Return the parts that an order has, and the schemes that cancel them."""
+    """Return in words the forces and moments of an order, and the schemes that cancel them."""
     parts = [part for part in (*FORWARD, *BACKWARD) if residual.parts[part]]
-    has = (f"a {part.kind} turning {tell_sense(part.sense)} ({_SCHEMES[part]})" for part in parts)
+    both = {"force": "two-shaft", "moment": "couple-shaft"}  # these cancel either sense
+    has = (f"a {part.kind} turning {tell_sense(part.sense)} ({both[part.kind]})" for part in parts)
     return f"; it has {join_words(has)}" if parts else ""

@@ -59,7 +59,7 @@ def size_single_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
     counterweights for the part that turns with the crank.
 
     By default, one eccentric cancels the force. Its axial distance from the force leaves a couple,
-    which the details list. Unless a position is given, the eccentric is where this couple is
+    which the details list. Unless a position is given, the eccentric is placed where this couple is
     smallest. Two eccentrics in given planes also cancel the moment.
     """
     two = options.planes is not None
@@ -89,7 +89,7 @@ def size_single_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
 
 def size_couple_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
     """Fit shafts at +N and -N for the moment of order N. Each shaft has two opposite eccentrics in
-    two planes. If the moment turns in only one sense, fit only one shaft.
+    two planes. If the moment turns in only one direction, fit only one shaft.
     """
     residual = choose_residual(engine, options, ("moment",))
     low, high = read_two_planes(engine, options)
@@ -108,7 +108,7 @@ def size_couple_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
     return fitting.describe_left(residual.order, "moment_left_Nm", "force_left_N").remedy
 
 
-Places = dict[int, tuple[complex, ...]]  # positions x + iy (m) of the shafts, by sense of rotation
+Places = dict[int, tuple[complex, ...]]  # positions x + iy, m; keys: 1 with crank, -1 against
 
 
 def size_two_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
@@ -132,10 +132,12 @@ def size_two_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
 
 def size_compensator(engine: Engine, options: SchemeOptions) -> Remedy:
     """Fit compensators, at one place or fore and aft, for the moment of order N about y, which the
-    forces along x make. Each is a pair of equal masses at +N and -N that make a force along x.
+    forces along x make. Each compensator is a pair of equal masses at +N and -N that make a force
+    along x.
 
-    With `m` the amplitude of this moment, a single compensator makes the force `-m/(z - z_ref)`.
-    The first of two makes `-m/(z1 - z2)`, the second the opposite force.
+    If `m` is the amplitude of this moment, a single compensator at z makes the force `-m/(z -
+    z_ref)`. The first of two compensators, at z1, makes the force `-m/(z1 - z2)`, the second, at
+    z2, the opposite force.
     """
     if options.position is None:
         raise BalcliError("--scheme compensator: give --position Z, or Z,Z for fore and aft")
@@ -179,12 +181,12 @@ def _find_moment_about_y(residual: Residual) -> complex:
 
 
 def _place_forces(moment: complex, places: Sequence[float], z_ref: float) -> dict[float, complex]:
-    """Return the forces (kg m) by place (z, m) that together make a moment (kg m^2)."""
+    """Return forces (kg m) that together make a moment (kg m^2), by their places (z, m)."""
     if len(places) > 2:
-        raise BalcliError("--position takes one z or two")
+        raise BalcliError("--position takes one z, or two")
     first, other = places[0], places[1] if len(places) > 1 else z_ref
     if first == other:
-        raise BalcliError(f"--position {1e3 * first:g}: no lever arm to z = {1e3 * other:g}")
+        raise BalcliError(f"--position {1e3 * first:g} mm: no lever arm to z = {1e3 * other:g} mm")
     force = moment / (first - other)
     return {first: force} if len(places) == 1 else {first: force, other: -force}
 
@@ -206,7 +208,7 @@ def size_four_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
 
 def _add_pair(fitting: Fitting, residual: Residual, options: SchemeOptions) -> Fitting:
     """Return the fitting with shafts at +N and -N for the force of this order. If the force turns
-    in only one sense, add one shaft, or its two halves.
+    in only one direction, add one shaft, or its two halves.
     """
     places = _choose_places(residual, options)
     for sense, standing in places.items():
@@ -227,9 +229,9 @@ def _choose_places(residual: Residual, options: SchemeOptions) -> Places:
     chosen such that the pair adds no roll, or (option `roll`) such that no roll remains.
 
     A pair cancels a roll (kg m^2) if `conj(p_B) V+ - p_A conj(V-) = i roll` (docs/theory.md). If no
-    position is given, those nearest to the crank are chosen (least squares). A force that turns in
-    only one sense needs one shaft on the crank axis, or two halves, at the given position and
-    opposite to it.
+    position is given, the positions nearest to the crank are chosen (least squares). A force that
+    turns in only one direction needs one shaft on the crank axis, or two half shafts: one at the
+    given position, one opposite to it.
     """
     at, forward, backward = options.at or (), residual.force(1), residual.force(-1)
     if len(at) > 2:
@@ -258,8 +260,8 @@ def _choose_places(residual: Residual, options: SchemeOptions) -> Places:
 
 
 def _describe_places(places: Places) -> dict[str, float]:
-    """Return distance from the crank axis and direction of the shafts for each sense, and the ratio
-    of distances (that of the shaft with the crank over that of the shaft against it).
+    """Return the distance from the crank axis, and the direction, of the shaft for each direction
+    of rotation, and the ratio of the two distances (shaft with the crank over shaft against it).
     """
     details = {}
     for sense, name in ((1, "with_crank"), (-1, "against_crank")):

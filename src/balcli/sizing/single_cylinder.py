@@ -2,12 +2,14 @@
 variable speed, and Oldham couplings (Wang).
 
 Eccentric slider (Wang, section 2.4): a slider on an eccentric disc turns two balance shafts
-unevenly; their best eccentricity and mass are sought.
+unevenly; the best eccentricity of the disc and mass of the shafts' weights are sought.
 
-The shafts, symmetric to the cylinder axis, turn by phi(theta). Their force along the axis is `2 m_b
-r_b omega^2 (phi'^2 cos phi + phi'' sin phi) = -2 m_b r_b omega^2 (cos phi)''` (the sign of the
-second term is misprinted in the source). In units of m r omega^2, the remaining force is the even
-function `P = f(theta) - 2 mu g(theta; k)`; k and mu are the unknowns (`Optimum`).
+The shafts, symmetric to the cylinder axis, turn by phi(theta); each has a weight m_b at the radius
+r_b. Their force along the axis is `2 m_b r_b omega^2 (phi'^2 cos phi + phi'' sin phi) = -2 m_b r_b
+omega^2 (cos phi)''` (the sign of the second term is misprinted in the source). Forces are in units
+of m r omega^2 (m: reciprocating mass, r: crank radius). The remaining force is then the even
+function `P = f(theta) - 2 mu g(theta; k)`, with the engine's force f and the force mu g of each
+shaft; k and mu are the unknowns (`Optimum`).
 
 Below, `c` holds cosine coefficients of an even function, shape (orders,), and `x` the two unknowns
 k and mu, shape (2,).
@@ -33,13 +35,13 @@ from .fitting import Fitting
 from .options import CRITERIA, DESIGNS, SchemeOptions
 from .remedy import Remedy
 
-FORCES = ("orders 1+2", "all orders")  # cos theta + lambda cos 2 theta; the exact force
+FORCES = ("orders 1+2", "all orders")  # engine force: cos theta + lambda cos 2 theta; exact force
 _LEAST_K, _MOST_K = 1.2, 1e12  # limits of k; nearer to 1, the series is too long
 _COUNT = 512  # number of samples of a revolution, enough for k above _LEAST_K
 _GRID = np.linspace(0, np.pi, 1025)
 _ORDERS = np.arange(_COUNT // 4)
 _ROUNDS = 60
-_NOISE = 5e-16  # rounding of the transform, which squares of the orders would multiply
+_NOISE = 5e-16  # rounding of the transform; factors of order squared would enlarge it
 _SETTLED = 1e-10  # a relative step below this ends the search
 _FARTHEST_TO_PEAK, _FARTHEST_TO_MEAN = 0.25, 0.1  # largest change of k in one step, as a share of k
 _SINGULAR = 1e-14  # matrices with smaller determinants are singular
@@ -53,7 +55,7 @@ class Optimum(NamedTuple):
         design: One of `DESIGNS`.
         criterion: One of `CRITERIA`.
         engine_force: One of `FORCES`.
-        k: Radius of the driving pin over the eccentricity, r_b/e.
+        k: Radius r_b of driving pin and weight over the eccentricity e of the disc.
         mu: Unbalance of each shaft in units of m r (reciprocating mass times crank radius).
         largest: Largest absolute value of the remaining force, in units of m r omega^2.
         mean: Mean absolute value of the remaining force, in units of m r omega^2.
@@ -99,14 +101,14 @@ def find_optimum(design: str, criterion: str, engine_force: str, lam: float) -> 
 
 
 def find_optima(lam: float) -> tuple[Optimum, ...]:
-    """Return the optima of both designs by both criteria for both forces; the first is the smallest
-    peak of design a for orders 1 and 2.
+    """Return the optima of both designs by both criteria for both forces. The first optimum is
+    design a with the smallest peak for orders 1 and 2.
 
     Above lambda = 0.6 some searches do not converge, because k would fall below 1; their optima are
     omitted.
 
     Raises:
-        BalcliError: The search for the first one does not converge.
+        BalcliError: The search for the first optimum does not converge.
     """
     optima = [find_optimum(DESIGNS[0], CRITERIA[0], FORCES[0], lam)]
     for force, design, criterion in [*product(FORCES, DESIGNS, CRITERIA)][1:]:
@@ -161,8 +163,8 @@ def _linearize(design: str, engine: Array, x: Array) -> tuple[Array, Array]:
 
 # ------------------------------------------------------------------ even series
 def _evaluate(c: Array, theta: Array, derivative: int = 0) -> Array:
-    """Return the values of a derivative of a series (-1: of its integral), shape (angles,), or
-    (angles, 2) for two series in rows.
+    """Return the values of the n-th derivative of a series (n = `derivative`; -1: its integral) at
+    the angles, shape (angles,), or (angles, 2) if `c` has two series in rows.
     """
     rate = (np.where(_ORDERS, _ORDERS, np.inf) if derivative < 0 else _ORDERS) ** float(derivative)
     angle = np.multiply.outer(theta, _ORDERS) + derivative * np.pi / 2
@@ -171,8 +173,8 @@ def _evaluate(c: Array, theta: Array, derivative: int = 0) -> Array:
 
 
 def _find_zeros(c: Array, derivative: int = 0) -> Array:
-    """Return 0, the zeros of a derivative of a series between 0 and pi, and pi; by Newton's method
-    within grid cells.
+    """Return 0, the zeros of the n-th derivative (n = `derivative`) of a series between 0 and pi,
+    and pi. Newton's method finds each zero within a grid cell.
     """
     values = _evaluate(c, _GRID, derivative)
     if derivative == 1:  # the function is even about 0 and pi
@@ -202,7 +204,8 @@ def _iterate(step: Callable[[Array], Array], x: Array, farthest: float) -> Array
 
 def _step_to_peak(design: str, engine: Array, x: Array) -> Array:
     """Return the step d that minimises the largest of `|values + slopes d|` over the extremes of P.
-    At this step, three extremes have the same size; so the best of all such steps is taken.
+    This step gives three extremes the same size. So the step for each three extremes is computed,
+    and the best of these steps is returned.
     """
     remaining, by_x = _linearize(design, engine, x)
     theta = _find_zeros(remaining, 1)
@@ -236,10 +239,10 @@ def _step_to_mean(design: str, engine: Array, x: Array) -> Array:
 
 
 _ECCENTRIC_SLIDER = (
-    "k = r_b/e, mu = m_b r_b/(m r) of each of the two shafts; forces in units of m r omega^2, with "
-    "the reciprocating mass m; design a: pin on the shaft, slot in the disc; b: pin on the disc, "
-    "slot on the shaft; criteria: largest and mean force; pin and weight of each shaft have the "
-    "same radius r_b; the axis of a shaft is at the distance e from that of the disc; the shafts "
+    "k = r_b/e, mu = m_b r_b/(m r); m: reciprocating mass, r: crank radius, m_b: weight of each of "
+    "the two shafts, r_b: radius of its weight and of its pin, e: distance of the axes of shaft "
+    "and disc; forces in units of m r omega^2; design a: pin on the shaft, slot in the disc; b: "
+    "pin on the disc, slot on the shaft; criteria: largest and mean remaining force; the shafts "
     "are symmetric to the cylinder axis"
 )
 _SPEED_LAW = (
@@ -292,7 +295,8 @@ def size_eccentric_slider(engine: Engine, options: SchemeOptions) -> Remedy:
 
 def _describe_shaft(engine: Engine, one: Optimum, unit_kg_m: float, radius: float | None) -> Node:
     """Return an optimum with the figures of each shaft. The weight loads its shaft with the forces
-    `m_b r_b phi'^2` outwards and `m_b r_b phi''` along the path, and the torque `m_b r_b^2 phi''`.
+    `m_b r_b omega^2 phi'^2` outwards and `m_b r_b omega^2 phi''` along the path, and with the
+    torque `m_b r_b^2 omega^2 phi''`.
 
     Args:
         engine: Engine.
@@ -332,8 +336,9 @@ def size_oldham(engine: Engine, options: SchemeOptions) -> Remedy:
     """Fit two Oldham couplings, of which one turns with and one against the crank, and a
     counterweight for the rotating mass.
 
-    Each coupling has a first-order weight m r/2, and a block, A2 m r/8, whose centre turns at twice
-    the speed. Masses are for the given radius, by default the crank radius.
+    Each coupling has a first-order weight of unbalance m r/2, and a block of unbalance A2 m r/8,
+    whose centre turns at twice crank speed. A2 is the coefficient of the second order of the
+    piston force. Masses are for the given radius, by default the crank radius.
 
     Raises:
         BalcliError: There are several cylinders.

@@ -57,11 +57,11 @@ def size_counterweights(engine: Engine, options: SchemeOptions) -> Remedy:
     not known, only the force is cancelled.
 
     Raises:
-        BalcliError: Another order is given, or the planes cannot take the moment.
+        BalcliError: An order other than 1 is given, or the planes cannot take the moment.
         NothingToBalanceError: No part of order 1 turns with the crank.
     """
     if options.order not in (None, 1):
-        raise BalcliError(f"order {options.order}: counterweights turn at order 1; use shafts")
+        raise BalcliError(f"order {options.order}: counterweights cancel only order 1; use shafts")
     fitting = Fitting.start(engine, "counterweights", 1)
     residual = fitting.find_residual(1)
     if options.planes == "throws":
@@ -78,7 +78,7 @@ def size_counterweights(engine: Engine, options: SchemeOptions) -> Remedy:
 def _size_on_crank(
     fitting: Fitting, one: Placed, options: SchemeOptions, residual: Residual
 ) -> Fitting:
-    """Return the fitting with weights on a crank for the part that turns with it."""
+    """Return the fitting with weights on a crank for the part that turns with this crank."""
     engine, parts = fitting.engine, list_parts(one.ratio)
     planes = find_ends(one.engine) if options.planes is None else read_planes(engine, options)
     slots = [Slot.on_crank(one, z) for z in planes]
@@ -117,7 +117,7 @@ def _compromise(fitting: Fitting, slots: list[Slot], residual: Residual) -> Fitt
     """Fit a weight in one plane, which cannot cancel a moment that acts elsewhere.
 
     In a plane near the point of reference, a weight against the moment would cause a far larger
-    force. The moment is therefore divided at least by the longest arm of the engine.
+    force. The moment is therefore divided by at least the longest arm of the engine.
     """
     engine, parts = fitting.engine, list_parts(slots[0].sense)
     ends = (abs(z - residual.reference.z) for z in find_length(engine))
@@ -138,7 +138,7 @@ def size_sliders(engine: Engine, options: SchemeOptions) -> Remedy:
     """Fit two reciprocating masses along the axes of the ellipse of order N: `m r = (|V+| +- |V-|)
     / (n^2 omega^2)`.
 
-    By default they are where the larger of the two rotating forces acts.
+    By default, the sliders are where the larger of the two rotating forces acts.
     """
     residual = choose_residual(engine, options, ("force",))
     forward, backward = residual.force(1), residual.force(-1)
@@ -183,7 +183,7 @@ def size(engine: Engine, scheme: str = "auto", options: SchemeOptions | None = N
     devices but a note.
 
     Args:
-        engine: Engine without trailing axes.
+        engine: One engine, not an array of variants.
         scheme: Name of a scheme in `SCHEMES`.
         options: Options of the scheme.
 

@@ -21,7 +21,7 @@ from ..file.read import T, TableReader
 from .planes import DeviceTable, as_millimetres, find_order, find_unbalance
 from .remedy import Remedy
 
-ROUNDING = 1e-12  # relative excess over the deepest hole that still counts as one hole
+ROUNDING = 1e-12  # relative excess over the unbalance of whole holes that needs no further hole
 THICKNESS = 0.020  # m, default thickness of a semicircular disc
 
 
@@ -49,12 +49,12 @@ class Tools(NamedTuple):
 
 
 class Shapes(NamedTuple):
-    """Shapes of new devices as parts; None: not given.
+    """Shapes of new devices as machine parts; None: not given.
 
     Attributes:
         bearings: Places z of the two bearings of each new shaft, m.
         sector: Inner radius, m, outer radius, m, and opening, deg, of new counterweights, which
-            then are sectors in place of half discs.
+            are then sectors instead of half discs.
     """
 
     bearings: tuple[float, ...] | None = None
@@ -130,7 +130,7 @@ def _refuse_impossible(tools: Tools) -> None:
     if tools.drill is None and (tools.max_depth, tools.slug, tools.width) != (None,) * 3:
         raise BalcliError("--max-depth, --slug and --width are for holes: give --drill")
     if tools.slug is not None and tools.slug <= STEEL:
-        raise BalcliError(f"--slug: {tools.slug / 1e3:g} g/cm3 is not denser than the steel there")
+        raise BalcliError(f"--slug: {tools.slug / 1e3:g} g/cm3 is not denser than steel")
     if tools.thickness is not None and tools.disc is not None:
         raise BalcliError("--disc and --thickness: give one of them, the other follows from it")
 
@@ -219,8 +219,9 @@ def _find_disc(unbalance: float, tools: Tools) -> Node:
 
 # ------------------------------------------------------------------ shapes of new devices
 def shape_devices(engine: Engine, remedy: Remedy, shapes: Shapes) -> Remedy:
-    """Return the remedy with its counterweights as sectors, and its shafts with names and bearings,
-    as far as these shapes are given. Eccentrics on one axis at one speed form one shaft.
+    """Return the remedy with its counterweights as sectors if a sector is given, and its shafts
+    with names and bearings if bearings are given. Eccentrics on one axis at one speed form one
+    shaft.
 
     Args:
         engine: Engine without the new devices.
@@ -232,7 +233,7 @@ def shape_devices(engine: Engine, remedy: Remedy, shapes: Shapes) -> Remedy:
     """
     for option, found in (("sector", remedy.counterweights), ("bearings", remedy.shafts)):
         if getattr(shapes, option) is not None and not found:
-            raise BalcliError(f"--{option}: scheme {remedy.scheme} fits no device that can have it")
+            raise BalcliError(f"--{option}: scheme {remedy.scheme} fits no device with {option}")
     of_weights = {"sector": _read_sector(shapes.sector)} if shapes.sector is not None else {}
     bearings = _read_bearings(shapes.bearings) if shapes.bearings is not None else {}
     used = set() if engine.model is None else {shaft.name for shaft in engine.model.shaft}
@@ -246,7 +247,7 @@ def shape_devices(engine: Engine, remedy: Remedy, shapes: Shapes) -> Remedy:
         if isinstance(device, Shaft):
             shape = of_axes.get((device.ratio, device.at), {})
         devices.append(device.model_copy(update=shape))
-        shape.pop("bearings", None)  # only the first eccentric of a shaft has them
+        shape.pop("bearings", None)  # only the first eccentric of a shaft has the key
     return remedy._replace(devices=tuple(devices))
 
 

@@ -111,8 +111,9 @@ _RANGES = {
 
 def describe_names() -> str:
     """Return a description of all names for help."""
-    chapters = (list(forms) for _, forms in groupby(FORMS, lambda form: form.chapter))
-    names = "; ".join(", ".join(join_patterns(forms)) for forms in chapters)
+    chapters = (join_patterns(forms) for _, forms in groupby(FORMS, lambda form: form.chapter))
+    names = "; ".join(", ".join(chapter) for chapter in chapters)
+    names = re.sub(r"[^ ]{44,}", lambda name: name[0].replace("|", " | "), names)  # may be folded
     return (
         f"{names}. N: order or number. PART of force and moment: {_OF_VECTOR}; PART of others: "
         f"{_OF_SCALAR}."

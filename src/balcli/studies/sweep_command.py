@@ -48,11 +48,11 @@ def sheet(result: NamedNumbers, _system: System) -> Sheet:
     note = "–: not in the file; N stands for the number of a cylinder."
     heads = ("name", "value", "unit", "meaning")
     lines = tuple(dict.fromkeys(_list_rows(result.numbers)))
-    numbers = Grid("Numbers: sweep --vary NAME=VALUES", heads, lines, note, words=(0, 2, 3))
+    numbers = Grid("Numbers: sweep --vary NAME=VALUES", heads, lines, note, words=(0, 3))
     note = "N stands for an order or a number, PART for one of the words after the colon."
     title = "Quantities: --quantity NAME,... (or search --minimise)"
     names = tuple((q.name, q.unit, q.meaning) for q in result.quantities)
-    quantities = Grid(title, ("name", "unit", "meaning"), names, note, words=(0, 1, 2))
+    quantities = Grid(title, ("name", "unit", "meaning"), names, note, words=(0, 2))
     return Sheet(result.engine.name or NAMELESS, (numbers, quantities))
 
 
@@ -100,6 +100,7 @@ VARY = (
     "A number of the engine file and its values: rod.ratio=0.24:0.32:0.01 (from:to:step) or "
     "crank.throws.2=90,180. Several numbers span a grid, in which the last varies fastest."
 )
+USUAL = DEFAULT_QUANTITIES.replace(",", ", ")  # help may fold it
 QUANTITY = f"Quantities by name: {describe_names()}"
 FORM = (
     "Default: by the ending of -o, else a table in a terminal and csv in a pipe. With more than 50 "
@@ -119,7 +120,7 @@ def sweep(
     vary: Annotated[list[str], optional("NUMBER=VALUES", VARY)],
     quantity: Annotated[
         str | None,
-        optional("WHAT,...", QUANTITY, "--quantity", "-q", show_default=DEFAULT_QUANTITIES),
+        optional("WHAT,...", QUANTITY, "--quantity", "-q", show_default=USUAL),
     ] = None,
     form: Annotated[Format | None, format_option(VARIANTS.values(), FORM)] = None,
     output: Annotated[

@@ -34,8 +34,8 @@ KINDS_OF_TORQUE = ("gas", "torque", "torque_total")
 
 
 def choose_firing_cylinder(engine: Engine) -> CylinderNumber:
-    """Return the cylinder whose gas is shown: 1, or the first to fire if 1 is a dummy; for engines
-    that are geared together, the first cylinder.
+    """Return the number of the cylinder whose gas torque is shown by default: 1, or the first to
+    fire if cylinder 1 is a dummy; in geared engines, the first cylinder of the first engine.
     """
     if engine.placed:
         return engine.numbers[0]
@@ -53,17 +53,19 @@ def analyze_torque_of_engine(
     """Return the torque of gas and inertia on the crank of an engine.
 
     Args:
-        engine: Single engine with gas (no trailing axes). An uneven speed in its file is ignored.
-        orders: Orders to show; default: multiples of 1/2 to 12 (of 1 for a two-stroke engine), and
-            with many cylinders also the firing order and its double.
-        cylinder: Cylinder (in geared engines, such as "upper.3") whose torque is shown next to the
-            engine's; default: that of `choose_firing_cylinder`.
-        fluctuation: Wanted (highest - lowest)/mean speed, for which the inertia is computed.
+        engine: One engine with gas, not an array of variants. An uneven speed in its file is
+            ignored.
+        orders: Orders to show; default: all multiples of 1/2 (two-stroke engine: of 1) up to 12. If
+            the number of firings per turn is above 12, this order and its double are added.
+        cylinder: Cylinder whose torque is shown next to the engine's torque, such as 3, or
+            "upper.3" in geared engines; default: 1, or the first to fire if cylinder 1 is a dummy.
+        fluctuation: Allowed fluctuation of speed, (highest - lowest)/mean; the result has the
+            inertia that limits the fluctuation to this value.
         loads: "pin" (loads of crank pins), "main" (loads of main bearings), or both.
 
     Raises:
-        BalcliError: The engine has no gas or no such cylinder, the fluctuation is not between 1e-9
-            and 2, or a name in `loads` is unknown.
+        BalcliError: The engine has no gas, the cylinder does not exist, the fluctuation is not
+            between 1e-9 and 2, or a name in `loads` is unknown.
         TypeError: An argument has the wrong type.
 
     Example:

@@ -52,7 +52,7 @@ LoadsOption = Annotated[
     str | None, optional("pin,main", "Also show loads of pins and main bearings.", "--loads")
 ]
 Curve = Annotated[
-    Path | None, optional("CSV", "Torque instead of an engine: angle_deg,torque_Nm over a period.")
+    Path | None, optional("CSV", "Torque curve, not an engine: angle_deg,torque_Nm for a period.")
 ]
 Load = Annotated[
     Path | None, optional("CSV", "With --curve: torque of the load; default: the mean torque.")
@@ -61,7 +61,7 @@ Inertia = Annotated[
     str | None, optional("KG_MM2", "With --curve: inertia of the shaft, kg mm^2 or '2 kg m^2'.")
 ]
 Write = Annotated[
-    Path | None, optional("OUT.toml", "Write the file with this speed_ripple and these misfires.")
+    Path | None, optional("OUT.toml", "Write a copy of FILE with this uneven speed and misfire.")
 ]
 
 
@@ -85,8 +85,8 @@ def torque(
     the uneven speed and the flywheel; or the effect of a given torque curve.
 
     `balcli torque v8.toml --fluctuation 1/200` computes the inertia that limits the fluctuation to
-    1/200. If the inertia is too small and the crank stalls, an error after the results names the
-    angle.
+    1/200. If the inertia is so small that the crank stalls, an error after the results names the
+    crank angle at which it stalls.
 
     \b
     Examples:
@@ -98,9 +98,9 @@ def torque(
     form = text_format(output, form)
     require_ending(write, ".toml", "--write")
     if (path is None) == (curve is None):
-        raise BalcliError("give an engine file, or --curve with a torque")
+        raise BalcliError("give an engine file, or --curve with the CSV file of a torque")
     misplaced: dict[str, object] = {"--load": load, "--inertia": inertia}
-    needed = "--curve; an engine file gives the inertia itself: [crank] inertia, [flywheel]"
+    needed = "--curve; an engine file has its inertia in [crank] or [flywheel]"
     if curve is not None:
         misplaced = {"--misfire": misfire, "--write": write, "--loads": loads}
         misplaced["--cylinder"], needed = cylinder, "an engine file"
@@ -141,8 +141,8 @@ def torque(
 
 
 def write_uneven(path: str, source: bytes, result: TorqueAnalysis, target: Path) -> None:
-    """Write the engine file with the uneven speed that the torque causes; misfiring cylinders lose
-    their gas.
+    """Write a copy of the engine file with the uneven speed that the torque causes. Cylinders
+    without gas get `gas = 0`.
 
     Raises:
         BalcliError: The inertia is unknown or too small, or the target cannot be written.
@@ -160,7 +160,7 @@ def write_uneven(path: str, source: bytes, result: TorqueAnalysis, target: Path)
     text = set_speed(source.decode("utf-8-sig"), result.speed_rpm or 0.0, _NOTE)
     text = set_keys(text, "operation", {"speed_ripple": lines}, _NOTE)
     if result.no_gas_in and result.engine is not None and result.engine.placed:
-        told = "write [cylinder.N] gas = 0 into the file of that engine"
+        told = "write [cylinder.N] gas = 0 into the file of the engine that misfires"
         raise BalcliError(f"--write: geared engines cannot be written with a misfire; {told}")
     for number in result.no_gas_in or ():
         text = set_keys(text, f"cylinder.{number}", {"gas": 0}, _NOTE)

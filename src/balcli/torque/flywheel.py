@@ -21,7 +21,7 @@ from ..errors import BalcliError
 from ..file.fields import order_number
 from ..limits import FLUCTUATION, HIGHEST_RIPPLE_ORDER, MOST_RIPPLES, SMALLEST_FLUCTUATION
 
-_WORTH = 1e-4  # orders of the speed below this share of the largest are left out
+_WORTH = 1e-4  # smallest amplitude of a listed order of the speed, as a share of the largest
 
 
 class Flywheel(NamedTuple):
@@ -30,15 +30,15 @@ class Flywheel(NamedTuple):
     Attributes:
         inertia_kg_m2: Mean inertia of all moving parts; left out if the file gives no inertia.
         moving_parts_kg_m2: Part of `inertia_kg_m2` that belongs to pistons, rods and throw masses.
-        fluctuation: (highest - lowest)/mean speed.
+        fluctuation: Fluctuation of speed, (highest - lowest)/mean.
         fluctuation_small: Fluctuation by the approximation for small values, surplus/(I omega^2).
         needed_kg_m2: Mean inertia of all moving parts that yields the requested fluctuation.
         speed_max_rpm: Highest speed.
         speed_min_rpm: Lowest speed.
-        stall: Message with the angle at which the crank stalls.
+        stall: Message with the angle at which the crank stalls; left out if it does not stall.
         speed_max_deg: Crank angle of the highest speed.
         speed_min_deg: Crank angle of the lowest speed.
-        lines: Orders of the uneven speed, without negligible ones.
+        lines: Orders of the uneven speed, without those of negligible amplitude.
     """
 
     inertia_kg_m2: float | None = None
@@ -67,20 +67,20 @@ def find_flywheel(
 
     Args:
         torque: Torque of the gas, or a given curve minus its load, N m.
-        surplus: Largest surplus of the total torque, J.
+        surplus: Largest surplus energy of the total torque, J.
         mean_speed: Mean speed, rad/s; None: not known.
         constant: Constant part of the inertia, kg m2; None: not known.
         moving: Function that returns the inertia of pistons, rods and throw masses, kg m2, at crank
-            angles (rad); None: there are none.
+            angles (rad); None: the shaft has no such parts.
         fluctuation: Largest allowed fluctuation; None: not requested.
 
     Raises:
-        BalcliError: A requested fluctuation is not between 1e-9 and 2, or needs the unknown mean
-            speed.
+        BalcliError: A requested fluctuation is not between 1e-9 and 2, or one is requested and the
+            mean speed is not known.
     """
     if constant is None and fluctuation is None:
         return None
-    course = resolved(moving or np.zeros_like, torque.breaks)  # faster than the mechanism
+    course = resolved(moving or np.zeros_like, torque.breaks)  # faster to evaluate
     needed = None
     if fluctuation is not None:
         if not SMALLEST_FLUCTUATION <= fluctuation < 2:
@@ -108,8 +108,8 @@ def find_flywheel(
 
 
 def _find_lines(speed: PiecewiseCurve, mean_speed: float) -> tuple[RippleLine, ...]:
-    """Return the harmonics of the speed relative to its mean, up to the order and number that an
-    engine file may contain.
+    """Return the harmonics of the speed divided by the mean speed, up to the highest order and the
+    largest number of orders that an engine file may contain.
     """
     turns = speed.period / (2 * np.pi)
     count = min(MOST_RIPPLES, int(HIGHEST_RIPPLE_ORDER * turns + 0.1))
@@ -121,7 +121,7 @@ def _find_lines(speed: PiecewiseCurve, mean_speed: float) -> tuple[RippleLine, .
 
 
 def degrees_in_cycle(angle: float, period: float) -> float:
-    """Return a crank angle (rad), reduced to [0, period), in degrees."""
+    """Return a crank angle in degrees, reduced to [0, period); angle and period are in rad."""
     whole = float(np.degrees(period))
     turned = float(np.degrees(angle)) % whole
     return 0.0 if whole - turned < 1e-9 else turned

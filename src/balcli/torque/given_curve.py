@@ -1,4 +1,4 @@
-"""Analyze a given torque curve without an engine, such as that of a press."""
+"""Analyze a given torque curve, such as the torque of a press, without an engine."""
 
 from __future__ import annotations
 
@@ -33,36 +33,36 @@ from .records import (
     write_whole,
 )
 
-SAME_MEAN = 1e-6  # largest difference of equal means, as a share of the largest torque
+SAME_MEAN = 1e-6  # means closer than this share of the largest torque count as equal
 _NOISE = 1e-14  # rounding error of a harmonic, as a share of the largest torque
-_SAME = 1e-9  # largest difference of equal periods, in turns
-_WHOLE = 1e-4  # relative rounding error of a period in a file, such as 102.86 deg for 720/7
+_SAME = 1e-9  # periods (turns) or harmonics that differ by less count as equal
+_WHOLE = 1e-4  # relative rounding of a period in a file, such as 102.86 deg for 720/7
 
 
 def read_curve(path: Path) -> PiecewiseCurve:
     """Return the torque in a CSV file with columns angle_deg,torque_Nm (or other units). The torque
-    is linear between rows; the last row closes the period.
+    is linear between rows; the period runs from the angle of the first row to that of the last.
 
     Raises:
-        BalcliError: The file has other columns, or the angles do not rise.
+        BalcliError: The file does not have these columns, or the angles fall or are too large.
     """
     angles = Head("angle_deg", ANGLE, symbols=ANGLE_SYMBOLS)
     columns = read_columns(path, (angles, Head("torque_Nm", TORQUE, symbols="moment|m|tq|t")))
     angle, torque = np.array(columns.column(0)), np.array(columns.column(1))
     if len(angle) < 2 or not angle[-1] > angle[0]:
-        raise BalcliError(f"{path}: has no two rising angles; the last row has to close the period")
+        raise BalcliError(f"{path}: needs two rising angles; the last row is the end of the period")
     if not np.abs(angle).max() <= FARTHEST_DEG:
         raise BalcliError(f"{path}: has angles beyond {FARTHEST_DEG:g} deg")
     if len(falling := np.flatnonzero(np.diff(angle) < 0)):
         before, here = (columns.as_written(row, 0) for row in (falling[0], falling[0] + 1))
-        text = f"the angle {here} is below the {before} before it"
+        text = f"the angle {here} is below the angle {before} of the row before"
         raise BalcliError(f"{path}: line {columns.lines[falling[0] + 1]}: {text}")
     return polyline(np.radians(angle), torque)
 
 
 def doubt_period(curve: PiecewiseCurve) -> Iterator[str]:
-    """Yield a warning if the period is neither a whole number of turns nor 720 degrees over a whole
-    number: a curve sampled from 0 to 359 degrees lacks its last row.
+    """Yield a warning if the period is neither a whole number of turns nor 720 degrees divided by a
+    whole number. For example, a curve sampled from 0 to 359 degrees lacks its last row, 360.
     """
     turns = curve.period / (2 * np.pi)
     if min(abs(x - round(x)) / x for x in (turns, 2 / turns)) > _WHOLE:
@@ -84,17 +84,18 @@ def analyze_curve(
     Args:
         name: Name of the result.
         torque: Torque, N m.
-        load: Torque of the load, N m, over the same period; None: the constant mean.
+        load: Torque of the load, N m, over the same period; None: constant, the mean torque.
         speed_rpm: Mean speed of the shaft, rpm; None: not known.
         inertia: Inertia of all that turns, kg m2; None: not known.
-        fluctuation: Wanted (highest - lowest)/mean speed, for which the inertia is computed.
+        fluctuation: Allowed fluctuation of speed, (highest - lowest)/mean; the result has the
+            inertia that limits the fluctuation to this value.
         orders: Orders (cycles in 360 degrees) to show; default: the harmonics of the period up to
             the order HIGHEST_GAS_ORDER_UNASKED, at least two and at most MOST_HARMONICS_UNASKED of
             them.
 
     Raises:
-        BalcliError: Torque and load have different periods, or the period does not contain an
-            order.
+        BalcliError: Torque and load have different periods, or a requested order is not a harmonic
+            of the period.
     """
     net = torque if load is None else _subtract(torque, load)
     turns, speed = torque.period / (2 * np.pi), None if speed_rpm is None else speed_rpm * RPM
@@ -127,8 +128,8 @@ def analyze_curve(
 
 
 def _choose_harmonics(turns: float, orders: list[float] | None) -> NDArray[np.intp]:
-    """Return the numbers of the harmonics for these orders; None: the orders shown by default.
-    `turns` is the period in turns.
+    """Return the numbers of the harmonics of the period that these orders are; for None, those of
+    the orders that are shown by default. `turns` is the period in turns.
     """
     if orders is None:
         usual = max(int(HIGHEST_GAS_ORDER_UNASKED * turns + _SAME), 2)
@@ -139,7 +140,7 @@ def _choose_harmonics(turns: float, orders: list[float] | None) -> NDArray[np.in
         there = f"a period of {turns * 360:g} deg has only multiples of {1 / turns:g}"
         raise BalcliError(f"order {wanted[odd[0]] / turns:g}: {there}")
     if len(high := np.flatnonzero(every > HIGHEST_HARMONIC)):
-        highest = math.floor(2 * HIGHEST_HARMONIC / turns) / 2  # allowed, to a multiple of 1/2
+        highest = math.floor(2 * HIGHEST_HARMONIC / turns) / 2  # rounded down to a multiple of 1/2
         order = every[high[0]] / turns
         raise BalcliError(f"order {order:g}: {turns:g} turns have only orders up to {highest:g}")
     return every
@@ -147,7 +148,7 @@ def _choose_harmonics(turns: float, orders: list[float] | None) -> NDArray[np.in
 
 def _subtract(torque: PiecewiseCurve, load: PiecewiseCurve) -> PiecewiseCurve:
     if abs(torque.period - load.period) > _SAME:
-        periods = f"{np.degrees(load.period):g} deg, the torque {np.degrees(torque.period):g}"
-        raise BalcliError(f"--load: has a period of {periods}: give both over the same angle")
+        periods = f"{np.degrees(load.period):g} deg, the torque {np.degrees(torque.period):g} deg"
+        raise BalcliError(f"--load: has a period of {periods}; give both over the same angle")
     breaks = merged_breaks([(torque.breaks, 0.0), (load.breaks, 0.0)], torque.period)
     return resolved(lambda angle: torque.at(angle) - load.at(angle), breaks)

@@ -30,7 +30,7 @@ class CycleLoad:
 
     Attributes:
         cylinder: Number of the cylinder whose rod turns on the pin.
-        bearing: Number of the main bearing from the free end.
+        bearing: Number of the main bearing, counted from the free end.
         position_mm: Position of the main bearing along the crank.
         max_N: Largest load.
         max_deg: Crank angle of the largest load.
@@ -55,7 +55,8 @@ class CycleLoads(NamedTuple):
         pin: Loads of crank pins, by the cylinders whose rods turn on them.
         knuckle: Loads of the knuckle pins in master rods, by articulated cylinder.
         main: Loads of main bearings.
-        obstacle: Reason why loads of main bearings are unknown, if pins were requested as well.
+        obstacle: Reason why requested loads of main bearings are unknown. It is given if loads of
+            pins were requested as well; otherwise the reason is an error.
     """
 
     pin: tuple[CycleLoad, ...] | None = None
@@ -67,13 +68,14 @@ class CycleLoads(NamedTuple):
 def analyze_loads(engine: Engine, asked: Iterable[str] = KINDS_OF_LOAD) -> CycleLoads:
     """Return loads of pins and bearings.
 
-    Main bearings are assumed half-way between neighbouring throws and as far outside the end
-    throws; the shaft is treated as cut at each bearing. If `place_main_bearings` raises and loads
-    of pins are requested as well, the result has these and the obstacle.
+    Main bearings are assumed half-way between neighbouring throws; the end bearings are the same
+    distance outside the end throws. The shaft is treated as cut at each bearing. If the positions
+    of bearings are unknown but loads of pins are requested as well, the result has the loads of
+    pins and, as `obstacle`, the reason.
 
     Args:
         engine: Engine with gas.
-        asked: Some of KINDS_OF_LOAD.
+        asked: Requested loads, names from KINDS_OF_LOAD.
 
     Raises:
         BalcliError: The gas pressure is unknown, or only main bearings are requested and their
@@ -82,7 +84,7 @@ def analyze_loads(engine: Engine, asked: Iterable[str] = KINDS_OF_LOAD) -> Cycle
     steady, sizes = replace(engine, ripple=()), engine.bearings
     pin = knuckle = main = obstacle = None
     if "pin" in asked:
-        # forces on crank or knuckle pins in the cylinder's frame: real along its axis, outward
+        # forces on crank or knuckle pins; the real part is outward along the cylinder's axis
         area = sizes and sizes.pin_m2
         found = _measure(steady, lambda at: compute_rod_forces(steady, at).pin, area)
         loads = [replace(f, cylinder=int(n)) for n, f in zip(engine.numbers, found, strict=True)]
@@ -105,8 +107,8 @@ def analyze_loads(engine: Engine, asked: Iterable[str] = KINDS_OF_LOAD) -> Cycle
 
 
 def _measure(engine: Engine, vectors: Vectors, area: float | None) -> Iterator[CycleLoad]:
-    """Yield the load of each vector over the cycle; vectors that are rounding errors compared with
-    the largest become 0.
+    """Yield the load of each pin or bearing over the cycle from its force vectors. Forces that are
+    rounding errors compared with the largest force become 0.
     """
 
     compute, breaks = partial(compute_in_pieces, engine, vectors), find_breaks(engine)

@@ -39,7 +39,7 @@ def draw_gas(fig: Figure, engine: Engine, what: str, system: System) -> None:
 
     Args:
         fig: Empty figure.
-        engine: One engine, not a batch.
+        engine: One engine, not an array of variants.
         what: Name of the page: pressure, p-v, torque, pin or main.
         system: Units.
 
@@ -118,8 +118,9 @@ def _list_angles(engine: Engine) -> Array:
 
 
 def _draw_pin(fig: Figure, engine: Engine, unit: ShownUnit) -> None:
-    """Draw the load of the crank pin of a cylinder (or of its master rod) twice: relative to the
-    crank (real outward along the throw) and relative to the rod (real towards the piston).
+    """Draw the load of a crank pin twice: relative to the crank (real part outward along the throw)
+    and relative to the rod (real part towards the piston). The pin carries the rod of the cylinder
+    that is shown by default; if that rod is articulated, it is the pin of its master rod.
     """
     first = engine.numbers.index(choose_firing_cylinder(engine))
     on_pin = (master for master, hung in list_hung_rows(engine).items() if first in hung)
@@ -156,7 +157,7 @@ def _draw_polar(
     ax: Axes, force: Complex, crank_deg: Array, unit: ShownUnit, largest: float
 ) -> None:
     """Draw the path of a force's tip, x up and y to the right; `largest` (N) is the largest force
-    of all pictures with the same scale.
+    of all pictures that share the scale.
     """
     s = unit.fit(largest)
     limit = set_up_plane(ax, largest / s.size)

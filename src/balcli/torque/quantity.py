@@ -1,4 +1,4 @@
-"""Quantities of an engine's cycle that sweeps, searches and tolerances evaluate: `torque.mean`,
+"""Evaluate quantities of an engine's cycle for `sweep`, `search` and `scatter`: `torque.mean`,
 `torque.max`, `torque.min`, `fluctuation`.
 """
 
@@ -21,7 +21,7 @@ NO_INERTIA = "fluctuation: the file gives no inertia; give inertia in [crank] or
 
 
 def list_names(model: EngineFile) -> Iterator[str]:
-    """Yield the names of the quantities that an engine with gas has."""
+    """Yield the names of the quantities of an engine with gas; a fluctuation needs an inertia."""
     known = find_constant_inertia(build(model)) is not None
     yield from (name for name in _NAMES if known or name != "fluctuation")
 

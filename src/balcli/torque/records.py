@@ -1,4 +1,4 @@
-"""Define the records of the torque on the crank, the result of `balcli torque` and
+"""Define the records of the torque on the crank, which are the result of `balcli torque` and
 `analyze_torque`.
 """
 
@@ -34,7 +34,7 @@ class Torques(NamedTuple):
 
 
 class TorqueOrder(NamedTuple):
-    """One order of the engine, and of one cylinder.
+    """Torques of one order: of the engine and of one cylinder.
 
     Attributes:
         order: Order, in multiples of the crank speed.
@@ -66,7 +66,7 @@ class Extremes(NamedTuple):
 
 
 class Energy(NamedTuple):
-    """Surplus energy: work of the torque above its mean between two crank angles.
+    """Surplus energy: work of the torque minus its mean, between two crank angles.
 
     Attributes:
         surplus_J: Largest surplus energy.
@@ -90,8 +90,8 @@ class TorqueAnalysis(Result):
         no_gas_in: Cylinders without gas force.
         no_burning_in: Cylinders that compress and expand their charge without burning it.
         assumed: Values assumed because the engine file leaves them out.
-        cycle_deg: Cycle of the engine, or period of the curve.
-        imep_Pa: Indicated mean effective pressure: work of all cylinders over their swept volume.
+        cycle_deg: Length of the engine's cycle or of the curve's period.
+        imep_Pa: Indicated mean effective pressure: work of all cylinders divided by displacement.
         bmep_Pa: Brake mean effective pressure.
         max_pressure_Pa: Highest pressure in any cylinder that has gas.
         max_pressure_deg: Cycle angle of the highest pressure, from the firing dead centre.
@@ -100,14 +100,15 @@ class TorqueAnalysis(Result):
         torque: Largest and smallest torque.
         orders: Torque by order.
         energy: Surplus energy of the torque.
-        flywheel: Inertia and uneven speed; left out if no inertia is given or requested.
+        flywheel: Inertia and uneven speed; left out if neither an inertia is given nor a
+            fluctuation requested.
         loads: Requested loads of pins and bearings.
         name: Name of the engine or curve.
         curve: Torque of gas and inertia, or the given curve, N m, over the crank angle (rad).
         engine: Analyzed engine; None for a given curve.
         spectra: Gas, inertia and total torque of the engine by order.
-        cylinder: Number of the cylinder in `orders`.
-        load_Nm: Mean of the given load, and mean of the difference of torque and load.
+        cylinder: Number of the cylinder whose torques `orders` contains.
+        load_Nm: Mean of the given load, and mean torque minus this mean load, N m.
     """
 
     format: Literal["balcli.torque/1"] = "balcli.torque/1"

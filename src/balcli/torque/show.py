@@ -39,8 +39,8 @@ _PARTS = ("torque", "energy", "flywheel", "loads", "orders")
 
 # ------------------------------------------------------------------ CSV
 def rows(result: TorqueAnalysis, system: System) -> Rows:
-    """Return CSV with one figure in each line, as for `analyze`. Cylinder 0 is the engine; lines
-    with an empty order refer to the whole cycle.
+    """Return CSV with one figure in each line, as for `analyze`. Cylinder 0 is the whole engine;
+    lines with an empty order refer to the whole cycle.
     """
     header = ("cylinder", "quantity", "order", "figure", "value", "unit")
     return Rows(header, _list_rows(result, to_document(result), system))
@@ -60,8 +60,10 @@ def _list_rows(result: TorqueAnalysis, found: Node, system: System) -> Iterator[
     parts = [("engine", head), (names[TORQUE_TOTAL.key], found["torque"])]
     parts += [(key, found.get(key, {})) for key in ("energy", "flywheel")]
     for key, loads in found.get("loads", {}).items():
-        obstacle = key == "obstacle"
-        parts += [("main", {key: loads})] if obstacle else [(key, load) for load in loads]
+        if key == "obstacle":  # why there are no loads of main bearings, in words
+            parts.append(("main", {key: loads}))
+        else:
+            parts += [(key, load) for load in loads]
     for quantity, part in parts:
         yield from _write(quantity, part, system)
     for cylinder, entries in places:
@@ -73,7 +75,7 @@ def _list_rows(result: TorqueAnalysis, found: Node, system: System) -> Iterator[
 
 def _write(quantity: str, part: Node, system: System) -> Iterator[FigureRow]:
     """Yield a line for every figure. Lines of pins have the number of the cylinder; lines of
-    bearings have the number of the bearing in place of an order.
+    bearings have the number of the bearing in the column of the order.
     """
     cylinder, order = part.get("cylinder", 0), part.get("bearing")
     for name, value, _ in list_figures(part, ("cylinder", "bearing", "position_mm")):
@@ -184,8 +186,8 @@ def _list_flywheel(
 
 def _make_load_tables(loads: CycleLoads, system: System) -> Iterator[Grid | Text]:
     cut = (
-        "Bearings are assumed half-way between neighbouring throws and as far outside the end "
-        "throws. The shaft is treated as cut in each bearing."
+        "Bearings are assumed half-way between neighbouring throws; the end bearings are the same "
+        "distance outside the end throws. The shaft is treated as cut in each bearing."
     )
     for title, word, each, note in (
         ("Crank pins", "cylinder", loads.pin or (), ""),
@@ -211,7 +213,7 @@ def _make_load_tables(loads: CycleLoads, system: System) -> Iterator[Grid | Text
 
 def _make_order_table(result: TorqueAnalysis, system: System) -> Grid:
     """Return a table of torque by order, without orders in which neither the engine nor the
-    cylinder has a torque.
+    shown cylinder has a torque.
     """
     orders, alone = list(result.orders), f"gas of {result.cylinder}"
     note = "--orders lists higher orders." * (len(orders) == MOST_HARMONICS_UNASKED)

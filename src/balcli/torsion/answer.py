@@ -37,14 +37,14 @@ from .modes import Critical, NaturalMode, find_criticals, find_natural_modes, ta
 from .response import TorsionResponse, find_barred, find_response
 from .system import TorsionalSystem
 
-BEYOND = 1.5  # criticals are listed up to this multiple of the file's own speed: engines overspeed
+BEYOND = 1.5  # highest listed critical speed over the file's own speed, since engines overspeed
 BREAKING = 1000e6  # vibratory stress above which a warning is given, Pa: no steel bears it
 ASTOUNDING = 45.0  # half swing above which a warning is given, deg; a few degrees are usual
-_ASTRAY = 1e-3  # a Holzer table that differs more from the mode's shape is mostly rounding error
+_ASTRAY = 1e-3  # a Holzer table whose angles differ more from the mode's is mostly rounding error
 
 
 class HolzerAsked(NamedTuple):
-    """Request for a Holzer table: at the frequency of a mode (by number) or at omega (rad/s)."""
+    """Request for a Holzer table: at the frequency of a mode, or at `omega` (rad/s) without one."""
 
     mode: int | None
     omega: float = 0.0
@@ -70,7 +70,7 @@ class ChainNode(NamedTuple):
     Attributes:
         name: Name of the node.
         inertia_kg_m2: Moment of inertia.
-        gear: Speed relative to the crankshaft or the first node.
+        gear: Speed divided by that of the crankshaft or, in a chain file, of the first node.
     """
 
     name: str
@@ -83,7 +83,7 @@ class ChainJoint(NamedTuple):
 
     Attributes:
         name: Name of the shaft.
-        stiffness_Nm_per_rad: Torsional stiffness; null if it is rigid.
+        stiffness_Nm_per_rad: Torsional stiffness; null if the shaft is rigid.
     """
 
     name: str
@@ -96,11 +96,11 @@ class HolzerRow(NamedTuple):
     Attributes:
         node: Name of the node.
         inertia_kg_m2: Moment of inertia.
-        angle: Angle of the node, relative to the first node.
-        torque_Nm: Torque of its inertia for 1 rad of the first node.
+        angle: Angle of the node divided by the angle of the first node.
+        torque_Nm: Torque of the node's inertia if the first node swings by 1 rad.
         sum_Nm: Torque of all inertias up to this node, carried by the shaft to the next node.
-        stiffness_Nm_per_rad: Stiffness of the shaft to the next node; null if it is rigid, 0 at the
-            last node.
+        stiffness_Nm_per_rad: Stiffness of the shaft to the next node; null if this shaft is rigid,
+            0 at the last node.
         twist: Twist of the shaft to the next node.
     """
 
@@ -140,18 +140,18 @@ class TorsionAnalysis(Result):
         format: Name and version of the document.
         name: Name of the engine or chain; null if the file gives none.
         no_gas_in: Cylinders without gas; left out if there are none.
-        no_burning_in: Cylinders that compress and burn nothing; left out if there are none.
+        no_burning_in: Cylinders that compress but do not burn; left out if there are none.
         assumed: Values assumed because the file leaves them out.
         nodes: Inertias, front to rear.
         shafts: Shafts.
         modes: Modes in which shafts twist, lowest first.
         orders: Orders of the excitation that were used; left out without an excitation.
-        criticals: Critical speeds, most work first, in the range of speeds; without a range, up to
-            one and a half times the file's own speed, if it gives one. Left out without an
-            excitation.
+        criticals: Critical speeds in the range of speeds, sorted by falling work. Without a range,
+            they are listed up to one and a half times the file's speed, or all of them if the file
+            gives no speed. Left out without an excitation.
         holzer: Holzer's tables; left out if none was requested.
         response: Forced vibration; left out without speeds.
-        damper: Damper that was sized, which the results include; left out if none was requested.
+        damper: Sized damper, included in the other results; left out if none was requested.
         barred_rpm: First and last speed of each range in which a limit is exceeded; left out
             without a limit or without speeds.
         system: Analyzed system.
@@ -175,8 +175,8 @@ class TorsionAnalysis(Result):
 
     @property
     def doubts(self) -> tuple[str, ...]:
-        """Warnings of shafts whose inertia is left out, of speeds beyond the file's gas, of
-        swings that are too large for the linear model, and of a stress that breaks a shaft.
+        """Warnings of shafts whose inertia is left out, of speeds for which the file describes no
+        gas, of swings that are too large for the linear model, and of a stress that breaks a shaft.
         """
         if self.response is None:
             return self.system.doubts
@@ -226,12 +226,13 @@ def answer_question(
     Args:
         source: File of the chain or engine.
         question: Request.
-        tell: Called with the share of the work done so far.
+        tell: Function that is called with the share of the work done so far.
 
     Raises:
-        BalcliError: A damper's node or inertia is given without its kind, or a damper without
-            speeds; a response lacks excitation or passes an undamped resonance; a mode does not
-            exist; a Holzer table is requested for a chain with loops; no node can carry the damper.
+        BalcliError: The node or inertia of a damper is given without its kind, or a damper without
+            speeds; a response lacks excitation or passes an undamped resonance; a requested mode
+            does not exist; a Holzer table is requested for a chain with loops; no node can carry
+            the damper.
         InputError: The file contradicts itself.
     """
     kind, node, inertia = question.damper
@@ -288,7 +289,7 @@ def _tabulate(
     if asked.mode is not None:
         if asked.mode > len(modes):
             count = counted(len(modes), "mode")
-            raise system.refusal(f"has {count}, but --holzer asks for {asked.mode}")
+            raise system.refusal(f"has {count}, but --holzer asks for mode {asked.mode}")
         omega, shape = modes[asked.mode - 1].omega, modes[asked.mode - 1].shape
     # Holzer's table begins with an angle of 1 at a free end; a clamped end comes last
     first, end = system.ends[::-1] if chain.clamped[0] else system.ends
@@ -318,7 +319,7 @@ def parse_half_orders(text: str | None) -> Real | None:
     """
     if text is None:
         return None
-    right = "give multiples of 0.5 such as 0.5-8 (with halves), 1-8 (whole ones) or 1,2.5,4"
+    right = "give multiples of 0.5 such as 0.5-8 (with halves), 1-8 (whole orders) or 1,2.5,4"
     bounds = f"must rise, from above 0 to {HIGHEST_TORSION_ORDER} at most"
     found = read_orders(text, right, bounds, 0.5, HIGHEST_TORSION_ORDER)
     return np.array(sorted(set(found)), float)
@@ -350,7 +351,7 @@ def parse_question(
     damper_inertia: str | None = None,
     units: Units = Units.SI,
 ) -> TorsionQuestion:
-    """Return the request in these options.
+    """Return the request that these options make.
 
     Raises:
         BalcliError: An option cannot be read.
@@ -369,7 +370,7 @@ def require_speeds(asked: TorsionQuestion, what: str) -> None:
         BalcliError: No range was given.
     """
     if asked.speeds_rpm is None and what in ("response", "waterfall"):
-        raise BalcliError(f"--what {what}: give the range, such as --speeds 1000:2500")
+        raise BalcliError(f"--what {what}: give the range of speeds, such as --speeds 1000:2500")
 
 
 # ------------------------------------------------------------------ in Python
@@ -392,19 +393,20 @@ def analyze_torsion(
         source: Engine whose file has [torsion]; or the path, text or dict of tables of such a file
             or of a chain file.
         speeds_rpm: Speeds of the forced vibration; default: only modes and criticals are computed.
-        orders: Orders of the excitation to use, multiples of 1/2; default: all orders of a chain;
-            for an engine, orders to 32, the firing order and its double.
-        damper: Kind of damper to size. It minimises the largest stress over `speeds_rpm`, which
-            must be given; the results include the damper.
+        orders: Orders of the excitation to use, multiples of 1/2. Default for a chain: all orders.
+            Default for an engine: all orders up to 32; if the number of firings per turn is above
+            12, also this order and its double.
+        damper: Kind of damper to size. The sized damper minimises the largest stress over
+            `speeds_rpm`, which must be given; the other results include the damper.
         damper_at: Name of the node that carries the damper; default: the foremost part, or for
             pendulums the throw with the largest amplitude.
         damper_inertia: Inertia of the damper's ring, or of its pendulums about the axis, kg m2;
-            default: the inertia in the file, or a usual share of the mode's inertia.
+            default: the inertia in the file, or a usual share of the mode's equivalent inertia.
 
     Returns:
         `modes` (`frequency_Hz`, `shape`), `criticals` (`speed_rpm`, `order`, `mode`), `response`
         (`shafts`, each with `half_peak_to_peak_Nm` and `stress_Pa` by speed, and `worst`, the
-        largest of the range), and `barred_rpm`: the attributes are the keys of the JSON.
+        largest of the range), and `barred_rpm`. The attributes have the names of the JSON keys.
 
     Raises:
         BalcliError: The file has no [torsion]; orders or inertia are impossible; a response lacks

@@ -58,13 +58,14 @@ from .chain_file import ChainFile, refuse_node
 from .system import Excitation, Pendulums, TorsionalSystem, ViscousRing
 
 NO_DAMPERS: Mapping[str, Damper | None] = MappingProxyType({})
-_LIGHT = 0.05  # a shaft below this share of the smaller neighbour's inertia may be neglected
+_LIGHT = 0.05  # negligible inertia of a shaft, as a share of the smaller inertia at its ends
+_MOST_NAMED = 4  # largest number of shafts that a message names
 _MESH = ShaftKeys.model_construct(stiffness=math.inf)
 
 
 class PlannedNode(NamedTuple):
-    """A node: its table in the units of the file, its damping against ground (N m s/rad), and
-    further dampers that it carries.
+    """A node: its table in the units of the file, its damping against ground (N m s/rad), and the
+    dampers that it carries besides the damper in its table.
     """
 
     table: NodeKeys
@@ -73,8 +74,8 @@ class PlannedNode(NamedTuple):
 
 
 class PlannedShaft(NamedTuple):
-    """A shaft between two nodes (their indices) and its table, in the units of the file; `ratio` is
-    the speed of its end over the speed of its start.
+    """A shaft between two nodes, given by their indices, and its table in the units of the file.
+    `ratio` is the speed of the shaft's end divided by the speed of its start.
     """
 
     name: str
@@ -92,16 +93,17 @@ def assemble_system(
     fitted: Mapping[str, Damper | None] = NO_DAMPERS,
     **others: Any,
 ) -> TorsionalSystem:
-    """Return the system. Rubber rings become nodes and shafts after all others. Half of the
-    inertia of a shaft is added to the node at each end.
+    """Return the system of these nodes and shafts. Each rubber ring becomes a node and a shaft,
+    listed after all others. Half of the inertia of a shaft is added to the node at each end.
 
     Args:
         planned: Nodes, front to rear.
         joining: Shafts between these nodes.
         keys: Default loss of shafts, and limits of stress and angle.
         clamped: Indices of the nodes that are held.
-        fitted: Dampers by the name of their node; each replaces the first damper of the node.
-        others: Further attributes of the system.
+        fitted: Dampers by the name of their node; each replaces the first damper of the node, and
+            None removes it.
+        others: Further attributes of `TorsionalSystem`.
     """
     nodes, shafts, rings, pendulums = list(planned), list(joining), [], []
     for k, damper in _place_dampers(planned, fitted):
@@ -146,7 +148,7 @@ def assemble_system(
 def _place_dampers(
     planned: Sequence[PlannedNode], fitted: Mapping[str, Damper | None]
 ) -> Iterator[tuple[int, Damper]]:
-    """Yield the number of a node and a damper that it carries, for all dampers."""
+    """Yield every damper together with the index of the node that carries it: (index, damper)."""
     for k, node in enumerate(planned):
         dampers = list(filter(None, (node.table.damper, *node.further)))
         if node.table.name in fitted:
@@ -155,7 +157,7 @@ def _place_dampers(
 
 
 def _find_stress(table: ShaftKeys) -> float:
-    """Return the shear stress at the surface under a torque of 1 N m, Pa; 0 without a diameter."""
+    """Return the shear stress at the surface of a shaft for 1 N m, Pa; 0 without a diameter."""
     outer, inner = (table.diameter or 0.0) / 1e3, (table.bore or 0.0) / 1e3
     return find_shear_stress(outer, inner) if outer else 0.0
 
@@ -166,12 +168,13 @@ def _doubt_light_shafts(chain: Chain, shafts: Sequence[PlannedShaft]) -> Iterato
     lost[[each.table.density is not None for each in shafts]] = 0
     ends = np.where(chain.clamped, np.inf, chain.inertia)
     near = np.minimum(ends[chain.start] / chain.ratio**2, ends[chain.end])
-    heavy = lost > _LIGHT * near
-    if np.any(heavy):
+    if heavy := np.flatnonzero(lost > _LIGHT * near).tolist():
+        named = [shorten(shafts[k].name) for k in heavy]
+        named[_MOST_NAMED:] = ["..."] * (len(named) > _MOST_NAMED)
         yield (
-            f"{counted(int(heavy.sum()), 'plain shaft')} without a density: their inertia, "
-            f"{lost[heavy].sum():.4g} kg m2 in steel, is left out; give density = {STEEL} (g/cm3), "
-            "which adds half of it to the node at each end"
+            f"{counted(len(heavy), 'plain shaft')} without a density ({', '.join(named)}): their "
+            f"inertia, {lost[heavy].sum():.4g} kg m2 in steel, is left out; density = {STEEL} "
+            "(g/cm3) adds half of the inertia to the node at each end"
         )
 
 
@@ -271,21 +274,22 @@ def _find_faults(system: TorsionalSystem, paths: Sequence[str]) -> Iterator[Prob
     for piece in [] if apart else [motion != 0 for motion in rigid_motions(chain)] or [~still]:
         if not np.any(chain.inertia[piece]):
             path = f"node.{np.argmax(piece) + 1}.inertia"
-            yield Problem.of_missing(path, "no node that turns with it has one")
+            yield Problem.of_missing(path, "no node that turns with this node has an inertia")
 
 
 def _find_contradiction(
     chain: Chain, paths: Sequence[str], joining: NDArray[np.bool_]
 ) -> Iterator[Problem]:
-    """Yield a problem for the first of the `joining` shafts that closes a loop with contradictory
-    ratios. A loop of gears would lock; a loop with elastic shafts would wind them up as it turns.
+    """Yield a problem for the first shaft or gear in the mask `joining` that closes a loop with
+    contradictory ratios. A loop of gears would lock; elastic shafts in a loop would be wound up as
+    they turn.
     """
     pieces = find_pieces(chain, joining)
     found = pieces.pace[chain.end] / pieces.pace[chain.start]
     torn = joining & (np.abs(found - chain.ratio) > SAME_RATIO * np.abs(found))
     for shaft in np.flatnonzero(torn)[:1].tolist():
-        ratios = f"{chain.ratio[shaft]:.9g} here, {found[shaft]:.9g} by the others"
-        hint = "give ratios with all digits, or leave one out"
+        ratios = f"{chain.ratio[shaft]:.9g} here, {found[shaft]:.9g} by the rest of the loop"
+        hint = "give ratios with all digits, or leave out one of the gears"
         yield Problem(paths[shaft], f"closes a loop of contradictory ratios: {ratios}; {hint}")
 
 
@@ -376,7 +380,7 @@ def build_engine_system(
 
 
 def _plan_throws(torsion: Torsion, engine: Engine, throws: Sequence[str]) -> Iterator[PlannedNode]:
-    """Yield a node for each throw, with its running gear and the damping of every cylinder."""
+    """Yield a node for each throw, with the running gear and the damping of its cylinders."""
     gear, on_throw = weigh_running_gear(engine), engine.joined_throw_of_rows
     inertias = _weigh_throws(torsion, engine) + np.bincount(on_throw, gear, len(throws))
     damping = torsion.damping * np.bincount(on_throw, None, len(throws))
@@ -421,8 +425,8 @@ def _join_parts(torsion: Torsion, throws: Sequence[str]) -> list[_Joint]:
 
 
 def _lead_outward(joints: Sequence[_Joint], throws: Sequence[str]) -> list[_Joint]:
-    """Return the joints in order from the throws outward, since a part may be joined to one that
-    comes later in the file. Parts without a connection to a throw are left out.
+    """Return the joints in order from the throws outward, since a part may be joined to a part
+    that comes later in the file. Parts without a connection to a throw are left out.
     """
     known, found = {*throws}, list[_Joint]()
     while new := [each for each in joints if each.of in known and each.part.name not in known]:
@@ -432,11 +436,12 @@ def _lead_outward(joints: Sequence[_Joint], throws: Sequence[str]) -> list[_Join
 
 
 def _find_end(led: Sequence[_Joint], gears: Mapping[str, float], start: str) -> str:
-    """Return the name of the node at crank speed with the most shafts between it and a start; among
-    several, the one with the largest inertia. Geared parts are branches and do not count.
+    """Return the name of an end of the system: of the nodes at crank speed, the node with the most
+    shafts between it and the first or last throw. Of several such nodes, the node with the largest
+    inertia is returned. Parts at another speed are branches and do not count.
 
     Args:
-        led: Joints from the start outward.
+        led: Joints from the throw outward.
         gears: Speed of every node over crank speed, by name.
         start: Name of the first or last throw.
     """
@@ -450,7 +455,9 @@ def _find_end(led: Sequence[_Joint], gears: Mapping[str, float], start: str) -> 
 # ------------------------------------------------------------------ inertia and excitation
 def weigh_running_gear(engine: Engine) -> Real:
     """Return the mean moment of inertia of each cylinder's running gear without the throw, kg m2,
-    shape (cylinders,): `m_rot r^2 + mean(m_rec s'^2 - H beta'^2)`.
+    shape (cylinders,): `m_rot r^2 + mean(m_rec s'^2 - H beta'^2)`, where s' and beta' are the
+    derivatives of piston position and rod angle by the crank angle, and r is the crank radius; see
+    docs/theory.md for H.
     """
     c = engine.cylinders
     mean_only = np.zeros(1)
@@ -463,8 +470,8 @@ def weigh_running_gear(engine: Engine) -> Real:
 
 
 def _weigh_throws(torsion: Torsion, engine: Engine) -> Real:
-    """Return the moment of inertia of the crankshaft at each throw, kg m2, front to rear. Throws of
-    the file that form one node are added.
+    """Return the moment of inertia of the crankshaft at each throw, kg m2, front to rear. The
+    inertias of throws that form one node are added.
     """
     joined, throws = engine.joined_throws, len(engine.throws_m)
     given = torsion.throw_inertia or [float(engine.crank_inertia or 0.0) * 1e6 / throws]
@@ -480,7 +487,7 @@ def excite_engine(model: EngineFile, engine: Engine, orders: Real | None) -> Exc
 
     Args:
         orders: Orders, shape (orders,); None: all orders up to HIGHEST_TORSION_ORDER_UNASKED (with
-            half orders for a four-stroke engine with gas), and the firing orders of
+            half orders for a four-stroke engine with gas), and the orders of
             `list_gas_orders`.
     """
     front = 0 if model.torsion is None else len(model.torsion.front)
@@ -524,13 +531,13 @@ def _find_misfits(
         if of not in names:
             yield Problem(f"{path}.of", refuse_node(of, names))
         elif part.name not in led and part.name not in reserved:
-            text = f"{shorten(of)} is not connected to the crankshaft; name a part that is"
+            text = f"{shorten(of)} is not connected to the crankshaft; name one that is connected"
             yield Problem(f"{path}.of", text)
 
 
 def _check_throws(torsion: Torsion, engine: Engine, throws: int) -> Iterator[Problem]:
     """Check the keys of throws. The list of inertias may have a value for each throw of the file,
-    even where several form one node.
+    even where several throws form one node.
     """
     places, in_file = throws - 1, len(engine.throws_m)
     if torsion.throw_stiffness is None and places:

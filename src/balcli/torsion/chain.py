@@ -1,4 +1,4 @@
-"""Compute torsional chains, which are inertias (nodes) joined by shafts and gears, and dampers as
+"""Compute torsional chains: inertias (nodes) joined by shafts and gears. Dampers are treated as
 complex inertias.
 
 A shaft twists by `ratio x_start - x_end`, where x are the angles of its nodes. A shaft with a ratio
@@ -26,8 +26,8 @@ SAME_RATIO = 1e-9  # relative difference below which two gear ratios count as eq
 
 
 class ChainShaft(NamedTuple):
-    """A shaft between two nodes (their indices); stiffness in N m/rad at the speed of its end, inf
-    if rigid.
+    """A shaft between two nodes, given by their indices. `stiffness` (N m/rad, inf if rigid) refers
+    to the speed of the shaft's end; `ratio` is this speed divided by the speed of its start.
     """
 
     start: int
@@ -41,7 +41,7 @@ class Pieces(NamedTuple):
 
     Attributes:
         first: (nodes,) first node of the piece that each node belongs to.
-        pace: (nodes,) speed of each node over that of the first node of its piece.
+        pace: (nodes,) speed of each node divided by that of the first node of its piece.
     """
 
     first: Indices
@@ -52,11 +52,11 @@ class Chain(NamedTuple):
     """Nodes and shafts as arrays.
 
     Attributes:
-        inertia: (nodes,) kg m2; 0: massless.
+        inertia: (nodes,) moment of inertia of each node, kg m2; 0: massless.
         start: (shafts,) index of the node at the start of each shaft.
         end: (shafts,) index of the node at the end of each shaft.
-        ratio: (shafts,) speed of the end over that of the start.
-        stiffness: (shafts,) N m/rad at the speed of the end; inf: a mesh of gears.
+        ratio: (shafts,) speed of the end divided by that of the start.
+        stiffness: (shafts,) N m/rad at the speed of the end; inf: rigid, or a mesh of gears.
         clamped: (nodes,) whether a node is held.
     """
 
@@ -83,7 +83,9 @@ class Damping(NamedTuple):
 
 
 class Branch(NamedTuple):
-    """A node joined to another by a shaft, which twists by `near x_child + far x_parent`."""
+    """A node (`child`) joined to another node (`parent`) by a shaft. The shaft twists by
+    `near x_child + far x_parent`, where x are the angles of the two nodes.
+    """
 
     child: int
     parent: int
@@ -106,8 +108,8 @@ def join_chain(
 
 
 def find_pieces(chain: Chain, shafts: NDArray[np.bool_] | None = None) -> Pieces:
-    """Return the pieces of nodes that the selected shafts (mask, shape (shafts,); None: all)
-    connect.
+    """Return the pieces of the chain, whose nodes are connected by the selected shafts (mask, shape
+    (shafts,); None: all shafts).
     """
     joining = np.ones(len(chain.start), bool) if shafts is None else shafts
     first, pace = np.full(len(chain.inertia), -1), np.ones(len(chain.inertia))
@@ -129,7 +131,7 @@ def find_still(chain: Chain) -> NDArray[np.bool_]:
 
 def rigid_motions(chain: Chain) -> Real:
     """Return the rigid-body motions, shape (motions, nodes): for each piece that can turn freely,
-    the angles of its nodes, 1 at its first node. Loops must not contradict each other.
+    the angles of its nodes, 1 at its first node. The ratios of a loop must be consistent.
     """
     pieces = find_pieces(chain, chain.stiffness > 0)
     free = np.setdiff1d(pieces.first, pieces.first[chain.clamped])
@@ -187,15 +189,15 @@ def viscous_inertia(inertia: float | Real, damping: float | Real, frequency: Rea
 
 def pendulum_inertia(mass: float, radius: float, length: float, order: Real) -> Complex:
     """Return the effective inertia `m (R + L)^2/(1 - n^2 L/R)` of a centrifugal pendulum of mass m
-    (kg) and length L (m) with its pivot at a radius R (m), at an order n of its node's speed. A
-    pendulum with n^2 = R/L holds its node at rest.
+    (kg) and length L (m) with its pivot at a radius R (m), for n oscillations in each turn of its
+    node. A pendulum with n^2 = R/L holds its node at rest.
     """
     return mass * (radius + length) ** 2 / _detune(radius, length, order)
 
 
 def pendulum_swing(radius: float, length: float, order: Real) -> Complex:
     """Return the angle of a pendulum relative to its node over the angle of the node, for small
-    angles: `n^2 (1 + L/R)/(1 - n^2 L/R)`.
+    angles: `n^2 (1 + L/R)/(1 - n^2 L/R)`, with the symbols of `pendulum_inertia`.
     """
     return order**2 * (1 + length / radius) / _detune(radius, length, order)
 

@@ -50,13 +50,15 @@ class Gear(FileTable):
 
 
 class Excitation(FileTable):
-    """A torque on a node, `cos * cos(n t) + sin * sin(n t)`; t is the angle of the first node."""
+    """A torque on a node, `cos * cos(n t) + sin * sin(n t)`, for the order n; t is the angle of the
+    first node.
+    """
 
     node: Name = Field(examples=["crank"], description="name of the node on which it acts")
     order: Annotated[float, Whole(least=0.5, most=HIGHEST_TORSION_ORDER, halves=True)]
     """Oscillations per turn of the first node; a multiple of 0.5. Example: 1.5"""
-    cos: Torque = Field(0.0, examples=[120], description="amplitude of its cosine")
-    sin: Torque = Field(0.0, examples=[-35], description="amplitude of its sine")
+    cos: Torque = Field(0.0, examples=[120], description="amplitude of the cosine")
+    sin: Torque = Field(0.0, examples=[-35], description="amplitude of the sine")
 
 
 class ChainFile(ChainKeys):
@@ -65,7 +67,7 @@ class ChainFile(ChainKeys):
     name: Name | None = Field(None, examples=["pump drive"], description="name of the chain")
     fixed: Annotated[tuple[Name, ...], Field(max_length=MOST_TORSION_NODES)] = ()
     """Nodes that are clamped. Example: ['hull']"""
-    node: tuple[Node, ...] = Field(examples=[], description="the nodes; the first gives the speed")
+    node: tuple[Node, ...] = Field(examples=[], description="the nodes; speeds refer to the first")
     shaft: tuple[ChainShaft, ...] = Field((), examples=[], description="the shafts between them")
     gear: tuple[Gear, ...] = Field((), examples=[], description="meshes of gears between them")
     excitation: tuple[Excitation, ...] = Field((), examples=[], description="torques on nodes")
@@ -91,7 +93,7 @@ def describes_chain(data: Mapping[str, object]) -> bool:
 
 
 def read_chain_tables(data: Mapping[str, object], file: str = "") -> ChainFile:
-    """Return the chain that the tables of a file describe; `file` is its name in messages.
+    """Return the chain that the tables of a file describe; `file` is the file's name in messages.
 
     Raises:
         InputError: The file has mistakes; the error lists all of them.

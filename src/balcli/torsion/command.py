@@ -32,7 +32,7 @@ def torsion(
         str | None,
         optional(
             "0.5-12|1,2.5",
-            "Orders of excitation; default: all of a chain; to 32 and firing orders of an engine.",
+            "Orders of excitation; default: all of a chain; of an engine, orders up to 32.",
         ),
     ] = None,
     holzer: Annotated[
@@ -46,13 +46,13 @@ def torsion(
     ] = None,
     damper_at: Annotated[
         str | None,
-        optional("NAME", "Node that carries the damper; default: the front (pendulum: a throw)."),
+        optional("NAME", "Node that carries the damper; default: foremost part (pendulum: throw)."),
     ] = None,
     damper_inertia: Annotated[
         str | None,
-        optional("KGMM2", "Inertia of the damper; default: as in the file, else a usual one."),
+        optional("KGMM2", "Inertia of the damper; default: as in the file, else a usual value."),
     ] = None,
-    write: Annotated[Path | None, optional("FILE", "Write the file with the damper.")] = None,
+    write: Annotated[Path | None, optional("FILE", "Write a copy of FILE with the damper.")] = None,
     plot: Annotated[Path | None, optional("FILE", "Draw pictures; .svg, .png or .pdf.")] = None,
     what: Annotated[
         Literal["all", "modes", "campbell", "response", "waterfall"],

@@ -1,4 +1,4 @@
-"""Size a damper on the whole system, to minimise the largest stress over a range of speeds.
+"""Size a damper so that the largest stress of the whole system over a range of speeds is least.
 
 The search begins at the optimum of a system with one degree of freedom: Houdaille's damping for a
 viscous ring, Den Hartog's stiffness for rubber, the length tuned to the order for pendulums. It
@@ -48,26 +48,26 @@ DAMPER_KEYS = {
     "length": ("length_m", 1e3, "length to the centre of mass"),
 }
 RUBBER_LOSS = 0.15  # usual loss factor of damper rubber
-# Figure of each kind of damper that is sized.
+# Figure that is sized, by kind of damper.
 FIGURES = {"viscous": "damping", "rubber": "stiffness", "pendulum": "length"}
-# The search runs from start/width to start*width.
+# The search runs from start/width to start*width, with a width by kind of damper.
 _WIDTH = {"viscous": 30.0, "rubber": 4.0, "pendulum": 1.2}
 # default inertia of a damper, relative to the mode's inertia at the node
 _SHARE = {"viscous": 0.3, "rubber": 0.15, "pendulum": 0.05}
 # Largest half swing of pendulums, deg. At this swing the frequency of a pendulum on a circle is
 # swing^2/16 = 0.8 % lower than at small swings.
 WIDE_SWING = 20.0
-_MASSES = 16  # largest number of masses that are tried to bring pendulums below WIDE_SWING
+_MASSES = 16  # largest number of masses that are tried to bring the swing below WIDE_SWING
 _HEAVIER = 1.1  # margin on the mass that suffices if the swing is inversely proportional to it
 _MOST_AT_ONCE = 3.0  # largest factor from one tried mass to the next, without the margin
-_MOST_PENDULUM = 0.5  # largest inertia of pendulums, as a share of their node's
-_PLACES = 13  # number of grid points of the search; then its valleys are refined
-# Expected number of responses; the last two are those with and without the best damper.
+_MOST_PENDULUM = 0.5  # largest inertia of pendulums, as a share of the inertia of their node
+_PLACES = 13  # number of grid points of the search, which then refines each valley
+# Expected number of computed responses; the last two are with and without the best damper.
 _RESPONSES = _PLACES + 2 + ROUNDS + 2
-_END = 0.99  # an optimum beyond this share of the (logarithmic) range counts as at its end
+_END = 0.99  # an optimum beyond this share of the (logarithmic) range counts as at an end
 _HARDLY = 0.99  # a damper that leaves more than this share of the largest stress is useless
-_HEAVY = 10.0  # a damper with more than this multiple of its carrier's inertia is too large
-_LOSS = 0.01  # least loss factor of shafts to find the largest stress if nothing damps a resonance
+_HEAVY = 10.0  # a damper with more than this multiple of the inertia of its node is too large
+_LOSS = 0.01  # least loss factor assumed for shafts if nothing damps a resonance
 # If the equivalent inertia of a mode at a node is above this multiple of the whole inertia, the
 # node hardly moves.
 _MOVES = 2.0
@@ -78,7 +78,7 @@ class DamperAsked(NamedTuple):
 
     Attributes:
         kind: Kind of damper: viscous, rubber or pendulum; None: no damper.
-        node: Name of the node that carries the damper; None: the first node that can carry one.
+        node: Name of the node that carries the damper; None: the default of `_find_carrier`.
         inertia: Inertia of ring or pendulums, kg m2; None: the inertia of the file's damper on that
             node, or a usual share of the mode's inertia.
     """
@@ -103,13 +103,13 @@ class SizedDamper:
         radius_m: Distance of the pivots of pendulums from the axis.
         length_m: Length of a pendulum.
         mode: Number of the mode that the damper is tuned to.
-        before_Pa: Largest stress without a damper on the node; null if it has no bound.
+        before_Pa: Largest stress without a damper on the node; null if this stress has no bound.
         after_Pa: Largest stress with the damper.
         before_Nm: Largest torque without a damper on the node, if no shaft has a diameter; null if
-            it has no bound.
+            this torque has no bound.
         after_Nm: Largest torque with the damper, if no shaft has a diameter.
         heat_W: Largest power that the damper dissipates.
-        heat_rpm: Speed at which it dissipates this power.
+        heat_rpm: Speed at which the damper dissipates this power.
         doubts: Warnings of unlikely figures; left out if there are none.
         damper: Damper in the units of a file.
         start: Value of the sized figure (damping, stiffness or length) at which the search began,
@@ -133,7 +133,7 @@ class SizedDamper:
     after_Pa: float | None = None
     before_Nm: float | None = None
     after_Nm: float | None = None
-    heat_W: float = 0.0  # until the whole system is computed
+    heat_W: float = 0.0  # replaced once the whole system is computed
     heat_rpm: float
     doubts: tuple[str, ...] | None = None
     damper: Annotated[Damper, HIDDEN]
@@ -152,7 +152,7 @@ def size_damper(
         source: File of the chain or engine.
         asked: Damper to size.
         speeds: Rising speeds, rpm, shape (speeds,).
-        tell: Called with the share of the work done so far.
+        tell: Function that is called with the share of the work done so far.
 
     Raises:
         BalcliError: No node can carry the damper, or the system has no excitation.
@@ -172,8 +172,8 @@ def size_damper(
         first = _limit_swing(source, speeds, node, first, float(bare.chain.inertia[place]))
 
     def judge(damper: Damper | None) -> float:
-        """Return the largest stress or torque with a damper; inf if it has no bound, or if
-        pendulums whose mass is not given swing too far.
+        """Return the largest stress or torque with a damper; inf if this has no bound, or if
+        pendulums swing too far and their inertia was not requested.
         """
         tell(min(next(tried) / _RESPONSES, 1.0))
         if free and damper and _find_pendulum_swing(source, node, damper, speeds) > WIDE_SWING:
@@ -237,13 +237,13 @@ def _find_carrier(source: Source, asked: DamperAsked, speeds: Real) -> str:
 def _limit_swing(
     source: Source, speeds: Real, node: str, proposed: Damper, inertia: float
 ) -> Damper:
-    """Return pendulums that are heavy enough to swing by at most WIDE_SWING at some length of the
-    searched range, with this length. The swing is about inversely proportional to the mass.
-    `inertia` (kg m2) is that of their node.
+    """Return the proposed pendulums with a mass and a length, within the searched range of lengths,
+    with which they swing by at most WIDE_SWING. The swing is about inversely proportional to the
+    mass. `inertia` (kg m2) is the inertia of the node that carries the pendulums.
 
     Raises:
-        BalcliError: They would have more than half of the inertia of their node, and more mass than
-            the pendulums of the file.
+        BalcliError: The pendulums would need more than half of the inertia of their node, and more
+            mass than the proposed pendulums have.
     """
     start, width = proposed.swinging_length, _WIDTH["pendulum"]
     mass = given = proposed.mass or 0.0
@@ -279,9 +279,9 @@ def _find_pendulum_swing(source: Source, node: str, damper: Damper, speeds: Real
 
 
 def _find_hardest(system: TorsionalSystem, speeds: Real) -> tuple[int, float, float]:
-    """Return the shaft with the largest stress over a range of speeds, the speed (rpm) and the
-    stress (Pa). If no shaft has a diameter, torque (N m) takes the place of stress. The shafts of
-    rubber rings are ignored.
+    """Return the index of the shaft with the largest stress over a range of speeds, the speed (rpm)
+    and the stress (Pa). If no shaft has a diameter, torque (N m) takes the place of stress. The
+    shafts of rubber rings are ignored.
 
     Args:
         system: System with an excitation.
@@ -295,8 +295,8 @@ def _find_hardest(system: TorsionalSystem, speeds: Real) -> tuple[int, float, fl
 
 
 def _minimise(judge: Callable[[float], float], width: float) -> float:
-    """Return the minimum of a function within [-width, width]: golden-section search in every
-    valley of a coarse grid.
+    """Return the argument within [-width, width] at which a function is least, by golden-section
+    search in every valley of a coarse grid.
     """
     places = np.linspace(-width, width, _PLACES).tolist()
     values = np.array([judge(place) for place in places])
@@ -314,9 +314,10 @@ def _find_mode_to_damp(
 ) -> tuple[NaturalMode, float]:
     """Return the mode that a damper on a node should damp, and the order that drives it.
 
-    The order is the largest one in the largest stress of the range. Of the modes in which the node
-    moves, the one nearest to this excitation in frequency is returned. Selection by work would pick
-    the mode of a soft coupling, which hardly twists the crankshaft.
+    The order is that with the largest amplitude in the largest stress of the range. Its frequency
+    at the speed of this stress is compared with the modes in which the node moves; the nearest mode
+    is returned. Selection by work would pick the mode of a soft coupling, which hardly twists the
+    crankshaft.
     """
     modes = find_natural_modes(system)
     if not modes:
@@ -392,8 +393,8 @@ def _propose(
 
 # ------------------------------------------------------------------ doubts
 def _doubt(found: SizedDamper, bare: TorsionalSystem, *, given: bool) -> Iterator[str]:
-    """Yield warnings of unlikely figures of a damper; `given`: whether the user gave its
-    inertia.
+    """Yield warnings of unlikely figures of a damper; `given`: whether its inertia was requested or
+    is that of a damper in the file.
     """
     node, inertia = printable(found.node), found.inertia_kg_m2
     if inertia is None:  # pendulums, about the axis

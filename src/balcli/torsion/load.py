@@ -39,13 +39,13 @@ class Source(NamedTuple):
     """A chain or engine file that has been read.
 
     Attributes:
-        text: Text of the file; empty if nothing can be written into it.
+        text: Text of the file; empty if no damper is to be written into it.
         doubts: Warnings of figures that are allowed but unlikely.
         system: Function that returns the system of the file. Its argument is a dict of dampers by
             node name, which replace those of the file. It raises InputError if the file
             contradicts itself.
-        dampers: Nodes that may carry a damper, by name, each with its first damper.
-        engine: Engine of the file; None: it describes a chain.
+        dampers: First damper, or None, of each node that may carry one, by the node's name.
+        engine: Engine of the file; None: the file describes a chain.
         throws: Names of the nodes of the engine's throws.
     """
 
@@ -105,7 +105,7 @@ def load_source(path: str, orders: Real | None = None, misfires: Sequence[str] =
 def make_source(
     model: EngineFile, engine: Engine, name: str, orders: Real | None = None, text: bytes = b""
 ) -> Source:
-    """Return the source for an engine and its file. Without a text, nothing can be written into it.
+    """Return the source for an engine and its file. The text is only needed to write a damper.
 
     Raises:
         BalcliError: The file has no [torsion].

@@ -30,7 +30,7 @@ from .chain import (
 )
 from .system import Excitation, TorsionalSystem
 
-_AT_REST = 1e-9  # a node that moves less than this share of the largest counts as at rest
+_AT_REST = 1e-9  # a node whose angle is below this share of the largest counts as at rest
 # Shift of the eigenvalues; a pole here would be a vibration that grows, which no chain has.
 _SIGMA = np.exp(0.25j * np.pi)
 _INFINITE = 1e-6  # eigenvalues below this share of the largest are (double) zeros
@@ -150,7 +150,7 @@ def find_chain_poles(chain: Chain, damping: Damping) -> Complex:
     return np.asarray(unit * (_SIGMA + 1 / mu[finite]), complex)
 
 
-_UNDRIVEN = 1e-10  # work below this share of the sum of the torques' magnitudes is rounding
+_UNDRIVEN = 1e-10  # work below this share of the work of all torques in phase is rounding
 
 
 class NaturalMode(NamedTuple):
@@ -158,11 +158,11 @@ class NaturalMode(NamedTuple):
 
     Attributes:
         frequency_Hz: Natural frequency.
-        shape: Real angle of each node, not reduced by gears, relative to the largest.
+        shape: Actual angle of each node, not reduced by gears, divided by the largest.
         nodes: Number of vibration nodes, places that do not move.
         node_in: Names of the shafts with a vibration node: their ends turn against each other.
-        node_at: Names of the nodes of the chain that are at rest between others that move.
-        loss: Loss factor of the mode by dampers and shafts together.
+        node_at: Names of the nodes of the chain that are at rest between nodes that move.
+        loss: Loss factor of the mode by dampers, shafts and nodes together.
         number: Number of the mode, from 1.
     """
 
@@ -187,10 +187,10 @@ class Critical(NamedTuple):
         mode: Number of the mode, from 1.
         order: Order of the excitation.
         speed_rpm: Critical speed.
-        phase_sum: Vector sum over the cylinders of the torque's phasor times the mode's angle,
-            relative to the largest torque.
-        work_share: Work at this critical speed as a share of the work at all critical speeds of the
-            mode.
+        phase_sum: Magnitude of the sum of all cylinders' torques, each a phasor times the angle of
+            its throw in the mode, divided by the largest amplitude of these torques.
+        work_share: Work at this critical speed divided by the sum of the works at all critical
+            speeds of the mode.
         work: Work (J) of all torques in one cycle of vibration with an amplitude of 1 rad where the
             shape is 1.
     """
@@ -249,7 +249,7 @@ def find_criticals(
     modes: tuple[NaturalMode, ...],
     range_rpm: tuple[float, float] | None = None,
 ) -> tuple[Critical, ...]:
-    """Return the critical speeds, most work first.
+    """Return the critical speeds, sorted by falling work.
 
     Args:
         excitation: Orders and torques.

@@ -1,7 +1,7 @@
 """Compute the forced steady vibration of a torsional system, order by order at given speeds.
 
 Angles and torques are phasors c; their values in time are `Re(c e^{i w t})`. Frequencies w (rad/s)
-may have any shape; nodes or shafts are on the last axis of results. See `core.vibration`.
+may have any shape; the last axis of a result counts nodes or shafts. See `core.vibration`.
 """
 
 from __future__ import annotations
@@ -35,12 +35,12 @@ from .chain import (
 from .modes import chain_loss, find_chain_modes, find_poles
 from .system import TorsionalSystem
 
-_WEAK_PIVOT = 1e-3  # sums that cancel to a smaller share need a solution with pivoting
-_RESONANT = 1e-9  # at resonance, the sum of the whole chain cancels to less than this share
+_WEAK_PIVOT = 1e-3  # sums that cancel to less than this share of their terms need pivoting
+_RESONANT = 1e-9  # at resonance, the sum of the whole chain is below this share of its terms
 
 
 class Twist(NamedTuple):
-    """Forced vibration.
+    """Phasors of a forced vibration.
 
     Attributes:
         angle: (*frequency, nodes) angle of each node, rad.
@@ -106,7 +106,9 @@ def _find_flexibilities(
 
 
 def _find_roots(chain: Chain, shafts: NDArray[np.bool_]) -> list[int]:
-    """Return the free node of each connected piece with the largest inertia at a common speed."""
+    """Return one node for each connected piece of the chain: of the nodes that are not clamped, the
+    node whose inertia, reduced to a common speed, is the largest.
+    """
     pieces = find_pieces(chain, shafts)
     weight = np.where(chain.clamped, -1, chain.inertia * pieces.pace**2)
     heaviest = {pieces.first[node]: node for node in weight.argsort().tolist()}  # last of each
@@ -119,11 +121,13 @@ def _solve_tree(
     """Solve the equations by eliminating the nodes of the tree one by one, from its ends to the
     heaviest node. This takes a fifteenth of the time of `_solve_dense`.
 
-    Let d and f be the dynamic stiffness and load of a node and all its branches, and s the
-    flexibility of the shaft to its parent. Elimination adds the stiffness `far^2 d/(near^2 + s d)`
-    and the load `-near far f/(near^2 + s d)` to the parent. With flexibilities, rigid shafts,
-    meshes and massless nodes need no exception, and a twist is no small difference of large angles.
-    A chain with loops cannot be solved in this way; all its points are marked as weak.
+    Let d be the dynamic stiffness of a node with all nodes beyond it, f the load on them, s the
+    flexibility (1/stiffness) of the shaft from the node to its parent, and near and far the gear
+    factors of this shaft (see `chain.Branch`). To eliminate the node, the stiffness
+    `far^2 d/(near^2 + s d)` and the load `-near far f/(near^2 + s d)` are added to the parent.
+    Because s and d may be 0, rigid shafts, meshes and massless nodes need no exception. Twists are
+    not computed as small differences of large angles. A chain with loops cannot be solved in this
+    way; all its points are marked as weak.
 
     Args:
         chain: Inertias and shafts.
@@ -181,9 +185,11 @@ def _solve_dense(
     w: Real,
     singular: NDArray[np.bool_],
 ) -> tuple[Complex, Complex]:
-    """Solve `d x + B^T T = f`, `B x = s T` for angles (nodes, points) and torques (shafts, points)
-    with pivoting, scaled by a stiffness of the chain. The arguments are those of `_solve_tree`, the
-    frequencies w, and the mask of points at a resonance.
+    """Solve `d x + B^T T = f`, `B x = s T` for the angles x (nodes, points) and the torques T
+    (shafts, points) with pivoting, scaled by a stiffness of the chain. Here d and f are the dynamic
+    stiffness and the load of each node by itself, s is the flexibility of each shaft, and B is the
+    incidence matrix. The arguments are those of `_solve_tree`, the frequencies w (rad/s), and the
+    mask of points at a resonance.
     """
     elastic = np.isfinite(chain.stiffness) & (chain.stiffness > 0)
     scale = float(np.median(chain.stiffness[elastic])) if np.any(elastic) else 1.0
@@ -202,7 +208,7 @@ def _solve_dense(
     return solution[:nodes], torque
 
 
-_EDGE = 1e-10  # a resonance beyond an end by less than this share counts as in the range
+_EDGE = 1e-10  # a resonance outside the range of speeds by less than this share counts as inside
 _AT_A_TIME = 1 << 18  # number of angles and torques computed at once, which bounds the memory
 
 
@@ -229,7 +235,8 @@ def _move(system: TorsionalSystem, rpm: Real) -> tuple[Complex, Real]:
 
 def _find_heat(system: TorsionalSystem, w: Real, angle: Complex, torque: Complex) -> Real:
     """Return the power that dampers dissipate, W, shape (orders, speeds, dampers): viscous rings
-    `-w^3 Im J |x|^2/2`, then rubber (the last shafts) `w loss |T|^2/(2 k (1 + loss^2))`.
+    `-w^3 Im J |x|^2/2`, with the complex inertia J and the angle x of the node; then rubber (the
+    last shafts) `w loss |T|^2/(2 k (1 + loss^2))`, with the torque T and the stiffness k.
     """
     nodes, inertia, damping = np.array(system.rings, float).reshape(-1, 3).T
     ring = viscous_inertia(inertia, damping, w[..., None])

@@ -56,7 +56,8 @@ _WORTH = 1e-3  # smallest share of work of a drawn critical
 
 class _Curves(NamedTuple):
     """Torques of shafts and the swing of the free end, in SI units, at the given speeds and at the
-    speeds of their peaks: `phasors` (orders, speeds, curves) and half peak to peak, `swings`.
+    speeds of their peaks. `phasors` has the shape (orders, speeds, curves); `swings` (speeds,
+    curves) is half of peak to peak.
     """
 
     rpm: Real
@@ -76,10 +77,10 @@ def _compute_curves(result: TorsionAnalysis, response: TorsionResponse) -> _Curv
 def make_figures_of_torsion(
     path: str, pages: Sequence[str], speeds: str | None, orders: str | None, units: Units
 ) -> list[Figure]:
-    """Return one figure for each page, of the chain or engine at a path.
+    """Return one figure for each page of pictures of the chain or engine in a file.
 
     Args:
-        path: File; - for standard input.
+        path: Path of the file; - for standard input.
         pages: Names of the pictures.
         speeds: Range of speeds, as typed; None: the default range about an engine's own speed.
         orders: Orders of the excitation, as typed.
@@ -99,7 +100,7 @@ def make_figures_of_torsion(
 def make_torsion(
     result: TorsionAnalysis, what: str, system: System = SI, *, titled: bool = True
 ) -> Figure:
-    """Return a page of pictures; `what` is "all" or one of `OF_TORSION`.
+    """Return a page of pictures; `what` is "all" or one of `report.names.OF_TORSION`.
 
     Raises:
         BalcliError: A waterfall needs a shaft, and there is none.

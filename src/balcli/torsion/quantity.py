@@ -1,4 +1,4 @@
-"""Quantities of an engine's torsional vibration that sweeps, searches and tolerances evaluate:
+"""Evaluate quantities of an engine's torsional vibration for `sweep`, `search` and `scatter`:
 `torsion.1.Hz`, `shaft.flywheel.torque`, `shaft.flywheel.stress`.
 """
 
@@ -33,7 +33,7 @@ def list_names(model: EngineFile) -> Iterator[str]:
 
 
 def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> None:
-    """Check that the file has the mode or shaft of each quantity, and that a stress has a diameter.
+    """Check that the file has the mode or shaft of each quantity, and a diameter for each stress.
 
     Raises:
         BalcliError: The quantity does not exist; the error lists those that do.
@@ -52,8 +52,8 @@ def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> N
 
 
 class Variants:
-    """Evaluator of quantities, one variant of a file after the other; constant parts are computed
-    once.
+    """Evaluator of quantities, one variant of a file after the other. Results that do not change
+    from variant to variant are computed once.
 
     Args:
         model: Engine file with [torsion].

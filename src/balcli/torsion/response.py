@@ -1,5 +1,6 @@
 """Compute forced torsional vibration over speeds: torque and stress of every shaft, with all orders
-added up in time; swings; heat; and the largest values over a range of speeds.
+added up in time; swings of the free end and of pendulums; heat of dampers; and the largest values
+over a range of speeds.
 
 The largest values may lie between the given speeds. Therefore the speeds at which an order meets a
 damped resonance are added, with the half-power speeds on both sides. Every peak that may be the
@@ -23,7 +24,7 @@ from .modes import find_poles
 from .motion import compute_curves, compute_in_parts, refuse_unbounded
 from .system import TorsionalSystem
 
-_ABOUT = np.array([[-0.5], [0], [0.5]])  # speeds added around a resonance / its width
+_ABOUT = np.array([[-0.5], [0], [0.5]])  # offsets of added speeds / width of a resonance
 # Resonances wider than this number of steps of the speeds need no added speeds: some step has at
 # least 95 % of the peak.
 _WIDE = 3.0
@@ -81,7 +82,7 @@ def find_largest(
 
 def _add_resonances(system: TorsionalSystem, rpm: Real) -> Real:
     """Return the speeds (rpm) and additional speeds about the damped resonances that orders meet
-    between them. Resonances that are wide compared with the steps need none.
+    between them. Resonances that are wide compared with the steps need no additional speeds.
     """
     if len(rpm) == 1:
         return rpm
@@ -116,7 +117,7 @@ class WorstTorque:
     speeds.
 
     Attributes:
-        speed_rpm: Speed at which it occurs.
+        speed_rpm: Speed at which this torque occurs.
         half_peak_to_peak_Nm: Half of the peak-to-peak torque, all orders added with their phases.
         stress_Pa: Stress at that speed; left out without a diameter.
         orders: Torque by order at that speed.
@@ -203,7 +204,7 @@ class PendulumSwing(NamedTuple):
     """Swing of pendulums against their node.
 
     Attributes:
-        node: Name of the node that carries them.
+        node: Name of the node that carries the pendulums.
         half_swing_deg: Half of the peak-to-peak swing, by speed.
         worst: Largest swing over the range of speeds.
     """
@@ -240,12 +241,12 @@ class TorsionResponse:
 def find_response(
     system: TorsionalSystem, speeds_rpm: Real, tell: Tell = tell_nobody
 ) -> TorsionResponse:
-    """Return the vibration at speeds.
+    """Return the forced vibration at these speeds, and its largest values over their range.
 
     Args:
         system: System with an excitation.
         speeds_rpm: Rising speeds, shape (speeds,).
-        tell: Called with the share of the speeds computed so far.
+        tell: Function that is called with the share of the speeds computed so far.
 
     Raises:
         BalcliError: Nothing excites the system, or an undamped mode is driven at its own frequency.
@@ -300,7 +301,7 @@ def find_response(
 
 # ------------------------------------------------------------------ barred speeds
 _FINE = 0.003  # relative step with which a range is searched for barred speeds
-_CLOSE = 0.9  # a peak or valley above this share of a limit may pass it between the steps
+_CLOSE = 0.9  # a peak above this share of a limit may exceed the limit between the steps
 _HALVINGS = 24  # number of bisections of an interval of speeds in which a limit is passed
 
 

@@ -37,7 +37,7 @@ from ..show.sheet import (
 )
 from ..show.units import SI, ShownUnit, System
 from .answer import BEYOND, HolzerTable, TorsionAnalysis
-from .dampers import DAMPER_KEYS, SizedDamper
+from .dampers import DAMPER_KEYS, FIGURES, SizedDamper
 from .response import TorsionResponse, WorstTorque
 from .system import TorsionalSystem
 
@@ -183,10 +183,14 @@ def _show_damper(sized: SizedDamper, system: System) -> Facts:
     units = _choose_units(system)
     units["kg m2"] = _RING if system == SI else system.inertia
     pairs = [("on", sized.node)]
-    for name, _, label in DAMPER_KEYS.values():
+    for key, (name, size, label) in DAMPER_KEYS.items():
         if (value := getattr(sized, name)) is not None:
-            shown = units.get(find_unit(name).translate(IN_CSV), ShownUnit("", 1))
-            pairs.append((label, size_text(value, shown, 6).rstrip()))
+            shown = units.get(find_unit(name).translate(IN_CSV), ShownUnit("", 1)).fit(value)
+            text = size_text(value, shown, 6).rstrip()
+            if key == FIGURES[sized.kind]:
+                start = number(shown.of(sized.start / size))
+                text += f" (best for mode {sized.mode} alone: {start})"
+            pairs.append((label, text))
     for when, size in (("without the damper", sized.before), ("with it", sized.after)):
         text = f"±{number(unit.of(size))} {unit.name}" if math.isfinite(size) else "without bound"
         pairs.append((f"largest {sized.measure} {when}", text))
@@ -224,7 +228,7 @@ def _show_shapes(result: TorsionAnalysis, system: System) -> Grid:
     for mode in result.modes[:_MOST_MODES]:
         angles = [f"{angle + 0.0:.4f}" for angle in mode.shape.round(4).tolist()]
         columns.append((f"mode {mode.number}", angles))
-    note = "Real angle of each inertia, not reduced to the crank; the largest is 1."
+    note = "Actual angle of each inertia, not reduced to the crank; the largest is 1."
     note += _count_in_json(len(result.modes) - _MOST_MODES, "mode")
     return Grid.of_columns("Inertias and shapes", columns, note)
 

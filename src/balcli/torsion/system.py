@@ -42,9 +42,10 @@ class Excitation(NamedTuple):
     Attributes:
         orders: (orders,) orders, rising, above 0.
         nodes: (sources,) node on which each source (a cylinder, a torque of a chain) acts.
-        steady: (orders, sources) part that does not depend on the speed, N m; if the gas depends on
-            the speed, its part at the engine's own speed.
-        growing: (orders, sources) part that is proportional to the square of the speed, kg m2.
+        steady: (orders, sources) torque that does not depend on the speed, N m; if the gas depends
+            on the speed, the gas torque at the engine's own speed.
+        growing: (orders, sources) torque that is proportional to the square of the speed, divided
+            by this square, kg m2.
         gas: Gas torque by cylinder as a function of the speed, which replaces `steady`; None: the
             gas torque does not depend on the speed.
     """
@@ -85,9 +86,9 @@ class TorsionalSystem:
         limit_pa: Stress above which a speed is barred.
         angle_limit: Half swing of the free end, rad, above which a speed is barred.
         last: Index of the last node that is not a rubber ring.
-        ends: Nodes at which the main line begins (the free end) and ends (at the rear).
+        ends: Indices of the nodes at the free end and at the rear end, without branches.
         doubts: Warnings of unlikely figures.
-        reference: Node to which speeds and orders refer.
+        reference: Index of the node to which speeds and orders refer.
         rated_rpm: Speed in the file; None if it gives none.
         silent: Cylinders of the engine that do not fire.
         assumed: Values assumed because the file leaves them out.
@@ -153,7 +154,7 @@ class TorsionalSystem:
         return found
 
     def attached_pendulums(self, order: Real) -> Complex:
-        """Return the inertias, kg m2, that pendulums add to nodes at orders of the reference,
+        """Return the inertias, kg m2, that pendulums add to nodes at orders of the reference node,
         shape (*order, nodes).
         """
         found = np.zeros((*order.shape, len(self.nodes)), complex)
@@ -165,7 +166,7 @@ class TorsionalSystem:
     def swing_pendulums(self, orders: Real, angle: Complex) -> Complex:
         """Return the angles of pendulums relative to their nodes, shape (orders, speeds,
         pendulums), for angles of nodes (orders, speeds, nodes) at orders (orders,) of the
-        reference.
+        reference node.
         """
         found = [angle[..., :0]]
         for swung in self.pendulums:

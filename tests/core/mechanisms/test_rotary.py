@@ -8,8 +8,23 @@ from balcli.analysis.answer import analyze
 from balcli.balancing.answer import balance_knuckles
 from balcli.engine import parse as enginefile
 from balcli.errors import BalcliError, InputError
+from balcli.forces.spectrum import compute_spectra
 from balcli.report.page import scene
 from balcli.show.units import SYSTEMS
+
+
+def test_one_cylinder_has_a_first_order_force_of_its_mean_distance():
+    """m omega^2 times the mean distance of the piston pin, here by quadrature; from three on, only multiples of their
+    number are left, because the pistons run round the crank pin almost on a circle.
+    """
+    psi = np.arange(64) * (2 * np.pi / 64)
+    distance = (0.06 * np.cos(psi) + np.sqrt(0.23**2 - (0.06 * np.sin(psi)) ** 2)).mean()
+    force = compute_spectra(rotary_engine("banks = [0]"), [1.0], ["force"]).force
+    mass = 0.8 + 0.9 * 70 / 230
+    assert force.forward[0] == pytest.approx(mass * distance * (1000 * np.pi / 30) ** 2, rel=1e-12)
+    for count in (3, 4, 5, 7, 9):
+        force = compute_spectra(rotary_engine(f"radial = {count}"), np.arange(1.0, 2 * count + 1), ["force"]).force
+        assert not (force.orders[~force.balanced] % count).any(), count
 
 
 def test_every_second_cylinder_fires_as_they_come_round():
@@ -37,7 +52,7 @@ def test_an_articulated_rod_that_is_too_short():
 
 def test_knuckles_are_not_for_rotary_engines():
     file = enginefile.parse(GNOME.format(layout="radial = 7", offset=0) + ARTICULATED)
-    with pytest.raises(BalcliError, match="knuckles: needs articulated rods, and a crank that turns"):
+    with pytest.raises(BalcliError, match="knuckles needs articulated rods, and a crank that turns"):
         balance_knuckles(file)
 
 

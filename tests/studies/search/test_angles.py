@@ -166,6 +166,21 @@ def test_even_firing_and_a_limit() -> None:
         search_arrangements(file, "splay", impossible, even_firing=True)
 
 
+@pytest.mark.parametrize("cylinders", [4, 6, 10, 16, 28])
+def test_four_strokes_of_any_even_number_have_firing_orders(cylinders: int) -> None:
+    """In line: each throw twice, 720/n apart; as a vee: each pin once, the banks 720/n apart."""
+    interval, half = 720 / cylinders, cylinders // 2
+    once = [k * interval for k in range(half)]
+    row = load(engine_text(crank=f"stroke = 80\nspacing = 100\nthrows = {[*once, *reversed(once)]}"))
+    (found,) = search_least(row, "firing_order", "moment.1.major", count=1).results
+    assert sorted(found.design["firing_order"]) == list(range(1, cylinders + 1))
+    file = vee([2 * angle for angle in once], bank=interval % 360)
+    (best,) = search_least(file, "firing_order", "moment.1.major", count=1).results
+    built = build(file.with_table("layout", firing_order=tuple(best.design["firing_order"])))
+    fires = np.sort(np.mod([float(v) for v in built.fires_deg.values()], 720))
+    assert np.diff(fires) == pytest.approx(interval, abs=1e-6)
+
+
 def test_sevenths_of_a_turn_stay_such() -> None:
     text = engine_text(crank=f"stroke = 80\nspacing = 100\nthrows = {[f'{k}/7 turn' for k in range(7)]}")
     found = search_least(load(text), "throws", "moment.1.major", count=1)

@@ -12,11 +12,11 @@ and every other coefficient is a combination of these (docs/theory.md):
     -beta'' = sum D_n sin n psi
     D_n = n lam (1 + w)/2 [(n+2) c_{(n+1)/2} - (n-2) c_{(n-1)/2}]
     (s'/r)^2 = sum K_n cos n psi
-    K_n = [(n+1) c_{(n+1)/2} - (n-1) c_{(n-1)/2}] / x for odd n, S_n - (n = 2) for even n
+    K_n = [(n+1) c_{(n+1)/2} - (n-1) c_{(n-1)/2}] / x for odd n; for even n S_n, less 1 if n = 2
     (beta'/lam)^2 = (cos psi/cos beta)^2 = sum S_n cos n psi, a geometric series
 
 Signs of c_m alternate from m = 1 on, and all terms of F after the first have the same sign, so
-there is no cancellation. The relative error of order n is about n roundings, as for x^n.
+there is no cancellation. The relative error of order n is about n roundings, as that of x^n.
 
 `Series` are Fourier series of a mechanism over a revolution of its crank, with bounds of their
 errors. Every function of the crank angle psi is written `Re sum c_n e^{i n psi}`, so a cosine
@@ -44,8 +44,8 @@ class Series:
     Attributes:
         c: Coefficients, shape (orders, cylinders, *trailing) or (orders, *any axes); real for a
             series of cosines.
-        noise: Bound of their error, which broadcasts to `c`; 0 if the error is a few ulp of each
-            coefficient.
+        noise: Bound of the error of the coefficients, which broadcasts to `c`; 0 if the error is a
+            few ulp of each coefficient.
     """
 
     c: Array | Complex
@@ -61,7 +61,7 @@ class Series:
 
 # Names of the series of one or many mechanisms:
 #   piston: -s''/r, acceleration towards the crank
-#   rod: -beta'', angular acceleration of the rod, in the crank's sense
+#   rod: -beta'', angular acceleration of the rod, positive in the crank's direction of rotation
 #   kinetic, rod_kinetic: (s'/r)^2 and beta'^2
 # and for unit mass on a closed curve z(psi) (complex, in crank radii, x along the cylinder):
 #   along, across: -Re z'' and -Im z''
@@ -75,12 +75,12 @@ SERIES = frozenset(
 
 
 def select_cylinders(harmonics: Harmonics, which: Rows, orders: slice = slice(None)) -> Harmonics:
-    """Return the series of some mechanisms.
+    """Return the series of each cylinder's mechanism.
 
     Args:
         harmonics: Series by name, shape (orders, mechanisms).
         which: Index of the mechanism of each cylinder.
-        orders: Rows of the orders.
+        orders: Rows of the wanted orders.
     """
     return {
         name: Series(s.c[orders][:, which], np.broadcast_to(s.noise, s.c.shape[1:])[which])
@@ -94,7 +94,7 @@ def find_harmonics(
     """Return Fourier series of centred slider-cranks, coefficients of shape (orders, *lam.shape).
 
     Args:
-        orders: shape (orders,), not negative, at most 4096 or so; orders that are not whole have
+        orders: shape (orders,), not negative, at most about 4096; orders that are not whole have
             coefficients 0.
         lam: crank radius over rod length, from 0 (harmonic motion) to 1, any shape.
         wanted: names of series: piston (A_n), rod (D_n, as -i D_n), kinetic (K_n), rod_kinetic
@@ -104,7 +104,7 @@ def find_harmonics(
     n = np.asarray(orders, float).reshape(-1, *(1,) * lam.ndim)
     w = np.sqrt((1 - lam) * (1 + lam))
     x = lam / (1 + w)
-    by_x = np.where(x == 0, 1.0, x)  # harmonic motion has lam = 0, and no terms over x
+    by_x = np.where(x == 0, 1.0, x)  # harmonic motion has lam = 0, and no terms divided by x
     cosine = _expand_cosine(int(n.max(initial=0)) // 2 + 2, x)
 
     def take(step: int) -> Array:

@@ -1,5 +1,5 @@
-"""Compute Fourier coefficients of slider-cranks: from a closed form if they are centred, else by
-the FFT of samples over one revolution.
+"""Compute Fourier coefficients of slider-cranks: in closed form if no cylinder has an offset, else
+by the FFT of samples over one revolution.
 
 The closed form has a relative error of about 1e-14 in every order, the FFT an absolute error of
 about 1e-16. Equal mechanisms are computed once.
@@ -21,8 +21,8 @@ from .closed_form import SERIES, Harmonics, Rows, Series, select_cylinders
 from .motion import Motion, Move
 from .slidercrank import SliderCrank
 
-HARDEST = 1 << 16  # number of samples of a revolution for a mechanism at 1 - 1e-6 of locking
-CLOSED_FORM = 4096  # highest order of closed forms; higher ones occur only close to locking
+HARDEST = 1 << 16  # number of samples of a revolution for lam + |eps| = 1 - 1e-6 (1: it locks)
+CLOSED_FORM = 4096  # highest order in closed form; higher orders matter only close to locking
 
 
 def find_distinct(*figures: Numbers) -> tuple[tuple[Numbers, ...], Rows]:
@@ -30,15 +30,15 @@ def find_distinct(*figures: Numbers) -> tuple[tuple[Numbers, ...], Rows]:
     each cylinder's mechanism, shape (cylinders or 1, *trailing). Mechanisms are in the order of the
     cylinders.
 
-    A cylinder that does not vary along an axis has one mechanism there. Cylinders with the same
-    figures in every variant share their mechanisms.
+    A cylinder that does not vary along a trailing axis has one mechanism for this whole axis.
+    Cylinders with the same figures in every variant share their mechanisms.
 
     Args:
         figures: Figures of the mechanisms, each of shape (cylinders or 1, *trailing); trailing axes
             broadcast.
     """
     shape = np.broadcast_shapes(*(values.shape for values in figures))
-    indices: dict[tuple[object, ...], Rows] = {}  # mechanisms by the figures of a cylinder
+    indices: dict[tuple[object, ...], Rows] = {}  # of mechanisms, by a cylinder's figures
     different: list[list[Numbers]] = []
     which = np.empty(shape, np.intp)
     count = 0
@@ -109,7 +109,8 @@ def count_all_samples(lam: Array, eps: Array) -> tuple[int, int]:
 
 def count_samples(lam: ArrayLike, eps: ArrayLike, highest: float = np.inf) -> NDArray[np.intp]:
     """Return the number of samples (a power of two) that each mechanism needs so that orders up to
-    the highest have no aliases above rounding, and no order above rounding is missing.
+    the highest have no aliases above rounding errors, and no order above rounding errors is
+    missing.
 
     Order n of N samples is mixed with order N - n. Coefficients decay like `x^n`, x =
     tan(arcsin(lam')/2), `lam' = lam / (1 - |eps|)`, because cos beta is analytic in a strip of the
@@ -117,7 +118,7 @@ def count_samples(lam: ArrayLike, eps: ArrayLike, highest: float = np.inf) -> ND
 
     Args:
         lam: Crank radius / rod length, any shape.
-        eps: Offset / rod length, of that shape.
+        eps: Offset / rod length, in the shape of `lam`.
         highest: Highest order that is wanted.
     """
     steep = np.clip(np.asarray(lam) / (1 - np.abs(eps)), 1e-99, 1 - EPS)
@@ -132,7 +133,7 @@ def find_highest_order(lam: Array, eps: Array) -> int:
 
     Args:
         lam: Crank radius / rod length, any shape.
-        eps: Offset / rod length, of that shape.
+        eps: Offset / rod length, in the shape of `lam`.
     """
     return int(count_samples(lam, eps).max()) // 2
 
@@ -173,8 +174,9 @@ def sample_mechanisms(
         move: Function that returns the motion of mechanisms from e^{i psi}, shape (samples, 1), and
             figures of shape (mechanisms,).
         figures: Figures of the mechanisms, each of shape (mechanisms,).
-        counts: Samples of a revolution with which each begins, powers of two, shape (mechanisms,);
-            they are doubled until the orders up to `highest` have no aliases above rounding.
+        counts: Samples of a revolution with which each mechanism begins, powers of two, shape
+            (mechanisms,); they are doubled until the orders up to `highest` have no aliases above
+            rounding.
         highest: Highest order for which the samples must suffice.
     """
     n = np.asarray(orders)

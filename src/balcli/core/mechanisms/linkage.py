@@ -2,14 +2,15 @@
 
 In a plain slider-crank, the reciprocating mass moves along the cylinder's axis. Here a mass moves
 on a closed curve `z(psi)` (complex, in crank radii, in the cylinder's frame): the curve of the
-knuckle pin of an articulated rod, that of the piston in a turning cylinder, or both, each with a
-share of the mass. The mass causes two components of force, a moment of momentum and a kinetic
+knuckle pin of an articulated rod, the curve of the piston in a turning cylinder, or both, each with
+a share of the mass. The mass causes two components of force, a moment of momentum and a kinetic
 energy. Their harmonics are computed from samples over a revolution.
 
 Articulated rods are hinged to the big end of a master rod, as in radial and some V engines
-(docs/theory.md). In crank radii, with the master rod at the angle -beta_m in its own frame, the
-knuckle pin moves on `K = e^{i psi_m} + k e^{-i beta_m}`. In the frame of the articulated cylinder,
-its rod is connected to K as a plain rod is to the crank pin. A master rod is the case k = 0.
+(docs/theory.md). Let the master rod be at the angle -beta_m in the frame of its cylinder, and k be
+the knuckle pin's position from the crank pin (x along the master rod), in crank radii. Then the
+knuckle pin moves on `K = e^{i psi_m} + k e^{-i beta_m}`. The articulated rod is connected to K as a
+plain rod is to the crank pin. A master rod is the case k = 0.
 
 In rotary engines, the crank stands still and the cylinders turn about it with their pistons. Seen
 from its cylinder, the crank turns backward. Let psi be the cylinder's angle ahead of the crank pin;
@@ -40,7 +41,7 @@ from .slidercrank import SliderCrank, on_circle
 STEPS = 1440  # number of samples of a revolution that do not miss a locking position
 _FEWEST_SAMPLES = 32
 _AT_ONCE = 1 << 16  # largest number of cylinders x angles that are computed at once
-_SHARPEST = frozenset({"piston", "rod", "along", "across"})  # series that decay slowest
+_SHARPEST = frozenset({"piston", "rod", "along", "across"})  # series whose orders decay slowest
 
 
 @dataclass(frozen=True)
@@ -158,11 +159,12 @@ class Articulated(Linkage):
     """Master and articulated rods; `mass` is the mass of each articulated rod on its knuckle pin.
 
     Attributes:
-        master: Row of each cylinder's master cylinder (for a master its own), shape (cylinders,).
+        master: Row of each cylinder's master cylinder (for a master cylinder, its own row), shape
+            (cylinders,).
         knuckle: Position of the knuckle pins from the crank pin, x along the master rod, in crank
             radii, shape (cylinders, *trailing).
-        lead_deg: Crank angle of the master less that of the cylinder, deg, shape (cylinders,
-            *trailing).
+        lead_deg: Crank angle from the master cylinder's axis less crank angle from the cylinder's
+            axis, deg, shape (cylinders, *trailing).
     """
 
     master: NDArray[np.intp]
@@ -206,8 +208,8 @@ def hang(
 
 @dataclass(frozen=True)
 class Rotary(Linkage):
-    """Turning cylinders; `mass` is the reciprocating mass of each, plus the mass of an articulated
-    rod on its knuckle pin.
+    """Turning cylinders; `mass` is the reciprocating mass of each cylinder, plus the mass of an
+    articulated rod on its knuckle pin.
 
     Attributes:
         hung: Master and articulated rods as seen from the cylinders (mirrored); None if all rods

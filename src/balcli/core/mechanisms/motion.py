@@ -22,14 +22,14 @@ import numpy as np
 
 from ..phasors import Array, Complex, Figure, Numbers
 
-_NONE: Numbers = np.zeros(())  # sum for mechanisms without masses on curves
+_NONE: Numbers = np.zeros(())  # sum over no masses
 
 
 class PointMass(NamedTuple):
     """A mass on a closed curve (complex, x along the cylinder's axis).
 
     Attributes:
-        z: Curve over the crank angle.
+        z: Position on the curve, over the crank angle.
         z1: First derivative of the curve by the crank angle.
         z2: Second derivative of the curve by the crank angle.
         share: Share of the linkage's mass that moves on this curve.
@@ -42,7 +42,7 @@ class PointMass(NamedTuple):
 
 
 class Motion:
-    """Motion of the pistons, rods and masses on curves of mechanisms.
+    """Motion of mechanisms: of their pistons, their rods and their masses on curves.
 
     Args:
         pin: Lower ends of the rods.
@@ -89,7 +89,7 @@ class Motion:
 
     @property
     def spin(self) -> Array:
-        """Angular velocity of the rod, in the crank's sense."""
+        """Angular velocity of the rod, positive in the direction in which the crank turns."""
         return -self._rate
 
     @property

@@ -1,8 +1,8 @@
-"""Compute power series in lambda of the centred slider-crank, for every order to any power, in
+"""Compute the power series in lambda of any order of the centred slider-crank, up to any power, in
 exact fractions.
 
-The series are generated from the binomial series of cos beta = sqrt(1 - lam^2 sin^2 psi) and from
-that of beta = arcsin(lam sin psi); powers of the sine are finite Fourier sums. A series is a
+The sources are the binomial series of cos beta = sqrt(1 - lam^2 sin^2 psi) and the power series of
+beta = arcsin(lam sin psi); powers of the sine are finite Fourier sums. A series is a
 dictionary from the power of lambda to its coefficient; powers with the coefficient 0 are omitted.
 """
 
@@ -16,15 +16,15 @@ Series: TypeAlias = dict[int, Fraction]
 
 
 def cos_beta_in_sine(power: int) -> Series:
-    """Return cos beta = sum over p of coefficient (lam sin psi)^p, p = 0, 2, ... up to `power`: 1,
-    -1/2, -1/8, ...
+    """Return the coefficients a_p in cos beta = sum a_p (lam sin psi)^p, p = 0, 2, ... up to
+    `power`: 1, -1/2, -1/8, ...
     """
     return {2 * j: Fraction(-comb(2 * j, j), 4**j * (2 * j - 1)) for j in range(power // 2 + 1)}
 
 
 def beta_in_sine(power: int) -> Series:
-    """Return beta = sum over p of coefficient (lam sin psi)^p, p = 1, 3, ... up to `power`: 1, 1/6,
-    3/40, ...
+    """Return the coefficients a_p in beta = sum a_p (lam sin psi)^p, p = 1, 3, ... up to `power`:
+    1, 1/6, 3/40, ...
     """
     return {
         2 * j + 1: Fraction(comb(2 * j, j), 4**j * (2 * j + 1)) for j in range((power + 1) // 2)
@@ -32,7 +32,7 @@ def beta_in_sine(power: int) -> Series:
 
 
 def cos_beta(order: int, power: int) -> Series:
-    """Return C_n of cos beta = sum C_n cos n psi, n even.
+    """Return the series of C_n in cos beta = sum C_n cos n psi, n even.
 
     Args:
         order: Order n.
@@ -42,7 +42,7 @@ def cos_beta(order: int, power: int) -> Series:
 
 
 def beta(order: int, power: int) -> Series:
-    """Return b_k of beta = sum b_k sin k psi, k odd.
+    """Return the series of b_k in beta = sum b_k sin k psi, k odd.
 
     Args:
         order: Order k.
@@ -52,8 +52,8 @@ def beta(order: int, power: int) -> Series:
 
 
 def piston(order: int, power: int) -> Series:
-    """Return A_n of the piston's acceleration j/(r omega^2) = sum A_n cos n psi. A_1 is 1; other
-    odd orders are 0.
+    """Return the series of A_n in the piston's acceleration, j/(r omega^2) = sum A_n cos n psi. A_1
+    is 1; other odd orders are 0.
 
     Args:
         order: Order n.
@@ -63,7 +63,8 @@ def piston(order: int, power: int) -> Series:
 
 
 def rod(order: int, power: int) -> Series:
-    """Return D_k of the rod's angular acceleration beta'' = -sum D_k sin k psi, k odd.
+    """Return the series of D_k in the rod's angular acceleration, beta'' = -sum D_k sin k psi, k
+    odd.
 
     Args:
         order: Order k.
@@ -73,8 +74,8 @@ def rod(order: int, power: int) -> Series:
 
 
 def from_shaft(order: int, power: int) -> Series:
-    """Return the coefficient of cos n psi in the piston pin's distance from the shaft, s/r = cos
-    psi + cos beta/lam.
+    """Return the series of the coefficient of cos n psi in the piston pin's distance from the
+    shaft, s/r = cos psi + cos beta/lam.
 
     Args:
         order: Order n.
@@ -86,8 +87,8 @@ def from_shaft(order: int, power: int) -> Series:
 
 
 def displacement(order: int, power: int) -> Series:
-    """Return the coefficient of cos n psi in the travel from top dead centre, x/r = 1 + 1/lam -
-    s/r.
+    """Return the series of the coefficient of cos n psi in the travel from top dead centre, x/r = 1
+    + 1/lam - s/r.
 
     Args:
         order: Order n.
@@ -98,8 +99,8 @@ def displacement(order: int, power: int) -> Series:
 
 
 def velocity(order: int, power: int) -> Series:
-    """Return the coefficient of sin n psi in the velocity v/(r omega), positive away from top dead
-    centre.
+    """Return the series of the coefficient of sin n psi in the velocity v/(r omega), positive away
+    from top dead centre.
 
     Args:
         order: Order n.
@@ -119,7 +120,9 @@ def _in_harmonics(in_sine: Series, order: int) -> Series:
 
 
 def _sine_power(power: int, order: int) -> Fraction:
-    """Return the coefficient in sin^p psi of cos n psi (p even) or sin n psi (p odd)."""
+    """Return one coefficient of the Fourier sum of sin^p psi, p being `power`: that of cos n psi if
+    p is even, that of sin n psi if p is odd, n being `order`.
+    """
     if order > power or (power - order) % 2:
         return Fraction(0)
     sign = (-1) ** (order // 2)

@@ -23,16 +23,16 @@ from .motion import Motion, PointMass
 class SliderCrank(Motion):
     """Motion of slider-cranks; arguments as in the functions of this module.
 
-    With h = |sin psi| and e = +-eps by the sign of sin psi, cos^2 beta = (1 - lam + e + lam (1 -
-    h))(1 - e + lam h), and 1 - h = cos^2 psi/(1 + h). In this form, there is no cancellation close
-    to locking.
+    Let h = |sin psi|, and q = eps if sin psi is positive, else -eps. Then cos^2 beta = (1 - lam + q
+    + lam (1 - h))(1 - q + lam h), and 1 - h = cos^2 psi/(1 + h). In this form, there is no
+    cancellation close to locking.
     """
 
     def __init__(self, psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> None:
         z, lam, eps = on_circle(psi), np.asarray(lam, float), np.asarray(eps, float)
         height, signed = np.abs(z.imag), np.where(z.imag < 0, -eps, eps)
         most = 1 - lam
-        clearance = (most + signed) + ((1 - most) - lam)  # 1 - lam + e, rounded once
+        clearance = (most + signed) + ((1 - most) - lam)  # 1 - lam + q, rounded once
         near = clearance + lam * (z.real**2 / (1 + height))
         cosine = np.sqrt(near * ((1 - signed) + lam * height))
         super().__init__(PointMass(z, 1j * z, -z), lam, lam * z.imag - eps, cosine)

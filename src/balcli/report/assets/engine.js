@@ -16,7 +16,7 @@ const Kernel = (() => {
   const sum = (values) => values.reduce((a, b) => a + b, 0);
 
   // ------------------------------------------------------------------ numbers -> engine
-  // Masses at the ends of a rod (kg), and the moment of inertia H that they have beyond the rod's.
+  // Masses at the ends of a rod (kg), and H, by which their moment of inertia exceeds the rod's.
   function weighRod(rod, take, l) {
     let small = rod.small_end ? take(rod.small_end) : 0, big = rod.big_end ? take(rod.big_end) : 0;
     if (!rod.small_end && !rod.big_end && rod.mass) {
@@ -47,7 +47,7 @@ const Kernel = (() => {
           + `length = ${(Math.abs(e) / l).toPrecision(4)} must stay below 1 together; make the rod longer`);
       }
       const piston = sum(c.piston.map(take)), throwMass = c.share * take("crank.throw_mass");
-      if (rod.bad) throw new Error(`${c.rod.cg || "rod"}: is outside the rod, and two masses cannot stand for it`);
+      if (rod.bad) throw new Error(`${c.rod.cg || "rod"}: is outside the rod, so two masses at its ends cannot replace the rod`);
       return {
         number: c.number, axis: rad(form(c.axis)), lead: rad(form(c.lead)), by: c.by, z: form(c.z) / 1e3, r, l, e,
         reciprocating: piston + rod.small, rotating: throwMass + rod.big + c.extra, H: rod.H,
@@ -128,7 +128,7 @@ const Kernel = (() => {
     return found;
   }
 
-  // Largest force, moment and moment about the crank if nothing cancelled: the measure of rounding.
+  // Largest force, moment and moment about the crank if nothing cancelled; rounding errors are compared with these.
   function bound(engine) {
     const square = engine.omega ** 2, arm = (z) => Math.abs(z) + Math.abs(engine.reference[2]);
     const pulls = engine.cylinders.map((c) => (2 * c.reciprocating + c.rotating) * c.r * square);
@@ -139,7 +139,7 @@ const Kernel = (() => {
     };
   }
 
-  // Phasors by kind and order, and peaks: of the cylinders by samples, of the devices in closed form.
+  // Phasors by kind and order, and peaks; cylinders are sampled, devices are computed in closed form.
   function compute(engine) {
     const loads = Array.from({ length: SAMPLES }, (_, k) => load(engine, TURN * k / SAMPLES)), most = bound(engine);
     const series = (pick, limit, count = ORDERS) => transform(loads.map(pick), count).map((pair) =>
@@ -207,7 +207,7 @@ const Kernel = (() => {
   }
 
   // ------------------------------------------------------------------ the ladder
-  // Devices that balance the engine step by step; without weights at every throw, which are for bearings.
+  // Devices that balance the engine step by step, without counterweights at every throw, which only relieve bearings.
   function findLadder(engine, small = 0.05) {
     const square = engine.omega ** 2, z = engine.cylinders.map((c) => c.z);
     const F = Math.max(...engine.cylinders.map((c) => c.reciprocating * c.r)) * square;
@@ -233,7 +233,7 @@ const Kernel = (() => {
     return { steps, auto, scale: { force: F, moment: M } };
   }
 
-  // Eccentrics against a force and moment that turn in one sense: a single one where it suffices, else two at the ends.
+  // Devices that cancel a rotating force and moment: a single device if it suffices, otherwise two at the ends.
   function cancel(engine, { order, sense, part: [f, m] }, length) {
     const kind = order * sense === 1 ? "counterweight" : "shaft", per = -1 / (order * engine.omega) ** 2;
     let [low, high] = [Math.min(...engine.throws), Math.max(...engine.throws)];

@@ -29,7 +29,7 @@
   };
 
   // ------------------------------------------------------------------ numbers and their values
-  // Unit and limits of a number; undefined: there is none of this name.
+  // Unit and limits of a number; undefined for an unknown name.
   function find(name) {
     const [, kind, , key] = name.match(DEVICE) || [];
     return data.numbers.find((each) => each.name === name) || (key && own(own(book.devices, kind) || {}, key));
@@ -129,7 +129,7 @@
     }
     return { next, wrong };
   }
-  // The state without a device, or without its mass and radius, in place of which it has an unbalance.
+  // The state without a device, or without the mass and radius of a device that has an unbalance instead.
   function without(state, name) {
     const [, kind, , key = "mass"] = name.match(DEVICE) || [];
     if (!kind || !["mass", "radius"].includes(key)) throw new Error(`${name.slice(0, 60)}: cannot be left out`);
@@ -214,7 +214,7 @@
   const NAMES = ["", "First", "Second", "Third", "Fourth", "Fifth", "Sixth", "Seventh", "Eighth"];
   const nameOrder = (n) => NAMES[n] || `${n}${n % 100 - n % 10 !== 10 && ["", "st", "nd", "rd"][n % 10] || "th"}`;
   const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1);
-  // Orders that the command shows: 1, 2, and those in which some kind exceeds a millionth of its largest order.
+  // Orders that the command shows: 1, 2, and those in which some kind exceeds a millionth of its largest amplitude.
   function listShownOrders(kinds) {
     const shownOrders = new Set([1, 2]), total = (parts) => parts.reduce((a, v) => a + Math.hypot(...v), 0);
     for (const type of data.known ? Object.keys(kinds) : Object.keys(kinds).filter((each) => each !== "moment")) {
@@ -224,8 +224,8 @@
     }
     return [...shownOrders].sort((a, b) => a - b);
   }
-  // The verdict of `balcli analyze`, in its words but for the causes of the couple: a force or moment is large if its part that turns with the
-  // crank, or the one that turns against it, is not small compared with one cylinder's.
+  // The verdict of `balcli analyze` in the same words, but without the causes of the couple. A force or moment is large if its vector that turns
+  // with the crank, or its vector that turns against the crank, is not small compared with one cylinder's.
   const MOST_WORDS = 25, MOST_NAMED = 5, SENSES = ["with the crank", "against the crank"];
   const NAMED = { force: "force", moment: "longitudinal moment" };
   const joinWords = (words) => words.length > 1 ? `${words.slice(0, -1).join(", ")} and ${words.at(-1)}` : words[0];
@@ -248,7 +248,7 @@
     const upright = Kernel.UPRIGHT[type][Object.keys(names).indexOf(fromUp)];
     return `${told} ${upright ? `${upright} (${line})` : line}`;
   }
-  // What would cancel the parts of an order that are not small, by sense of rotation.
+  // Devices that would cancel the vectors of an order that are not small, by direction of rotation.
   function findCures(n, large) {
     const turns = engine.devices.filter((d) => d.order === n && d.kind !== "slider");
     return [1, -1].flatMap((sense, k) => {
@@ -272,7 +272,7 @@
     if (one && withSizes) return `${devices[0]} cancel ${sizes[0]} of it, ${devices[1]} the other ${sizes[1]}`;
     return `${devices.join(" and ")} cancel ${everything}`;
   }
-  // The longest sentence on an order that is not too long.
+  // The longest sentence on an order that has at most MOST_WORDS words.
   function tellOrder(order) {
     const name = `${nameOrder(order.n)} order`;
     let told = "";
@@ -359,7 +359,7 @@
     apply(next, { rebuild: true });
     byId("live-undo").focus();
   }
-  function freeTable(state, kind) {                           // numbers above all of the file, removed devices included
+  function freeTable(state, kind) {                           // the first number after those of all devices, removed ones included
     const taken = [...Object.keys(state), ...Object.keys(original)].map((name) => name.match(DEVICE)).filter((match) => match?.[1] === kind);
     return `${kind}.${Math.max(0, ...taken.map((match) => Number(match[2]))) + 1}`;
   }
@@ -470,7 +470,7 @@
     const changes = listChanges();
     for (const [name, value] of changes) {
       const table = tableOf(name), [key, member] = name.slice(table.length + 1).split("."), section = sectionOf(table);
-      if (name === table) {                                   // a device that is gone
+      if (name === table) {                                   // a removed device
         for (let k = section.from + 1, ended = false; k < section.to; k++) {
           ended ||= /^\s*(#|$)/.test(lines[k]) && !lines.slice(k, section.to).some((line) => /^\s*\w/.test(line || ""));
           if (!ended) lines[k] = null;                        // comments before the next table stay

@@ -20,7 +20,7 @@ draw(scene) {
 
   // ---------------------------------------------------------------- mechanism
   const r = scene.stroke / 2, bore = scene.bore, crown = 0.42 * bore, skirt = 0.33 * bore;
-  const sense = scene.rotary ? -1 : 1;                    // in which a crank pin turns, seen from its cylinder
+  const sense = scene.rotary ? -1 : 1;                    // in which a crank pin turns relative to the cylinders
 
   const radiusOf = (cylinder) => cylinder.radius ?? r;
 
