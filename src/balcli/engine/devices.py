@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from ..core.cylinders import Device, DeviceKind
-from ..core.phasors import Figure, unit
+from ..core.phasors import Complex, Figure, unit
 from ..errors import InputError, Problem
 from ..file.fields import shorten
 from ..file.model import Counterweight, Sector, Shaft, Slider
@@ -48,7 +48,7 @@ def _build_coupling_pins(parts: Parts, first_axis_deg: Figure) -> Iterator[Devic
         path = f"axle.{label_table(axle, k)}.coupling_mass"
         masses = figures.take_for_each(path, axle.coupling_mass, 2)
         for mass, z, angle in zip(masses, planes, angles, strict=True):
-            turning = mass * radius * unit(angle + first_axis_deg)
+            turning = _turn(mass * radius, angle + first_axis_deg)
             if np.any(mass):
                 kind = DeviceKind.COUNTERWEIGHT
                 yield Device(1, turning, 0j, 0j, z / 1e3, kind, axle=axle.name)
@@ -81,7 +81,7 @@ def build_device(
         sector = find_sector(table, table.sector, figures, path)
         unbalance = sector.unbalance
     start = first_axis_deg if isinstance(table, Counterweight) else 0.0
-    turning = or_zero(unbalance) * unit(take(f"{path}.angle", table.angle) + start)
+    turning = _turn(or_zero(unbalance), take(f"{path}.angle", table.angle) + start)
     z = take(f"{path}.position", table.position) / 1e3
     if isinstance(table, Counterweight):
         spin = take(f"{path}.inertia", table.inertia) / 1e6 if sector is None else sector.inertia
@@ -98,9 +98,14 @@ def build_device(
         return Device(order, forward, backward, place, z, kind, compensates, spin)
     # The displacement `U cos(n theta + angle)` is the sum of two vectors of half the size, which
     # turn in opposite directions.
-    half = 0.5 * unit(take(f"{path}.direction", table.direction))
+    half = _turn(0.5, take(f"{path}.direction", table.direction))
     forward, backward = half * turning, half * np.conj(turning)
     return Device(table.order, forward, backward, place, z, DeviceKind.SLIDER)
+
+
+def _turn(size: Figure, angle_deg: Figure) -> Complex:
+    """Return the vector of a size and a direction at crank angle 0, deg."""
+    return size * unit(angle_deg)
 
 
 def find_given_unbalance(
@@ -173,7 +178,7 @@ def find_sector(
         raise InputError([Problem(path, told)])
     inner, outer, angle = inner / 1e3, outer / 1e3, opening * (math.pi / 180)
     area = angle / 2 * (outer**2 - inner**2)
-    first = 2 / 3 * (outer**3 - inner**3) * (unit(opening / 2).imag + 0.0)  # 0 for a whole ring
+    first = 2 / 3 * (_turn(outer**3 - inner**3, opening / 2).imag + 0.0)  # 0 for a whole ring
     # mass per area of the sector, kg/m2
     weight = density * or_zero(thickness) if unbalance is None else unbalance / first
     polar = angle / 4 * (outer**4 - inner**4)

@@ -61,7 +61,8 @@ def _refuse_mistakes(draft: Draft, name: str = "") -> EngineFile:
     draft = join_engines(draft)
     if not draft.problems:
         return draft.model if draft.model.engine else infer_numbering(draft.model)
-    raise refuse([*draft.problems, *list_contradictions(draft)], name)
+    problems = [*draft.problems, *list_contradictions(draft)]
+    raise refuse(problems, name)
 
 
 def join_engines(draft: Draft) -> Draft:
