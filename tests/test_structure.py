@@ -18,7 +18,7 @@ from balcli import names
 FILES = sorted(file for file in PACKAGE.rglob("*.py") if file.name != "__init__.py")
 MOST_MODULES, MOST_LINES = 200, 630  # of the package; of a module, docstrings and all
 MOST_OF_A_ROOM = {"studies": 24, "core": 24, "analysis": 20, "file": 20}  # modules; of any other room 16
-MOST_CODE_LINES = 27_100  # without docstrings, comments, blank lines and imports
+MOST_CODE_LINES = 26_500  # without docstrings, comments, blank lines and imports
 MOST_LAZY_IMPORTS = 40  # of own modules inside functions
 
 

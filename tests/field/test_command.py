@@ -56,7 +56,7 @@ def test_holes(runs, tmp_path):
     assert round(grams) == 38
     told = "Limits and depths ignore earlier weights and holes, which are not in the file"
     out = " ".join(run_here("field", runs).out.split())
-    assert "Each hole has the effect of its weight at the rim; the removed steel is farther in and weighs more." in out
+    assert "Each hole has the effect of its weight at the rim; the removed steel is nearer the axis and heavier." in out
     assert told not in out
     last = '[[run]]\nweights = { front = "1.98 @ 124", rear = "1.07 @ 238" }\nreadings = ["9 @ 40", "6 @ 310"]\n'
     text = runs.read_text() + last
@@ -144,7 +144,7 @@ def test_a_trim_is_shown_next_to_the_total(tmp_path, head):
     assert "add now, g" in out
     assert "in addition to the weights of 'in'" in out
     assert json.loads(run_here("field", path, "-f", "json").out)["trimmed"] == "in"
-    told = "Left out: rear. The weight of 'in' in rear stays on: 1 g at 122.0 deg."
+    told = "Planes left out: rear. The weight of 'in' in rear stays on: 1 g at 122.0 deg."
     assert told in " ".join(run_here("field", path, "--without", "rear").out.split())
     path.write_text(three_runs(head), encoding="utf-8")
     assert "stays on" not in run_here("field", path, "--without", "rear").out
@@ -157,8 +157,8 @@ def test_check(runs, tmp_path):
     assert "not reached" in out
     plain = write(tmp_path / "plain.toml", three_runs())
     assert refusal("field", plain, "--check") == (
-        f"{plain}: --check needs grade = 6.3, mass = 120, speed = 3000, radius = [200, 200], or "
-        'weights as unbalances, weight_unit = "g mm"'
+        f"{plain}: --check needs grade = 6.3, mass = 120, speed = 3000, radius = [200, 200] (or "
+        'give weights as unbalances, weight_unit = "g mm")'
     )
 
 

@@ -156,7 +156,7 @@ def test_a_search_says_that_not_all_of_a_range_makes_an_engine(tmp_path):
     file = write(tmp_path / "v6.toml", six)
     told = search(file, "crank.splay=-80:80", "moment.1.backward")
     assert "\n-60 " in told
-    assert "Some of these values make no engine, such as crank.splay = -80: layout.f" in " ".join(told.split())
+    assert "With some values the engine is impossible, such as crank.splay = -80: layout.f" in " ".join(told.split())
     assert "No effect" not in told
 
 

@@ -63,7 +63,7 @@ def test_a_crank_that_all_but_stops_or_trembles_is_refused(line, slowest):
     engine = build_text(make_uneven([line]))
     said = (
         f"operation.speed_ripple: the crank slows down to {slowest} of its mean speed, so "
-        "that orders of time need too many samples; give a smaller amplitude or lower orders"
+        "that orders of time need too many samples; give a smaller ripple or lower orders"
     )
     with pytest.raises(BalcliError, match=re.escape(said)):
         compute_spectra_in_time(engine, np.arange(1.0, 501), ["force"])

@@ -75,7 +75,7 @@ def test_why_a_force_is_the_largest(tmp_path):
     stiff = even + mounts.replace("[300, 300, 900]\nloss = 0.1", "4000\nloss = 1.2")
     assert "yaw" not in tell(stiff, "400:3000:50", "--orders", "2").partition("Largest force")[0]
     out = tell(ENGINE + body + mounts.replace("loss = 0.1", "loss = 0.6"), "100:3000:50")
-    told = r"at ([\d.]+) rpm at mount .* Most of the force is from mode \d \([^()]+, [\d.]+ Hz\); this order has ([\d.]+) Hz\."
+    told = r"at ([\d.]+) rpm at mount .* Most of the force is from mode \d \([^()]+, [\d.]+ Hz\); this order then has ([\d.]+) Hz\."
     rpm, hertz = re.search(told, out).groups()
     assert float(hertz) == pytest.approx(2 * float(rpm) / 60, rel=5e-3)
 
@@ -118,7 +118,7 @@ def test_a_misfire_is_a_cylinder_whose_gas_does_nothing(tmp_path):
     assert ask_json("mounts", fired, "--misfire", "3", *asked) == ask_json("mounts", weak, *asked)
     beside = ask_json("mounts", fired, weak, "--misfire", "1", *asked)
     assert beside["response"]["no_gas_in"] == [1]
-    assert "no gas in 1, 3" in run_here("mounts", fired, weak, "--misfire", "1").out
+    assert "no gas in cylinder 1, 3" in run_here("mounts", fired, weak, "--misfire", "1").out
     assert "there is no cylinder 9: " in refusal("mounts", fired, "--misfire", "9")
 
 

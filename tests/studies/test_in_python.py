@@ -71,7 +71,7 @@ def test_the_engine_that_a_search_finds_is_as_good_as_it_says(engine, over):
     best = balcli.analyze(found.engine(), [1]).spectra.moment.major[0]
     scale = balcli.analyze(engine, [1]).of_one_cylinder["moment"]
     assert best == pytest.approx(found.results[0].objective, abs=CLOSE * scale)
-    with pytest.raises(IndexError, match=r"^rank 3: there are \d, from 1$"):
+    with pytest.raises(IndexError, match=r"^rank 3: there are \d results, from 1$"):
         found.engine(3)
 
 

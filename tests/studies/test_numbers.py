@@ -30,4 +30,4 @@ def test_every_number_of_the_file_can_be_varied(file):
 def test_more_than_arrays_have_axes_are_refused():
     vary = [word for n in range(1, 18) for word in ("--vary", f"cylinder.{n}.piston_mass=0.5")]
     engine = "crank.stroke = 90\nrod.length = 160\npiston.mass = 0.5\nlayout.radial = 17\n"
-    assert refusal("sweep", "-", *vary, stdin=engine) == "17 numbers vary; at most 16 can at once"
+    assert refusal("sweep", "-", *vary, stdin=engine) == "17 numbers vary; at most 16 can vary"

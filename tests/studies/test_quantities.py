@@ -48,7 +48,7 @@ def test_files_name_what_they_have_only():
 def test_errors_and_help_name_all():
     told = refusal("sweep", ENGINES / "i4.toml", "--vary", "rod.length=150", "-q", "noise.2.major")
     assert told == (
-        "noise.2.major is not a quantity: one begins with force, moment, couple, torque, roll, gas, "
+        "noise.2.major is not a quantity: names begin with force, moment, couple, torque, roll, gas, "
         "torque_total, roll_total, peak, guide, fluctuation, piston, journal, pin, mode, mount, point, torsion or shaft"
     )
     told = refusal("sweep", ENGINES / "i4.toml", "--vary", "rod.length=150", "-q", "tortion.1.Hz")

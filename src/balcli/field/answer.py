@@ -1,9 +1,9 @@
 """Balance a rotor in the field (`balance_rotor`): compute correction weights, the remaining
-readings, the balance grade, and warnings of doubtful runs.
+readings, whether the balance grade is reached, and warnings of doubtful runs.
 
 The corrections x minimise the sum of squares of the readings `|V + alpha x|`, or the largest of
-them (`minimise`). V are the readings to be corrected, alpha the influence coefficients. Given
-places and largest weights constrain x.
+them (`minimise`). V are the readings to be corrected, alpha the influence coefficients. Places and
+largest weights, if the file has them, constrain x.
 """
 
 from __future__ import annotations
@@ -38,13 +38,13 @@ from .influence import (
 from .places import Piece, PlaneLimits
 from .runs_file import RunsFile, Sense, check_runs
 
-_NEARLY_DEPENDENT = 0.2  # if a plane's own effect is smaller, reading errors grow much
-_SMALL_CHANGE = 0.1  # a change by a smaller share of the largest reading gives bad coefficients
+_NEARLY_DEPENDENT = 0.2  # with a smaller own effect of a plane, reading errors change weights much
+_SMALL_CHANGE = 0.1  # share of the largest reading; smaller changes give bad coefficients
 _SMALLEST_RADIUS = 1.0  # smallest likely radius of weights, mm
-_FAR_BEYOND = 5.0  # largest correction for which coefficients hold, as a multiple of trial weights
-_ROUNDING = 1e-13  # a prediction below this share of the largest reading is rounding
-# A reading that differs from its prediction by more than this share of the largest reading as
-# found, or of the largest change by weights, is surprising.
+_FAR_BEYOND = 5.0  # coefficients hold for corrections up to this multiple of a trial weight
+_ROUNDING = 1e-13  # a prediction below this share of the largest reading is a rounding error
+# A warning is given if a reading differs from its prediction by more than this share of the largest
+# reading as found, or of the largest change by weights if it is larger.
 _SURPRISING = 0.5
 
 
@@ -56,15 +56,15 @@ def find_doubts(result: FieldBalance) -> Iterator[str]:
         yield (
             f"planes {join_words([each.plane for each in alike])} have nearly the same effect: "
             f"{1 - min(each.own_effect for each in alike):.1%} of the effect of one can come from "
-            f"others (condition number {result.condition:.3g}), so small errors of readings change "
+            f"the others (condition number {result.condition:.3g}), so small reading errors change "
             f"the weights much; if the weights are large, try --without {alike[0].plane}"
         )
     if file.grade is not None or file.shares is not None:
         for key, hint in list_missing(file).items():
-            yield f"{key}: is missing, so no unbalance is judged; give it, such as {hint}"
+            yield f"{key}: is missing, so the grade is not checked; give it, such as {hint}"
     if result.left_out and result.permitted is not None:
         yield (
-            f"the permitted unbalance is judged without {' and '.join(result.left_out)}, whose "
+            f"the permitted unbalance is checked without {' and '.join(result.left_out)}, whose "
             f"unbalance is unknown; readings of up to {result.largest:.4g} {result.unit or ''}"
         ).rstrip() + " remain"
     series = collect_series(file)
@@ -77,7 +77,7 @@ def find_doubts(result: FieldBalance) -> Iterator[str]:
 
 
 def _doubt_trials(result: FieldBalance, series: list[Series]) -> Iterator[str]:
-    """Yield warnings of trial weights that changed little, and of much larger corrections."""
+    """Yield warnings of trial weights with little effect, and of corrections far above them."""
     for correction in result.corrections:
         plane, weight = correction.plane, abs(correction.weight)
         k = result.file.planes.index(plane)
@@ -88,7 +88,7 @@ def _doubt_trials(result: FieldBalance, series: list[Series]) -> Iterator[str]:
                 at = f" at {each.speed_rpm:g} rpm" if len(series) > 1 else ""
                 yield (
                     f"the trial weight in {plane}{at} changes no reading by more than "
-                    f"{change:.3g}, {100 * change / largest:.2g}% of the largest; use a heavier one"
+                    f"{change:.3g}, {100 * change / largest:.2g}% of the largest; make it heavier"
                 )
         trial = max(float(np.abs(each.weights[:, k]).max()) for each in series)
         if weight > _FAR_BEYOND * trial:
@@ -118,7 +118,7 @@ def _doubt_runs(result: FieldBalance, series: Series) -> Iterator[str]:
     remedy = "check its weights and the state of the machine, or leave the run out"
     if np.abs(series.readings - turned).max() <= _SURPRISING * largest:
         other = "with" if file.senses[1] == "against" else "against"
-        remedy = f'it fits if angles of weights count the other way round: weights = "{other}"'
+        remedy = f'the run fits if angles of weights count the other way: weights = "{other}"'
     yield (
         f"'{file.name_run(series.numbers[row])}' reads {read} at "
         f"{result.readings[sensor].sensor}; the other runs predict {expected}; {remedy}"
@@ -142,8 +142,8 @@ Minimise = Literal["squares", "max"]
 Weight: TypeAlias = Annotated[complex, Polar("weight", "angle_deg")]
 _READING = Polar("amplitude", "phase_deg")
 
-_NOISE = 1e-14  # a reading below this share of its cancelling terms is rounding
-_NEGLIGIBLE = 1e-9  # negligible weight, as a share of one whose effect is the largest reading
+_NOISE = 1e-14  # a reading below this share of its cancelling terms is a rounding error
+_NEGLIGIBLE = 1e-9  # negligible weight, as a share of a weight that cancels the largest reading
 _AT_EDGE = 1e3  # a weight closer to its limit than this many negligible weights is at its limit
 _G_MM = 1e-6  # 1 g mm in kg m
 
@@ -162,18 +162,18 @@ class Sensor(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True)
 class Correction:
-    """Correction weight of one plane. Angles count in the sense of the file's weights.
+    """Correction weight of one plane. Its angle counts in the same direction as the file's weights.
 
     Attributes:
         plane: Name of the plane.
         weight: Correction weight relative to the rotor as found, with all trial weights off.
-        add: Weight to add to those of the last correction run; left out if there is none.
-        unbalance_g_mm: Unbalance of the correction weight; left out if no radius is known.
+        add: Weight to add to the weight of the last correction run; left out without such a run.
+        unbalance_g_mm: Unbalance of the correction weight; left out if a radius for it is missing.
         own_effect: Share of the plane's effect that no combination of other planes can produce; 1
-            if the plane is independent of them.
-        at_limit: Whether given places or the largest weight exclude the best weight.
-        wanted: Best correction weight without limits; left out unless `at_limit` is true.
-        pieces: Weights or holes that together are equal to the weight to add.
+            if they can produce none of it.
+        at_limit: Whether the places or the largest weight of the plane limit its correction.
+        wanted: Best correction weight without these limits; left out unless `at_limit` is true.
+        pieces: Single weights, or holes, that together have the effect of the weight to add.
     """
 
     plane: str
@@ -187,7 +187,7 @@ class Correction:
 
     @property
     def step(self) -> complex:
-        """Weight to add now, after a correction run or without one."""
+        """Weight to add now: `add` after a correction run, otherwise `weight`."""
         return self.weight if self.add is None else self.add
 
 
@@ -202,7 +202,7 @@ class PlanePermitted:
         scatter_g_mm: Distance from the estimate within which the true unbalance lies with 95 %
             probability, judged by the residuals of the fit; left out if there are no more readings
             than unknowns.
-        reached: Whether present unbalance plus scatter is permitted.
+        reached: Whether the sum of present unbalance and scatter is permitted.
         after_g_mm: Residual unbalance after the corrections.
     """
 
@@ -229,7 +229,7 @@ class Permitted(NamedTuple):
         specific_mm: Permitted eccentricity.
         unbalance_g_mm: Permitted residual unbalance of the whole rotor.
         planes: Permitted and present unbalance by plane.
-        reached: Whether all planes reach their grade now.
+        reached: Whether all planes reach their grade before the corrections.
     """
 
     specific_mm: float
@@ -249,18 +249,19 @@ class FieldBalance(Result):
         name: Name of the rotor; null if the file gives none.
         unit: Unit of the readings; null if the file gives none.
         weight_unit: Unit of the weights.
-        phases: Sense of the phases of readings: with or against rotation.
-        weights: Sense of the angles of weights: with or against rotation.
+        phases: Direction in which phases of readings count: with or against rotation.
+        weights: Direction in which angles of weights count: with or against rotation.
         minimise: Minimised quantity: the sum of squared readings, or the largest reading.
         readings: Sensor and speed of every reading.
         influence: Influence coefficients: change of a reading by one unit of weight in a plane.
         corrections: Correction weights of the planes that are not left out.
         before: Readings of the last correction run; without one, the readings as found.
         residual: Predicted readings after the corrections.
-        largest: Largest weighted reading after the corrections.
-        rms: Root mean square of the weighted readings after the corrections.
+        largest: Largest reading after the corrections, weighted by the file's `reading_weights`.
+        rms: Root mean square of the readings after the corrections, weighted in the same way.
         condition: Condition number of the influence coefficients; null if it is infinite.
-        bound: Proven lower bound of the largest reading, for any weights; left out for squares.
+        bound: Proven lower bound of `largest` for all allowed weights; left out if `minimise` is
+            squares.
         trimmed: Name of the last correction run; left out if there is none.
         permitted: Permitted residual unbalance; left out if the grade or a key that it needs is
             missing.
@@ -296,7 +297,7 @@ class FieldBalance(Result):
 
     @property
     def limited(self) -> bool:
-        """Whether given places or largest weights exclude the best weight of any plane."""
+        """Whether places or largest weights limit the correction of any plane."""
         return any(each.at_limit for each in self.corrections)
 
     @property
@@ -317,7 +318,7 @@ def find_corrections(
     """Return the correction weights of a rotor.
 
     Args:
-        file: Runs.
+        file: File of runs.
         minimise: "squares" (minimise the sum of squared readings) or "max" (minimise the largest
             reading).
         without: Names of planes that get no weight.
@@ -325,7 +326,7 @@ def find_corrections(
 
     Raises:
         InputError: The runs do not separate the effects of the planes.
-        BalcliError: `without` names all planes, or one that does not exist.
+        BalcliError: `without` names all planes, or a plane that does not exist.
     """
     used = _choose_planes(file, without)
     runs = find_influence(file, used, name)
@@ -396,7 +397,7 @@ def _choose_planes(file: RunsFile, without: Collection[str]) -> list[int]:
     """Return the indices of the planes that get a weight.
 
     Raises:
-        BalcliError: `without` names all planes, or one that does not exist.
+        BalcliError: `without` names all planes, or a plane that does not exist.
     """
     for name in without:
         if name not in file.planes:
@@ -440,11 +441,11 @@ def _find_unbalance(file: RunsFile, k: int, weight: complex) -> float | None:
 
 
 def list_missing(file: RunsFile) -> dict[str, str]:
-    """Return the keys that the file lacks for judging its unbalance, each with an example."""
+    """Return the keys that the file lacks for a check of its grade, each with an example."""
     needed = {"grade": "grade = 6.3", "mass": "mass = 120", "speed": "speed = 3000"}
     if file.weighs_masses:
         radius = f"radius = {[200] * len(file.planes)}"
-        needed["radius"] = f'{radius}, or weights as unbalances, weight_unit = "g mm"'
+        needed["radius"] = f'{radius} (or give weights as unbalances, weight_unit = "g mm")'
     return {key: hint for key, hint in needed.items() if getattr(file, key) is None}
 
 
@@ -454,10 +455,10 @@ def _find_permitted(
     """Return permitted and present unbalance; None if the grade or a key that it needs is missing.
 
     Args:
-        file: Runs.
+        file: File of runs.
         runs: Influence coefficients of the runs.
         used: Indices of the planes that get a weight.
-        step: Weights to add, shape (planes,).
+        step: Weights to add, shape (planes used,).
     """
     if file.grade is None or file.mass is None or file.speed is None or list_missing(file):
         return None
@@ -510,8 +511,8 @@ def balance_rotor(
         `pieces`) and `residual` (predicted readings, shape (readings,)).
 
     Raises:
-        BalcliError: The file cannot be read, or `without` names all planes or one that does not
-            exist.
+        BalcliError: The file cannot be read, or `without` names all planes or a plane that does
+            not exist.
         InputError: The runs have mistakes, or do not separate the effects of the planes.
         TypeError: An argument has a wrong type.
 
@@ -525,4 +526,4 @@ def balance_rotor(
     wanted = "give the path, text or dict of a file of runs"
     tables, name = take_tables("balance_rotor", runs, wanted)
     file = check_runs(tables, name)
-    return find_corrections(file, minimise, planes, name or "file of runs")  # of a text or dict
+    return find_corrections(file, minimise, planes, name or "file of runs")  # text or dict: no name

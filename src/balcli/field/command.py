@@ -21,7 +21,7 @@ def field(
     path: Annotated[str, argument("RUNS", "Readings of all runs (TOML); - reads standard input.")],
     minimise: Annotated[
         Literal["squares", "max"],
-        typer.Option(help="squares: least sum of squared readings; max: smallest largest reading."),
+        typer.Option(help="Minimise the sum of squared readings, or (max) the largest reading."),
     ] = "squares",
     without: Annotated[
         list[str] | None, optional("PLANE", "Leave this plane out; repeat for more planes.")

@@ -4,17 +4,18 @@ At each speed, the readings V depend on the weights U by `V = V0 + alpha U` (Goo
 86, 1964, 273). The influence coefficients alpha and the readings as found V0 are fitted to all runs
 by least squares. With a single trial weight this is `alpha = (V - V0) / U`.
 
-A *correction run* has weights that differ from those of all runs that determine the coefficients.
-Balancing goes on from the last correction run.
+The first runs, up to the run with which all coefficients can be computed, are the trial runs. A
+*correction run* comes later and has weights that differ from those of all trial runs. New weights
+are added to the weights of the last correction run.
 
-Angles of all complex numbers in this module count in the sense of the phases of readings.
+Angles of all complex numbers in this module count in the direction of the phases of readings.
 
-For the scatter of the weights (`find_scatter`), all readings are assumed to have errors e of one
+For the scatter of the weights (`find_scatter`), all readings are assumed to have errors e of equal
 size, which is estimated from the residuals of the fit and of the correction. To first order, the
 errors change the weights by `B h e`, where h is the share of each run in the readings to cancel,
 and B is the (pseudo)inverse of the coefficients. With nu complex degrees of freedom, the square of
-this change divided by its estimated mean has the distribution F(2, 2 nu), whose tail is `(1 + t /
-nu)^-nu`.
+this change divided by its estimated mean has the distribution F(2, 2 nu): it exceeds t with the
+probability `(1 + t / nu)^-nu`.
 """
 
 from __future__ import annotations
@@ -31,7 +32,7 @@ from ..file.fields import join_words
 from .runs_file import RunsFile
 
 _SAME = 1e-9  # weights that differ by less than this share of the largest are equal
-_ROUNDING = 1e-13  # changes below this share of the largest reading are rounding
+_ROUNDING = 1e-13  # changes below this share of the largest reading are rounding errors
 _OUTSIDE = 0.05  # probability that an unbalance is farther from its estimate than the scatter
 
 
@@ -63,11 +64,12 @@ class Influence(NamedTuple):
         found: Readings of the rotor without weights, shape (readings,).
         latest: Readings of the last correction run, shape (readings,); equal to `found` at speeds
             without such a run.
-        start: Readings to be corrected, shape (readings,): readings with the weights
-            `weights_on`, computed from `latest` at speeds whose last run had other weights.
+        start: Readings to be corrected, shape (readings,): those with the weights `weights_on`
+            on the rotor, computed from `latest` if the rotor then had other weights.
         factors: Weight of each reading in the sum or maximum that is minimised, shape (readings,).
         trimmed: Name of the last correction run at any speed; empty if there is none.
-        weights_on: Weights on the rotor in the last correction run, shape (planes,); 0 without one.
+        weights_on: Weights on the rotor in the last correction run, shape (planes,); 0 if there is
+            no such run.
     """
 
     speeds_rpm: tuple[float | None, ...]
@@ -81,7 +83,7 @@ class Influence(NamedTuple):
 
     @property
     def state(self) -> str:
-        """Name of the state to which `latest` belongs."""
+        """Name of the state of the rotor in which `latest` was read."""
         if not self.trimmed:
             return "as found"
         return "last read" if len(set(self.speeds_rpm)) > 1 else self.trimmed
@@ -108,7 +110,7 @@ def find_influence(file: RunsFile, used: Collection[int], name: str = "") -> Inf
     fitted to all runs.
 
     Args:
-        file: Runs.
+        file: File of runs.
         used: Indices of the planes that get a weight.
         name: Name of the file for messages.
 
@@ -116,7 +118,7 @@ def find_influence(file: RunsFile, used: Collection[int], name: str = "") -> Inf
         InputError: The runs do not determine the coefficients of all planes.
     """
     planes, blocks = len(file.planes), []
-    trim, goes_on = -1, np.zeros(planes, dtype=complex)  # of the last correction
+    trim, goes_on = -1, np.zeros(planes, dtype=complex)  # index and weights of the last correction
     for series in collect_series(file):
         count = count_needed(series, used)
         if count is None:
@@ -163,11 +165,11 @@ def fit_coefficients(series: Series) -> tuple[Complex, Complex]:
 
 
 def find_scatter(file: RunsFile, runs: Influence, used: list[int], step: Complex) -> Array | None:
-    """Return the distance from the estimate within which the unbalance of each plane lies with 95 %
-    probability.
+    """Return the distance from its estimate within which the unbalance of each plane lies with
+    95 % probability.
 
     Args:
-        file: Runs.
+        file: File of runs.
         runs: Influence coefficients of the runs.
         used: Indices of the planes that get a weight.
         step: Least-squares weights that cancel the readings best, shape (planes used,).
@@ -179,7 +181,7 @@ def find_scatter(file: RunsFile, runs: Influence, used: list[int], step: Complex
     after, blocks, squares, freedom = runs.weights_on.copy(), collect_series(file), 0.0, 0
     after[used] += step
     factors = runs.factors
-    gains = []  # variance of a reading to cancel, relative to a single reading
+    gains = []  # variance of each reading to cancel, relative to that of a single reading
     for series, scale in zip(blocks, np.split(factors, len(blocks)), strict=True):
         design, readings = _design(series), series.readings
         if series.given is not None:
@@ -214,7 +216,7 @@ def count_needed(series: Series, used: Collection[int]) -> int | None:
     runs together do not determine them.
 
     Args:
-        series: Runs.
+        series: Runs at one speed.
         used: Indices of the planes that get a weight.
     """
     if series.given is not None:
@@ -260,7 +262,7 @@ def _explain_undetermined(file: RunsFile, series: Series, used: Collection[int])
         lacking.insert(0, "of the rotor as found, without weights")
     if not lacking:
         named = [plane for plane, weights in zip(file.planes, tried, strict=True) if weights]
-        lacking = [f"with another ratio of the weights in {join_words(named)}, or with one alone"]
+        lacking = [f"with another ratio of the weights in {join_words(named)}, or with only one"]
     return Problem(
         "run",
         f"add a run{at} {' and one '.join(lacking)}; {_count_unknowns(series, used)} runs "

@@ -20,7 +20,7 @@ from ..core.records import angle_deg
 from ..core.unbalance import find_drill_depth, find_drilled_unbalance
 from .runs_file import RunsFile
 
-_ROUNDING = 1e-9  # a smaller share of a weight is rounding
+_ROUNDING = 1e-9  # a smaller share of a weight is a rounding error
 
 
 class Piece(NamedTuple):
@@ -28,7 +28,7 @@ class Piece(NamedTuple):
 
     Attributes:
         weight: Weight to put on, or weight at the rim with the same effect as the hole.
-        angle_deg: Angle, in the sense of the file's weights.
+        angle_deg: Angle, which counts in the same direction as the file's weights.
         place: Number of the place in the file's list, from 1; left out without places.
         depth_mm: Depth of the hole; left out for weights.
     """
@@ -40,14 +40,14 @@ class Piece(NamedTuple):
 
 
 class PlaneLimits(NamedTuple):
-    """Places and largest weight of one plane. Angles have the sense of the file's weights.
+    """Places and largest weight of one plane. Angles count like those of the file's weights.
 
     Attributes:
         places_deg: Angles of the places, deg; empty if any angle is allowed.
         most: Largest weight at one place, of one hole, or in a plane without places; infinite if
             unlimited.
-        find_depth: Function that returns the depth, m, of a hole with the effect of a weight at the
-            rim; holes are opposite to the weight. None if weights are put on.
+        find_depth: Function that returns the depth, m, of the hole that replaces a weight at the
+            rim; the hole is opposite to the weight. None if weights are put on.
     """
 
     places_deg: tuple[float, ...]
@@ -72,12 +72,12 @@ class PlaneLimits(NamedTuple):
         return cls(places, heaviest, find_depth)
 
     def make_region(self, weight_on: complex, sense: int) -> Region:
-        """Return the region of weights that can be added, as complex numbers in the sense of the
-        readings.
+        """Return the region of weights that can be added. Angles of complex weights count in the
+        direction of the phases of readings.
 
         Args:
-            weight_on: Weight already on the plane, in the sense of the readings.
-            sense: -1 if phases of readings count against angles of weights, otherwise 1.
+            weight_on: Weight already on the plane.
+            sense: -1 if angles of the file's weights count in the other direction, otherwise 1.
         """
         if self.places_deg:
             angles_deg = sense * np.array(self.places_deg) + (180 if self.find_depth else 0)
@@ -85,11 +85,11 @@ class PlaneLimits(NamedTuple):
         return Region(0j if self.find_depth or math.isinf(self.most) else -weight_on, self.most)
 
     def plan(self, weight: complex, negligible: float) -> tuple[Piece, ...]:
-        """Return the weights or holes whose sum is a given weight in the region.
+        """Return the weights, or holes, that replace a given weight in the region.
 
         Args:
             weight: Weight to add.
-            negligible: Largest weight that is not put on.
+            negligible: Largest weight that is neglected.
         """
         if abs(weight) <= negligible:
             return ()
@@ -171,7 +171,7 @@ def find_region(angles_deg: Array, most: float) -> Region:
 
 
 def _sort_places(angles_deg: Array) -> tuple[Array, NDArray[np.intp], Complex]:
-    """Return the distinct angles in [0, 360), their numbers in the list from 1, and their unit
+    """Return the distinct angles in [0, 360), their numbers in the list (from 1), and their unit
     vectors.
     """
     rounded = np.round(np.asarray(angles_deg) % 360, 9) % 360

@@ -83,7 +83,7 @@ class Polar(Number):
         if not (amplitude == 0 or 1e-12 <= amplitude <= 1e12) or abs(angle) > _FARTHEST_DEG:
             raise ValueError(
                 f"{shorten(value)} is too large or small; amplitudes are 0 or 1e-12 to 1e+12, "
-                f"angles up to {_FARTHEST_DEG:g} degrees; for a minus, turn the angle by 180"
+                f"angles up to {_FARTHEST_DEG:g} degrees; for a minus sign, add 180 to the angle"
             )
         return make_polar(amplitude, angle)
 
@@ -92,8 +92,8 @@ class Polar(Number):
 
 
 def make_polar(amplitude: float, angle_deg: float) -> complex:
-    """Return a complex number. It is exact at multiples of 90 degrees, which are frequent angles of
-    trial weights.
+    """Return the complex number of an amplitude and an angle. It is exact at multiples of 90
+    degrees, which are frequent angles of trial weights.
     """
     quarter, rest = divmod(angle_deg, 90)
     turned = cmath.rect(amplitude, math.radians(rest)) if rest else complex(amplitude)
@@ -169,12 +169,12 @@ class Run(FileTable):
     """Amplitude @ phase in degrees of every sensor, in the same order in every run. Example:
     ['170 @ 112', '53 @ 78']"""
     weights: dict[str, Weight] = Field(default_factory=dict)
-    """Weights put on for this run: amount @ angle in degrees, by plane; none: the rotor as found.
+    """Weights put on for this run: amount @ angle in degrees, by plane; left out: no weights.
     Example: { front = '1.15 @ 0' }"""
     keep_trial: Switch = False
     """Whether these weights stay on in the later runs at this speed. Example: true"""
     speed: Speed | None = None
-    """Speed of this run; each speed is a series of its own. Example: 1500"""
+    """Speed of this run; each speed has influence coefficients of its own. Example: 1500"""
 
 
 class RunsFile(FileTable):
@@ -196,14 +196,16 @@ class RunsFile(FileTable):
     weight_unit: Annotated[str, AmountUnit()] = "g"
     """Unit of the weights: of mass, or of mass times radius. Example: 'g'"""
     reading_weights: BySensor[Factor] | None = None
-    """Weight of each sensor in the minimised readings; left out: equal weights. Example: [1, 2]"""
+    """Factor of the readings of each sensor when they are minimised; left out: 1.
+    Example: [1, 2]"""
     influence: BySensor[ByPlane[Coefficient]] | None = None
-    """Known influence coefficients: a row for each reading (of each speed), with the change of the
+    """Known influence coefficients: a row for each reading (at each speed), with the change of the
     reading per unit of weight for each plane. Example: [['0.0155 @ 113', '0.009 @ 10']]"""
     radius: ByPlane[Size] | None = None
-    """Radius of the weights, or of the rim, by plane. Example: [200, 200]"""
+    """Radius of the weights, or of the drilled rim, by plane. Example: [200, 200]"""
     most: ByPlane[Amount] | None = None
-    """Largest weight of a plane, or at one of its places or holes, by plane. Example: [40, 40]"""
+    """Largest weight, by plane; with places or holes, largest weight at each of them.
+    Example: [40, 40]"""
     places: ByPlane[Places] | None = None
     """Places that take weights, by plane: a number of places, evenly spaced from 0 on; a list of
     angles; or "free" for any angle. Example: [12, [0, 30, 60]]"""
@@ -211,7 +213,7 @@ class RunsFile(FileTable):
     """Diameter of radial holes that remove steel from the rim, opposite to the weight, by plane.
     Example: [12, 12]"""
     deepest: ByPlane[Size] | None = None
-    """Deepest hole, by plane. Example: [25, 25]"""
+    """Largest depth of a hole, by plane. Example: [25, 25]"""
     grade: Annotated[float, Grade()] | None = None
     """Balance quality grade G of ISO 21940-11, mm/s. Example: 6.3"""
     mass: Annotated[float, Number(MASS, above=0, most=1e9)] | None = None
@@ -219,7 +221,7 @@ class RunsFile(FileTable):
     speed: Speed | None = None
     """Service speed, for which the permitted unbalance is computed. Example: 3000"""
     shares: ByPlane[Factor] | None = None
-    """Shares of the permitted unbalance, by plane; left out: equal ones. Example: [0.4, 0.6]"""
+    """Shares of the permitted unbalance, by plane; left out: equal shares. Example: [0.4, 0.6]"""
     run: Annotated[tuple[Run, ...], Field(min_length=1, max_length=MOST_RUNS)]
     """The runs, in their order."""
 
@@ -230,12 +232,14 @@ class RunsFile(FileTable):
 
     @property
     def senses(self) -> tuple[Sense, Sense]:
-        """Senses, relative to rotation, of phases of readings and of angles of weights."""
+        """Directions of phases of readings and of angles of weights: with or against rotation."""
         phases: Sense = "against" if self.rotation == "lag" else "with"
         return phases, self.weights or phases
 
     def turn(self, weights: Weights) -> Weights:
-        """Return weights converted from the sense of the file to that of the readings, or back."""
+        """Return weights with angles converted from the direction of the file's weights to that of
+        the phases of readings, or back.
+        """
         phases, angles = self.senses
         return weights if phases == angles else weights.conjugate()
 

@@ -1,7 +1,7 @@
 """Show the result of field balancing as tables and CSV.
 
-`make_field` draws it in polar diagrams: readings before and after on the left, weights on the
-right.
+`make_field` draws polar diagrams: readings before and after the corrections on the left, weights on
+the right.
 """
 
 from __future__ import annotations
@@ -56,7 +56,7 @@ def _list_lines(found: Node, planes: tuple[str, ...]) -> Iterator[tuple[object, 
 def _list_part(
     part: str, found: Node, sensor: str = "", unit: str = "", speed_rpm: float | None = None
 ) -> Iterator[tuple[object, ...]]:
-    """Yield a line for each figure of an object; weights and amplitudes have this unit."""
+    """Yield a line for each figure of an object; `unit` is that of weights and amplitudes."""
     for name, value, known in list_figures(found, ("plane",)):
         of_file = name.rpartition(".")[2] in ("weight", "amplitude")
         cells = part, speed_rpm, name_cell(sensor), name, value
@@ -126,7 +126,7 @@ def _explain_corrections(result: FieldBalance) -> Iterator[str]:
     if result.trimmed:
         yield f"Add now: in addition to the weights of '{result.trimmed}'."
     yield (
-        "Own effect: share of a plane's effect that no other planes can produce. Condition "
+        "Own effect: share of a plane's effect that other planes cannot produce. Condition "
         f"number of the influence coefficients: {number(result.condition, 3)}."
     )
     for each in result.corrections:
@@ -134,7 +134,7 @@ def _explain_corrections(result: FieldBalance) -> Iterator[str]:
             best = _tell_weight(result, each.wanted)
             yield f"Without its limit, {each.plane} would need {best}."
     if result.left_out:
-        yield f"Left out: {', '.join(result.left_out)}."
+        yield f"Planes left out: {', '.join(result.left_out)}."
     for plane, weight in zip(result.file.planes, result.runs.weights_on, strict=True):
         if weight and plane in result.left_out:
             kept = _tell_weight(result, result.file.turn(complex(weight)))
@@ -164,7 +164,7 @@ def _show_pieces(result: FieldBalance, system: System) -> Grid:
     if file.drill:
         note = (
             "Radial holes in steel, from the rim inwards, opposite to the weights. Each hole has "
-            "the effect of its weight at the rim; the removed steel is farther in and weighs more."
+            "the effect of its weight at the rim; the removed steel is nearer the axis and heavier."
         )
     if result.trimmed and (file.drill or file.most):
         note += " Limits and depths ignore earlier weights and holes, which are not in the file."
@@ -188,7 +188,7 @@ def _show_permitted(result: FieldBalance, found: Permitted, system: System) -> G
         f"Permitted residual unbalance, ISO 21940-11, G {file.grade:g}",
         heads,
         tuple(rows),
-        f"{mass.of(file.mass or 0.0):g} {mass.name} at {file.speed:g} rpm: "
+        f"{mass.of(file.mass or 0.0):g} {mass.name} at {file.speed:g} rpm: permitted eccentricity "
         f"{number(1e3 * found.specific_mm)} µm. There now: unbalance {state}, from its readings; "
         f"after: unbalance after the corrections. Scatter: {spread}.",
         marked=frozenset((k, 4) for k, each in enumerate(every) if not each.reached),
@@ -212,12 +212,12 @@ def _show_readings(result: FieldBalance) -> Grid:
     if result.trimmed:
         columns += _list_polar(f"{result.runs.state}{unit}", result.before)
     columns += _list_polar(f"after{unit}", result.residual)
-    weighted = " weighted" if result.file.reading_weights else ""
-    note = f"Largest{weighted} after: {number(result.largest)}, rms {number(result.rms)}. "
+    what = f"Largest{' weighted' * bool(result.file.reading_weights)} reading after the corrections"
+    note = f"{what}: {number(result.largest)}, rms {number(result.rms)}. "
     if not result.residual.any():
         note = "All readings are cancelled."
     elif result.bound is not None:
-        which = "No possible weights" if result.limited else "No weights"
+        which = "No allowed weights" if result.limited else "No weights"
         note += f"{which} make the largest reading smaller than {number(result.bound)}."
     else:
         which = "that the places and limits allow" if result.limited else "possible"
@@ -235,7 +235,7 @@ def _show_influence(result: FieldBalance) -> Grid:
         f"phases, {result.phases} rotation."
     )
     if result.trimmed and result.file.influence is None:
-        note += " Fitted to all runs by least squares."
+        note += " The coefficients are fitted to all runs by least squares."
     return Grid.of_columns("Influence coefficients", columns, note)
 
 
@@ -266,7 +266,7 @@ def make_field(result: FieldBalance) -> Figure:
 
 
 def _draw_readings(ax: PolarAxes, result: FieldBalance) -> None:
-    """Draw each reading as a hollow dot (last run) joined to a full dot (predicted)."""
+    """Draw each reading as a hollow dot (latest run) joined to a full dot (after corrections)."""
     hollow: Look = {"color": SOFT, "markerfacecolor": PAPER}
     ends = [*zip(result.before, result.residual, strict=True)]
     for name, (start, end) in zip(_name_readings(result), ends, strict=True):

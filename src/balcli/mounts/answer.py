@@ -31,7 +31,7 @@ from .rigid_body import drop_rounding, elastic_centre, roll_axis
 
 _SLOWEST = 1 / 8  # lowest default speed, as a share of the file's speed
 _SPEEDS = 141
-_OF_BODY = ("body", "mount")  # tables of the file whose defaults matter
+_OF_BODY = ("body", "mount")  # tables of the file whose default values are listed as assumed
 
 
 def choose_mount_speeds(engine: Engine) -> Real:
@@ -143,20 +143,20 @@ def analyze_mounts(
         source: Engine whose file has [body] and [[mount]]; or the path of such a file, its text or
             a dict of its tables. A file may also describe body and mounts without an engine.
         speeds_rpm: Speeds in any order; default: from an eighth of the file's speed to this speed.
-            Three or more speeds at equal steps are a range, in which no undamped mode may be
-            driven.
+            Three or more speeds at equal steps are a range, within which no order may drive an
+            undamped mode at its natural frequency.
         orders: Orders of the load; default: all that contribute to the response.
         scheme: Balance scheme; `fitted` is the response with its devices.
         others: Further engines on the same mounts, by name.
 
     Returns:
         The document of `balcli mounts` as records: `modes` (`frequency_Hz`, `motion`, ...),
-        `response` (`mounts` and `points`, with `peak_N` or `peak_mm` over `speeds_rpm` and the
-        `worst` of the range; None without an engine), `fitted`, `others`.
+        `response` (`mounts` and `points`, with `peak_N` or `peak_mm` at each of `speeds_rpm`,
+        and the largest value as `worst`; None without an engine), `fitted`, `others`.
 
     Raises:
         BalcliError: An undamped mode is driven within the range, or the scheme cannot be fitted.
-        InputError: The file has mistakes, or no mount restrains a motion of the body.
+        InputError: The file has mistakes, or a motion of the body is not restrained by any mount.
         TypeError: The source or an argument has a wrong type.
 
     Example:

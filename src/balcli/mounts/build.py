@@ -83,7 +83,7 @@ def build_mounted_body(model: EngineFile, name: str = "") -> MountedBody:
         name: Name of the file, for messages.
 
     Raises:
-        InputError: Tables are missing or contradictory, or no mount restrains a motion.
+        InputError: Tables are missing or contradictory, or a motion of the body is unrestrained.
     """
     problems, table, mounts = list(find_mounting_faults(model)), model.body, model.mount
     if problems or table is None:
@@ -132,7 +132,7 @@ def find_mounting_faults(
 
     Args:
         model: Engine file.
-        readable: Tables that could be read.
+        readable: Names of the tables that could be read.
     """
     if "body" in readable and model.body is None:
         yield Problem.of_missing("body", 'give it, such as "[body]" and "mass = 163.9" below it')
@@ -167,11 +167,12 @@ class BodyMode(NamedTuple):
 
     Attributes:
         frequency_Hz: Natural frequency without damping, with dynamic stiffness.
-        energy_percent: Shares of the motions x, y, z, rx, ry, rz in the kinetic energy.
-        shape: Motion of the centre of gravity for unit modal mass, m and rad, shape (6,).
-        motion: The mode in words.
+        energy_percent: Shares of the motions x, y, z, rx, ry, rz in the kinetic energy, %.
+        shape: Displacement and rotation about the centre of gravity for unit modal mass, m and rad,
+            shape (6,).
+        motion: Names of the largest motions in the mode.
         loss_factor: Loss factor; its inverse is the magnification at resonance.
-        meets: Orders that meet the mode within the range of speeds.
+        meets: Orders that have the frequency of the mode at a speed within the range.
     """
 
     frequency_Hz: float
@@ -237,8 +238,8 @@ def settle(mounted: MountedBody, torque: float = 0.0) -> tuple[Real, Real]:
     return settle_body(mounted.body, mounted.static, load)
 
 
-SAG_LEAST, SAG_MOST = 0.02, 200.0  # usual travel under the weight, mm; rubber mounts have 1 to 20
-SMALL_BODY = 0.01  # unlikely ratio of radius of gyration and distance of a mount; usual: 0.2 to 1
+SAG_LEAST, SAG_MOST = 0.02, 200.0  # plausible travel under the weight, mm; rubber mounts: 1 to 20
+SMALL_BODY = 0.01  # least plausible radius of gyration / farthest mount's distance; usual: 0.2 to 1
 
 
 def read_mounted(path: str | Path) -> tuple[EngineFile, Engine | None, tuple[str, ...]]:
@@ -278,7 +279,7 @@ def check_mounted(draft: Draft, name: str) -> tuple[EngineFile, Engine | None, t
 
 
 def _find_doubts(model: EngineFile) -> Iterator[str]:
-    """Yield warnings of impossible or unlikely figures of body and mounts, such as wrong units."""
+    """Yield warnings of impossible or unlikely figures of body and mounts; units may be wrong."""
     body, mounts = model.body, model.mount
     if body is None:
         return
@@ -287,7 +288,7 @@ def _find_doubts(model: EngineFile) -> Iterator[str]:
     others = sum(moments.values()) - largest
     if largest > others:
         yield (
-            f"body.inertia: {name} of {largest:g} is more than the others together ({others:g}), "
+            f"body.inertia: {name} of {largest:g} exceeds the sum of the other two ({others:g}), "
             "which is impossible; are the axes right? z is along the crankshaft"
         )
     across = math.sqrt(largest / body.mass)
@@ -295,7 +296,7 @@ def _find_doubts(model: EngineFile) -> Iterator[str]:
     if not SMALL_BODY * farthest <= across <= farthest / SMALL_BODY:
         yield (
             f"body.inertia: {name} of {largest:g} kg mm^2 is a radius of gyration of {across:.2g} "
-            f"mm, and the farthest mount is {farthest:.3g} mm away; are they in kg mm^2 and mm?"
+            f"mm, and the farthest mount is {farthest:.3g} mm away; are the units kg mm^2 and mm?"
         )
     sag = STANDARD_GRAVITY * body.mass / sum(sum(mount.stiffness) / 3 for mount in mounts)
     if not SAG_LEAST <= sag <= SAG_MOST:

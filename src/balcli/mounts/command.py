@@ -19,7 +19,7 @@ from ..show.formats import Units
 from ..show.units import SYSTEMS
 
 Orders = Annotated[
-    str | None, optional("1-8|1,2,4", "Orders; default: all that contribute.", "--orders")
+    str | None, optional("1-8|1,2,4", "Orders to include; default: all with an effect.", "--orders")
 ]
 Plot = Annotated[
     Path | None, optional("FILE", "Draw forces, orders, modes and motion; .svg, .png or .pdf.")

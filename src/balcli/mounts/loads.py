@@ -1,8 +1,9 @@
-"""Compute the load of an engine on its body on mounts: free forces, moments and gas torque about
-the centre of gravity, by order.
+"""Compute the load of an engine on the body that stands on mounts: free forces, moments and gas
+torque about the centre of gravity, by order.
 
 At uneven speed, an order of the crank angle (cycles in a turn) is not one frequency: a force of
-order 1 over the angle has sidebands over time. The loads are then computed by orders of time.
+order 1 over the angle has sidebands over time. The loads are then computed by orders of time, which
+are multiples of the mean speed over time.
 """
 
 from __future__ import annotations
@@ -38,14 +39,14 @@ from .rigid_body import ROLL, load_at_centre
 if TYPE_CHECKING:
     from ..engine.gas import GasLaw
 
-_MOST_COUNTED = 1 << 26  # limit of samples times orders, which takes seconds
+_MOST_COUNTED = 1 << 26  # largest product of samples and orders; it takes seconds
 
 
 def compute_spectra_in_time(
     engine: Engine, orders: Array, kinds: Collection[str]
 ) -> tuple[Spectra, float]:
     """Return the spectra of an engine by orders of time; arguments as for `compute_spectra`. At
-    uneven speed, the mean over the time is not the mean over the crank angle.
+    uneven speed, the mean speed over time differs from the mean over the crank angle.
 
     Returns:
         The spectra, and the ratio of the mean speed over the time to the mean over the crank angle.
@@ -64,13 +65,13 @@ def compute_spectra_in_time(
     if samples > MOST_SAMPLES or samples * len(orders) > _MOST_COUNTED:
         raise BalcliError(
             f"operation.speed_ripple: the crank slows down to {slowest:.3g} of its mean speed, so "
-            "that orders of time need too many samples; give a smaller amplitude or lower orders"
+            "that orders of time need too many samples; give a smaller ripple or lower orders"
         )
     step = float(fastest[1])
     timetable = find_timetable(find_speed(engine.ripple, step), step, samples)
     reach = find_reach(timetable, highest)
     in_time: dict[str, Phasors] = {}
-    for name in kinds:  # the series of gas is infinite: take all that reach the orders of time
+    for name in kinds:  # the series of gas is infinite: take all orders with an effect in time
         most = max(of_inertia, reach) if name in GAS_KINDS else of_inertia
         found = compute_spectra(engine, dense_orders(most, mixed), [name])
         in_time[name] = count_in_time(found[name], timetable, orders)
@@ -82,14 +83,14 @@ class BodyLoads(NamedTuple):
 
     Attributes:
         orders: Orders, all above 0, shape (orders,).
-        inertia: Force (N) and moment about the centre of gravity (N m) at `omega`, shape
-            (orders, 6); they grow with the square of the speed.
-        omega: Speed of `inertia`, rad/s: the mean over the time, as for all speeds of this class.
-        turns: Ratio of this speed to the mean speed over the crank angle.
-        gas: Torque of the gas, whose reaction on the body is a roll, as a function of the mean
-            speed over the crank angle; None: the file has no gas.
-        mean: Steady torque about the crankshaft's axis on the body, N m, at the engine's own speed:
-            the reaction to a constant load. The load takes the mean of the gas torque over the
+        inertia: Force (N) and moment about the centre of gravity (N m) by inertia at `omega`,
+            shape (orders, 6); they grow with the square of the speed.
+        omega: Speed for `inertia`, rad/s. Speeds in rad/s are mean speeds over time.
+        turns: Ratio of `omega` to the mean speed over the crank angle.
+        gas: Torque of the gas as a function of the mean speed over the crank angle; its reaction
+            rolls the body. None: the file has no gas.
+        mean: Steady torque about the crankshaft's axis on the body, N m, at the file's speed: the
+            reaction to a constant load. The load takes the mean of the gas torque over the
             crank angle, less the share that goes into friction between parts of the body.
         silent: Cylinders that do not fire.
     """
@@ -116,7 +117,7 @@ class BodyLoads(NamedTuple):
 
     @property
     def law(self) -> GasLaw | None:
-        """Law by which the gas depends on the speed; None: it does not."""
+        """Law by which the gas depends on the speed; None: the gas is the same at all speeds."""
         return None if self.gas is None else self.gas.law
 
     @property
@@ -132,8 +133,8 @@ def list_gas_kinds(engine: Engine) -> list[str]:
 
 
 def find_gas_reaction(found: Spectra) -> Phasors:
-    """Return the gas torque whose reaction acts on the frame, N m. In geared engines it counts in
-    the sense in which the load turns, even if a crank turns against the load.
+    """Return the gas torque whose reaction acts on the frame, N m. In geared engines it is positive
+    in the direction of rotation of the load, even if a crank turns the other way.
     """
     return found["gas"] if found.gas is not None else found["roll"] - found["roll_total"]
 
@@ -144,10 +145,10 @@ def find_loads(
     """Return the free forces and moments of an engine as a load on the body.
 
     Args:
-        engine: Single engine (no trailing axes).
+        engine: Single engine, without axes of variants.
         centre: Centre of gravity of the body, m, shape (3,).
         orders: Orders of the load; default: all relevant orders.
-        gas_orders: Default orders of the gas torque; None: those of `list_gas_orders`.
+        gas_orders: Orders of the gas torque if `orders` is None; default: `list_gas_orders`.
 
     Raises:
         BalcliError: The file does not give the positions of the throws.

@@ -35,8 +35,8 @@ if TYPE_CHECKING:
     from ..show.plot_style import Look
 
 
-_WIDEST, _THINNEST = 7.0, 0.6  # largest and smallest width of the lines of orders, points
-_SWING = 0.22  # drawn travel of the farthest corner in a mode, as a share of the body's size
+_WIDEST, _THINNEST = 7.0, 0.6  # largest and smallest line width of orders, in points (1/72 inch)
+_SWING = 0.22  # drawn travel of the corner that moves most, as a share of the body's size
 
 
 def make_mounts(result: MountReport, system: System) -> Figure:
@@ -60,8 +60,8 @@ def make_mounts(result: MountReport, system: System) -> Figure:
 
 
 def _draw_curves(ax: Axes, result: MountReport, kind: Kind) -> None:
-    """Draw a curve over speed for each mount or point. Curves with schemes or of other engines are
-    thin and have the same colour.
+    """Draw a curve over speed for each mount or point. Curves of the engine with a scheme and of
+    other engines are thinner and have the colour of the same mount or point.
     """
     labels = ["", *(f", {fit_name(other.name, 20)}" for other in result.beside)]
     for label, response in zip(labels, result.responses, strict=True):
@@ -78,8 +78,8 @@ def _draw_curves(ax: Axes, result: MountReport, kind: Kind) -> None:
 
 
 def _draw_meetings(ax: Axes, result: MountReport, response: BodyResponse) -> None:
-    """Draw the frequencies of modes, and of orders over speed. The width of an order is its force
-    on the mount with the largest force.
+    """Draw the frequencies of modes, and of orders over speed. The line width of an order shows
+    its force on the mount with the largest force.
     """
     mount = max(response.mounts, key=lambda mount: round(mount.worst.force_N, 6))
     largest = max(each.force_N.max() for each in mount.orders) or 1.0

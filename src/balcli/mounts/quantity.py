@@ -1,5 +1,5 @@
-"""Quantities of an engine on its mounts that sweeps, searches and tolerances evaluate: `mode.3.Hz`,
-`mode.roll.share`, `mount.left.force`, `point.lever.motion`.
+"""Evaluate quantities of an engine on its mounts for `sweep`, `search` and `scatter`:
+`mode.3.Hz`, `mode.roll.share`, `mount.left.force`, `point.lever.motion`.
 """
 
 from __future__ import annotations
@@ -54,11 +54,12 @@ def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> N
 
 
 class Variants:
-    """Evaluator of quantities, one variant of a file after the other; constant parts are computed
-    once.
+    """Evaluator of quantities for variants of a file, one after the other. Results that are the
+    same for all variants are computed once.
 
     Args:
         model: File with [body] and [[mount]].
+        quantities: Quantities to evaluate.
     """
 
     def __init__(self, model: EngineFile, quantities: Sequence[TargetQuantity]) -> None:

@@ -26,7 +26,7 @@ TRAVEL_MOST = 0.05  # m; a warning is given if a mount has a larger amplitude
 
 
 class MountAtRest(NamedTuple):
-    """A mount under the weight and the mean torque.
+    """A mount of the body at rest, under its weight and the mean torque.
 
     Attributes:
         name: Name of the mount.
@@ -50,7 +50,7 @@ class AtRest(NamedTuple):
 
 
 class ForceOfOrder(NamedTuple):
-    """Force of one order.
+    """Force of one order on a mount.
 
     Attributes:
         order: Order.
@@ -65,7 +65,7 @@ class MetMode(NamedTuple):
     """An order that meets a mode at, or close to, the speed of the largest value.
 
     Attributes:
-        order: Order; among several, the one with the largest amplitude.
+        order: Order; if several orders meet modes, the one with the largest amplitude.
         mode: Number of the mode, from 1.
         speed_rpm: Speed at which the order and the mode have the same frequency.
     """
@@ -76,14 +76,14 @@ class MetMode(NamedTuple):
 
 
 class WorstForce(NamedTuple):
-    """The largest force of a mount over all speeds; it may lie between given speeds.
+    """The largest force of a mount over all speeds, which may occur between the given speeds.
 
     Attributes:
         force_N: Largest force, all orders together.
-        speed_rpm: Speed at which it is reached.
-        order: Largest single order at this speed.
-        order_force_N: Force of this order.
-        mode: Number, from 0, of the mode that contributes most to the force.
+        speed_rpm: Speed at which this force occurs.
+        order: Order with the largest force at this speed.
+        order_force_N: Force of this order alone.
+        mode: Number, from 0, of the mode that contributes most to the force of this order.
         resonance: Order in resonance at this speed; left out if there is none.
     """
 
@@ -100,7 +100,7 @@ class MountForce(NamedTuple):
 
     Attributes:
         name: Name of the mount.
-        orders: Each order by itself.
+        orders: Force of each order alone.
         peak_N: Largest force over the cycle, all orders added with their phases, by speed.
         worst: Largest force over all speeds.
     """
@@ -112,7 +112,7 @@ class MountForce(NamedTuple):
 
 
 class MotionOfOrder(NamedTuple):
-    """Motion of one order.
+    """Motion of a point by one order.
 
     Attributes:
         order: Order.
@@ -124,14 +124,14 @@ class MotionOfOrder(NamedTuple):
 
 
 class WorstMotion(NamedTuple):
-    """The largest motion of a point over all speeds; it may lie between given speeds.
+    """The largest motion of a point over all speeds, which may occur between the given speeds.
 
     Attributes:
         motion_mm: Largest motion, all orders together.
-        speed_rpm: Speed at which it is reached.
-        order: Largest single order at this speed.
-        order_motion_mm: Motion of this order.
-        mode: Number, from 0, of the mode that contributes most to the motion.
+        speed_rpm: Speed at which this motion occurs.
+        order: Order with the largest motion at this speed.
+        order_motion_mm: Motion by this order alone.
+        mode: Number, from 0, of the mode that contributes most to the motion by this order.
         resonance: Order in resonance at this speed; left out if there is none.
     """
 
@@ -148,7 +148,7 @@ class PointMotion(NamedTuple):
 
     Attributes:
         name: Name of the point.
-        orders: Each order by itself.
+        orders: Motion by each order alone.
         peak_mm: Largest motion over the cycle, all orders added with their phases, by speed.
         worst: Largest motion over all speeds.
     """
@@ -180,7 +180,7 @@ class BodyResponse:
 
     Attributes:
         no_gas_in: Cylinders without gas; left out if there are none.
-        no_burning_in: Cylinders that compress and burn nothing; left out if there are none.
+        no_burning_in: Cylinders that compress but do not burn; left out if there are none.
         orders: Orders in the response: those requested, or all that contribute.
         speeds_rpm: Crank speeds.
         imep_Pa: Indicated mean effective pressure, by speed; left out if it is the same at all
@@ -210,7 +210,7 @@ class Fitted(NamedTuple):
     Attributes:
         scheme: Name of the scheme.
         response: Response of the body.
-        remedy: The devices.
+        remedy: The fitted devices.
     """
 
     scheme: str
@@ -283,8 +283,8 @@ class MountReport(Result):
 
     @property
     def doubts(self) -> tuple[str, ...]:
-        """Warnings of speeds for which the file gives no gas, and of the mount that travels most,
-        if it travels farther than stops allow.
+        """Warnings of speeds for which the file gives no gas, and of the mount that travels most
+        if its travel exceeds TRAVEL_MOST.
         """
         if self.response is None:
             return ()

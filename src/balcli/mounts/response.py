@@ -43,13 +43,13 @@ from .records import (
 )
 from .rigid_body import ROLL, carry_points, couple_mounts, drop_rounding
 
-_BESIDE = np.array([-0.5, -0.25, 0, 0.25, 0.5])  # added speeds: distance to a resonance, in widths
+_BESIDE = np.array([-0.5, -0.25, 0, 0.25, 0.5])  # speeds added around a resonance, in widths
 RESONANT = 0.05  # an order is in resonance within this relative distance from a mode's frequency
-_PART = 0.25  # a resonance is reported if it has this share of the largest order
+_PART = 0.25  # least share of the largest order's value at which a resonance is reported
 _AT = 1e-9  # relative difference below which speeds are equal
-_BEYOND = 1e-4  # share of the largest order that the sum of neglected higher orders may have
-_LOOKED_AT = 24  # number of speeds at which that sum is computed
-# Next to a speed with this share of the highest value, a higher peak may lie between two speeds.
+_BEYOND = 1e-4  # most that neglected higher orders add up to, as a share of the largest order
+_LOOKED_AT = 24  # number of speeds at which this sum is computed
+# Peaks between two speeds are searched next to values above this share of the highest.
 _NEAR = 0.8
 _OF_MOUNT: tuple[type, type, type] = (MountForce, ForceOfOrder, WorstForce)
 _OF_POINT: tuple[type, type, type] = (PointMotion, MotionOfOrder, WorstMotion)
@@ -57,8 +57,8 @@ _COMPONENTS = (*(f"force_{axis}_N" for axis in "xyz"), *(f"moment_{axis}_Nm" for
 
 
 class RunningBody(NamedTuple):
-    """A body on its mounts, shaken by an engine. Its curves are the forces of mounts (N), then the
-    motions of points (m); each has three components.
+    """A body on its mounts, shaken by an engine. Its curves over the speed are the forces of the
+    mounts (N), then the motions of the points (m); each has three components.
 
     Attributes:
         modes: Equations of motion and natural modes.
@@ -84,8 +84,9 @@ class RunningBody(NamedTuple):
     ) -> RunningBody:
         """Return the running body with the curves of all mounts and points.
 
-        By default it has all orders that contribute. Gas orders above the usual ones are added if
-        their sum exceeds _BEYOND times the largest order in any curve at any examined speed.
+        By default it has all orders that contribute to the curves. Gas orders above
+        HIGHEST_GAS_ORDER_UNASKED are added as far as the sum of an order and all higher ones
+        exceeds _BEYOND times the largest amplitude of an order, in any curve at any examined speed.
 
         Args:
             mounted: Body on its mounts.
@@ -158,9 +159,9 @@ class RunningBody(NamedTuple):
         return find_longest(self.loads.orders, curves).value
 
     def refuse_resonance(self, omega: Real, *, ranged: bool = True) -> bool:
-        """Raise BalcliError if the engine drives an undamped mode at its own frequency at one of
-        the rising speeds (rad/s), or between two of them if they are a range. Return whether the
-        motion is bounded at all speeds between the first and the last.
+        """Raise BalcliError if an order drives an undamped mode at the mode's natural frequency at
+        one of the rising speeds (rad/s), or between two of them if they are a range. Return whether
+        the motion is bounded at all speeds between the first and the last.
         """
         modes, loads = self.modes, self.loads
         driven = find_resonances(modes.modes, modes.loss, loads.orders, omega, loads.at(omega))
@@ -201,7 +202,7 @@ def find_worst(
         running: Running body with its curves.
         omega: Speeds, rad/s, rising, shape (speeds,).
         peaks: Largest length of each curve over the cycle at these speeds, shape (speeds, curves).
-        between: Whether to look between the speeds.
+        between: Whether to search between these speeds as well.
     """
     if not between:
         return omega[peaks.argmax(axis=0)], peaks.max(axis=0)
@@ -262,8 +263,8 @@ def respond(
         ranged: Whether the speeds represent a whole range, so that resonances between them count.
 
     Raises:
-        BalcliError: There are too many results, or the engine drives an undamped mode at its own
-            frequency at one of the speeds or within their range.
+        BalcliError: There are too many results, or an order drives an undamped mode at the mode's
+            natural frequency at one of the speeds or within their range.
     """
     loads, mounts, points = running.loads, mounted.names, mounted.point_names
     omega = rpm * RPM

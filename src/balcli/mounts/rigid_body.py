@@ -1,4 +1,4 @@
-"""Compute a rigid body on mounts: its stiffness, statics, natural modes and forced vibration.
+"""Compute stiffness, damping, rest position and natural modes of a rigid body on mounts.
 
 A motion is a vector of six numbers along the engine's axes: displacement of the centre of gravity
 (m) and rotation (rad). A load has the corresponding forces (N) and moments about the centre of
@@ -19,9 +19,9 @@ from numpy.typing import ArrayLike
 from ..core.vibration import ROUNDING, Complex, Modes, Real, find_modes
 from ..file.fields import join_words
 
-_NO_SHARE = 1e-14  # smaller shares of a mode's energy are rounding
-_UNCOUPLED = 1e-14  # smaller couplings, relative to both motions' stiffness, are rounding
-_FREE = 1e-9  # a singular value below this share of the largest means a free motion
+_NO_SHARE = 1e-14  # smaller shares of a mode's energy are rounding errors
+_UNCOUPLED = 1e-14  # smaller couplings, relative to both motions' stiffness, are rounding errors
+_FREE = 1e-9  # a singular value below this share of the largest means an unrestrained motion
 
 
 class Body(NamedTuple):
@@ -217,8 +217,8 @@ AXES = ("x", "y", "z", "rx", "ry", "rz")
 ROLL = AXES.index("rz")  # the turn about the crankshaft's axis
 _ALONE = 0.8  # a motion with this share of the energy names a mode alone
 _PART = 0.15  # a motion with this share of the energy is one of several that name a mode
-_STEEP = 0.8  # an axis with this cosine to the vertical is called up and down
-_EXACT = 1e-9  # smaller components of a direction are rounding
+_STEEP = 0.8  # least cosine of the angle to the vertical of an axis called up and down
+_EXACT = 1e-9  # smaller components of a direction are rounding errors
 
 
 def name_motions(up: Real) -> tuple[str, ...]:
@@ -254,8 +254,8 @@ def name_mode(shares: Real, names: tuple[str, ...]) -> str:
 
 
 def describe_free_motion(motion: Real) -> str:
-    """Return a description of an unrestrained motion (6,): a displacement, or a rotation about an
-    axis of some direction.
+    """Return a description of an unrestrained motion (6,): a displacement along a direction,
+    or a rotation about an axis.
     """
     shift, turn = motion[:3], motion[3:]
     turns = np.linalg.norm(turn) > _FREE * np.linalg.norm(shift)
@@ -275,7 +275,7 @@ PROJECTION = np.array([[0.0, -0.62, 0.86], [1.0, -0.34, -0.28]])
 
 def find_corners(body: Body) -> Real:
     """Return the corners of the block, m, about the centre of gravity, shape (8, 3); corners whose
-    numbers differ in one bit share an edge.
+    indices differ in one bit share an edge.
 
     Edges are parallel to the engine's axes; products of inertia are ignored.
     """

@@ -30,11 +30,11 @@ from .rigid_body import AXES
 _HEADER = ("part", "name", "order", "speed_rpm", "figure", "value", "unit")
 _COLUMNS = 6  # largest number of columns of orders or speeds in a table
 _ROWS = 9  # largest number of rows of speeds in a table
-_SHARE = 1e-3  # loads below this share of the largest free load have no row
+_SHARE = 1e-3  # loads below this share of the largest load on rigid mounts have no row
 
 
 class Kind(NamedTuple):
-    """Kind of result at places: the force of mounts, or the motion of points.
+    """Kind of result: the force of mounts, or the motion of points. Mounts and points are places.
 
     Attributes:
         part: "mount" or "point".
@@ -115,7 +115,7 @@ def _tell_gas(response: BodyResponse) -> str:
     """Return a sentence on whether gas is included, and on cylinders that do not fire."""
     if response.loads.gas is None:
         return "Inertia only: gas torque, which also rolls an engine, is not included."
-    silent = "".join(f"; {what} {numbers}" for what, numbers in list_silent(response.loads.silent))
+    silent = "".join(f"; {what} cylinder {n}" for what, n in list_silent(response.loads.silent))
     gas = "gas of each speed" if response.loads.law else "same gas diagram at every speed"
     return f"Inertia and gas torque, with the {gas}{silent}."
 
@@ -140,7 +140,7 @@ def _explain(result: MountReport, response: BodyResponse, worst: WorstForce | Wo
     for end, rpm in (("slowest", speeds[0]), ("fastest", speeds[-1])):
         if len(speeds) > 1 and abs(worst.speed_rpm / rpm - 1) < 1e-9:
             return f"This is the {end} speed of the range; most of the force is from {named}."
-    return f"Most of the force is from {named}; this order has {number(hertz, 3)} Hz."
+    return f"Most of the force is from {named}; this order then has {number(hertz, 3)} Hz."
 
 
 def _grid_worst(result: MountReport, kind: Kind) -> Grid:
@@ -173,7 +173,7 @@ def _grid_modes(result: MountReport) -> Grid:
         columns.append(("damping %", [f"{50 * mode.loss_factor:.1f}" for mode in modes]))
     note = (
         "x to rz: shares of motion along and rotation about the axes in the kinetic energy; "
-        "products of inertia may make one negative. Hz: with dynamic stiffness, without damping."
+        "products of inertia may make some negative. Hz: with dynamic stiffness, without damping."
     )
     return Grid.of_columns("Natural modes", columns, note)._replace(words=(0, 2))
 
@@ -215,7 +215,7 @@ def _grid_meetings(result: MountReport) -> Grid:
     for order in every[:_COLUMNS]:
         speeds = [number(rpm.get(order, math.nan), 4) for rpm in met]
         columns.append((f"order {order_name(order)}", speeds))
-    note = "JSON has all orders." if len(every) > _COLUMNS else ""
+    note = "The JSON output has all orders." if len(every) > _COLUMNS else ""
     return Grid.of_columns("Where orders meet modes, rpm", columns, note)
 
 
@@ -292,7 +292,7 @@ def _list_lines(result: MountReport, system: System) -> Iterator[tuple[object, .
 
 
 def _list_imep(response: BodyResponse, label: str) -> Iterator[tuple[object, ...]]:
-    """Yield the mean pressure by speed, if it depends on the speed."""
+    """Yield the indicated mean effective pressure by speed, if it depends on the speed."""
     if response.imep_Pa is not None:
         for rpm, imep in zip(response.speeds_rpm, response.imep_Pa.tolist(), strict=True):
             yield f"{label}engine", "", None, clean(rpm), "imep", imep, "Pa"

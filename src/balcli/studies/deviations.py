@@ -1,5 +1,5 @@
 """List the parts of an engine that deviate independently within tolerances: pistons, rods, throws,
-mounts, shafts and inertias. A part is defined by the figures of the file that vary with it.
+mounts, shafts and inertias. Every part has a list of the figures of the file that change with it.
 """
 
 from __future__ import annotations
@@ -54,7 +54,7 @@ class Source(NamedTuple):
         name: Name in tables, such as `piston mass 3` or `stiffness left`.
         tolerance: Largest deviation, relative or in degrees.
         figures: Figures of the file that vary with the deviation, by dotted name.
-        relative: Whether the deviation is relative; otherwise it is in degrees.
+        relative: True for a relative deviation, False for a deviation in degrees.
     """
 
     name: str
@@ -75,7 +75,8 @@ def find_sources(
 
     Args:
         model: Engine file.
-        chapter: Chapter whose parts deviate: ENGINE (pistons, rods and throws), MOUNTS or TORSION.
+        chapter: Kind of quantities whose parts deviate: ENGINE (pistons, rods and throws), MOUNTS
+            or TORSION.
         within: Tolerances; parts with a tolerance of 0 are left out.
     """
     if model.engine and chapter == ENGINE:

@@ -88,7 +88,7 @@ def find_places(model: EngineFile) -> dict[str, Place]:
     idle = {*_list_idle_paths(model, numbers)}
     if plan.banks != 2:  # an angle would turn the engine into a vee
         idle.add("layout.bank_angle")
-    if not plan.in_rows:  # it would number the cylinders anew
+    if not plan.in_rows:  # a row angle would renumber the cylinders
         idle.add("layout.row_angle")
     return {
         path: place
@@ -99,12 +99,12 @@ def find_places(model: EngineFile) -> dict[str, Place]:
 
 
 def _find_places_of_several(model: EngineFile) -> dict[str, Place]:
-    """Return the numbers with an effect in a file with [[engine]] and in its engines' files."""
+    """Return the numbers with an effect, of a file with [[engine]] and of its engines' files."""
     numbers: dict[str, Place] = {}
     for path, table in model.tables():
         if path.partition(".")[0] in BESIDE_ENGINES:
             numbers |= _numbers_of(path, table)
-    for path in ("frame.up", "engine.1.phase"):  # the first engine is the reference
+    for path in ("frame.up", "engine.1.phase"):  # phases count from engine 1
         numbers.pop(path, None)
     of_whole = set(BESIDE_ENGINES).difference(DEVICES, ("flywheel",))
     for k, crank in enumerate(model.cranks, 1):
@@ -121,8 +121,8 @@ _FIXED = r"layout\.firing_intervals\.|locomotive\.(?!coupling)|axle\..*\.(part|w
 
 
 def _list_idle_paths(model: EngineFile, numbers: Iterable[str]) -> list[str]:
-    """Return the numbers of the gas that have no effect: shares of gas in a file without gas, keys
-    for another kind of cycle, and keys that every cylinder overrides.
+    """Return the numbers of the gas that have no effect: `gas` and `heat` of cylinders if there
+    is no [gas], keys for another kind of cycle, and keys that every cylinder overrides.
     """
     own = [path for path in numbers if path.startswith("cylinder.")]
     if model.gas is None:
@@ -312,7 +312,7 @@ def _read_values(text: str, number: Number) -> NDArray[np.float64]:
 
 
 def ladder(first: Fraction, step: Fraction, count: int) -> NDArray[np.float64]:
-    """Return first + k step for k = 0 .. count - 1, each correctly rounded."""
+    """Return `first + k * step` for k = 0 .. count - 1, each correctly rounded."""
     scale = math.lcm(first.denominator, step.denominator)
     start, rise = int(first * scale), int(step * scale)
     return np.fromiter(((start + rise * k) / scale for k in range(count)), float, count)

@@ -3,8 +3,9 @@ that can vary.
 
 Quantities of forces and moments (`force.2.major`) are evaluated for all variants as arrays. Other
 quantities (`mode.roll.Hz`, `torsion.1.Hz`, `torque.mean`, `guide.6.H`) are evaluated one variant
-after the other by the module of their subject, which is loaded when one is requested. Gas torque is
-computed on demand, once for all variants with the same gas.
+after the other by the module of their chapter (a subject such as mounts), which is loaded only if
+one of its quantities is requested. Gas torque is computed on demand, once for all variants with the
+same gas.
 """
 
 from __future__ import annotations
@@ -57,7 +58,7 @@ class Variants(Protocol):
 
 
 class ChapterModule(Protocol):
-    """Interface of a module that computes quantities of its chapter."""
+    """Interface of a module that computes the quantities of one chapter."""
 
     def list_names(self, model: EngineFile) -> Iterable[str]:
         """Return the names of the quantities of a file; N stands for any order."""
@@ -100,7 +101,7 @@ def _parse_quantity(word: str, with_gas: bool) -> AnyQuantity:
     alike = [form for form in FORMS if form.beginning == word.partition(".")[0]]
     if any(form.chapter == ENGINE for form in alike):
         return parse_quantity(word, with_gas=with_gas)
-    there = f"one begins with {', '.join(BEGINNINGS[:-1])} or {BEGINNINGS[-1]}"
+    there = f"names begin with {', '.join(BEGINNINGS[:-1])} or {BEGINNINGS[-1]}"
     hint = suggest_nearest(word.partition(".")[0], BEGINNINGS, there)
     if alike:
         hint = f"give {' or '.join(join_patterns(alike))}"
@@ -126,7 +127,7 @@ def refuse_unknown(model: EngineFile, engine: Engine, wanted: Iterable[AnyQuanti
 
     Args:
         model: Engine file.
-        engine: Engine of the file, or variants along trailing axes.
+        engine: Engine of the file; it may hold variants along trailing axes.
         wanted: Requested quantities.
 
     Raises:
@@ -138,13 +139,13 @@ def refuse_unknown(model: EngineFile, engine: Engine, wanted: Iterable[AnyQuanti
     refuse_unknown_of_engine(engine, choose_of_engine(wanted))
 
 
-# Tables whose defaults matter for the quantities of a chapter, in addition to those of any engine.
+# Tables whose default values affect the quantities of a chapter, besides those for every chapter.
 _TABLES = {MOUNTS: {"gas", "body", "mount"}, TORSION: {"gas", "torsion"}, PISTON: set[str]()}
 # Beginnings of the names of quantities that do not depend on the inertia of rods.
 _WITHOUT_RODS = ("force.", "moment.", "peak.", "gas.", "mode.", "torque.mean", "piston.")
 # Beginnings of the names of quantities that depend on the masses of throws.
 _OF_THROWS = ("force.1.", "moment.1.", "peak.", "mount.", "point.")
-_OF_THROWS_OFF_AXIS = ("couple.1.", "roll.1.", "roll_total.1.")
+_OF_THROWS_OFF_AXIS = ("couple.1.", "roll.1.", "roll_total.1.")  # if frame.reference is off axis
 
 
 def list_assumed(
@@ -316,7 +317,7 @@ class FileNumber:
 
     Attributes:
         path: Dotted name, as used in `--vary`.
-        value: Value in its unit, or "rigid"; null if it is not in the file.
+        value: Value in its unit, or "rigid" (infinite); null if it is not in the file.
         unit: Unit that the file assumes for a bare number; empty for plain numbers.
         meaning: Meaning in words.
     """

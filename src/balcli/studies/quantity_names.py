@@ -30,8 +30,8 @@ engine   torque_total.N.PART  N·m gas     torque of gas and inertia: {_OF_SCALA
 engine   roll_total.N.PART    N·m gas     roll of the block, gas included: {_OF_SCALAR}
 engine   peak.force           N           largest free force over a revolution
 engine   peak.moment          N·m         largest free moment over a revolution
-guide    guide.N.H            N·m         H-type guide-force moment, gas included
-guide    guide.N.X            N·m         X-type guide-force moment, gas included
+guide    guide.N.H            N·m         H-type guide-force moment (rocks the block), gas included
+guide    guide.N.X            N·m         X-type guide-force moment (twists the block), gas included
 cycle    torque.mean          N·m gas     mean torque of the gas
 cycle    torque.max           N·m gas     largest torque over the cycle, at steady speed
 cycle    torque.min           N·m gas     smallest torque over the cycle, at steady speed
@@ -104,8 +104,8 @@ FORMS = tuple(Form(*map(str.strip, row)) for row in _COLUMNS.findall(_TABLE))
 BEGINNINGS = tuple(dict.fromkeys(form.beginning for form in FORMS))
 # Notes on quantities that are the largest value over a range of speeds, by the beginnings of names.
 _RANGES = {
-    ("mount.", "point."): "Mounts and points: largest value from 1/8 to 1 times the engine's speed",
-    ("shaft.",): "Shafts: largest value from 0.5 to 1.5 times the engine's speed",
+    ("mount.", "point."): "Mounts and points: largest value at 1/8 to 1 times the engine's speed",
+    ("shaft.",): "Shafts: largest value at 0.5 to 1.5 times the engine's speed",
 }
 
 

@@ -38,14 +38,14 @@ from .quantities import (
 )
 from .quantity_names import ENGINE, MOUNTS, TORSION
 
-# Default numbers of samples: of engines computed together as arrays, and one by one.
+# Default numbers of samples if engines are computed together as arrays, and if one by one.
 RANDOM_ENGINES, RANDOM_SINGLES = 100_000, 500
-CHUNK, AT_ONCE = 8_192, 400_000  # largest numbers of samples and deviations computed at once
+CHUNK, AT_ONCE = 8_192, 400_000  # most samples, and most samples times parts, computed at once
 _EQUAL = 1e-8  # effects that differ by less than this share of the largest are equal
-_ROUNDING = 1e-12  # changes below this share of a figure are rounding
+_ROUNDING = 1e-12  # changes below this share of the nominal value are rounding errors
 _LEAST = -0.99  # least relative deviation, so that no mass or spring becomes negative
 _DEGREES = Number(ANGLE, least=0, most=90)
-# By chapter: name of the variants, and an option that gives a tolerance.
+# By chapter: name of the variants in tables, and an example of an option with a tolerance.
 _VARIED = {
     ENGINE: ("engines", "--mass-scatter 0.5%"),
     MOUNTS: ("sets of mounts", "--stiffness-scatter 15%"),
@@ -65,8 +65,8 @@ class Spread:
         p50: Median.
         p95: 95th percentile.
         max: Largest value.
-        bound: First-order bound: the nominal value plus the magnitudes of all changes.
-        sensitivity: Change by the tolerance of each single part, largest first.
+        bound: First-order bound: nominal value plus the magnitudes of all changes in `sensitivity`.
+        sensitivity: Change by the tolerance of each part alone, by the part's name, largest first.
     """
 
     nominal: float
@@ -304,8 +304,8 @@ class Variants:
 
 def _find_changes(nominal: Array, above: Array, below: Array) -> Array:
     """Return the change of each quantity by each tolerance, shape (sources, quantities). It is half
-    the difference between both ends of the tolerance. If both ends change a quantity in the same
-    direction, such as an amplitude that is nominally 0, it is the larger change.
+    the difference between the values at both ends of the tolerance. If both ends change a quantity
+    in the same direction, such as an amplitude that is nominally 0, it is the larger change.
     """
     up, down = above - nominal, below - nominal
     larger = np.where(np.abs(up) >= np.abs(down), up, down)

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 
 SHOWN = 6  # largest number of changes of each quantity in a table
-BOUND = "Bound: nominal value plus all single changes, taken positive; variants may exceed it"
+BOUND = "Bound: nominal value plus the magnitudes of all single changes; variants may exceed it"
 _SHAPES = {
     "uniform": "deviations evenly distributed",
     "normal": (
@@ -103,7 +103,7 @@ MASS = "Tolerance of piston, rod and throw masses, and of inertias."
 ANGLE = "Tolerance of throw angles, such as 0.2 deg."
 STIFFNESS = "Tolerance of the stiffness of mounts or shafts."
 OF_EACH = "15% for mounts, 5% for shafts"
-SAMPLES = "Random engines; default: 100000, or 500 for quantities computed one by one."
+SAMPLES = "Number of engines; default: 100000, or 500 if they are computed one by one."
 SHAPES = "Uniform within the tolerances, or normal with a third of them as standard deviation."
 QUANTITY = "Names such as force.1.major, mode.roll.Hz, torsion.1.Hz; see balcli numbers."
 percent = partial(optional, "PERCENT")

@@ -1,10 +1,10 @@
-"""Evaluate quantities on a grid of variants of an engine, whose parameters are numbers of its file.
-The grid is divided into boxes, which are evaluated as arrays.
+"""Evaluate quantities for a grid of variants of an engine. The parameters of the grid are numbers
+of the engine file. The grid is divided into boxes, each of which is evaluated as arrays.
 
-Every parameter has its own trailing axis, so that figures independent of it are computed once. On a
-grid of bank angles and rod ratios, for example, phases are computed once for each angle,
-coefficients once for each ratio, and only their products for each variant. In rows of variants, the
-last parameter varies fastest.
+Each parameter has its own trailing axis, so that results that it does not affect are computed once.
+On a grid of bank angles and rod ratios, for example, phases are computed once for each angle,
+coefficients once for each ratio, and only their products for each variant. Where variants are rows,
+the last parameter varies fastest from row to row.
 """
 
 from __future__ import annotations
@@ -60,11 +60,11 @@ Share: TypeAlias = Callable[[Callable[[Any], Any], Iterable[Any]], Iterator[Any]
 ALONE = 64  # number of variants in a box if each is computed by itself
 CHUNK = 65_536  # largest number of variants in a box; larger boxes save no more work
 BYTES = 1 << 24  # size of the largest array of a box, which fits into the cache
-SAMPLES = 1 << 20  # largest number of samples in a box, computed in a tenth of a second
+SAMPLES = 1 << 20  # largest number of crank-angle samples in a box; they take a tenth of a second
 
 
 class Chunk(NamedTuple):
-    """The values in a box of the grid: each quantity, shape (variants in the box,)."""
+    """Values of each quantity in a box of the grid, shape (variants in the box,) each."""
 
     box: Box
     values: list[Array]
@@ -96,7 +96,7 @@ class Sweep:
 
     @property
     def doubts(self) -> list[str]:
-        """Warnings of unlikely figures of the file, except varied ones."""
+        """Warnings of unlikely figures of the file, except figures that vary."""
         with naming_file(self.name):
             all_of_file = [
                 doubt
@@ -176,15 +176,15 @@ def plan_sweep(
 ) -> Sweep:
     """Return the sweep of an engine file, after a check of the grid's corners.
 
-    A mechanism that locks anywhere in the grid also locks at a corner. An uneven speed may be wrong
-    only between the corners; such mistakes are found later. `name` is the file's name in messages;
-    see `read_sweep` for the other arguments.
+    A mechanism that locks anywhere in the grid also locks at a corner. An uneven speed may be
+    impossible only between the corners, which is found when these variants are computed. `name` is
+    the file's name in messages; see `read_sweep` for the other arguments.
     """
     paths = [p.path for p in parameters]
     if twice := [path for path in paths if paths.count(path) > 1]:
         raise BalcliError(f"{twice[0]} is varied twice; give all its values at once")
     if len(paths) > MOST_PARAMETERS:
-        raise BalcliError(f"{len(paths)} numbers vary; at most {MOST_PARAMETERS} can at once")
+        raise BalcliError(f"{len(paths)} numbers vary; at most {MOST_PARAMETERS} can vary")
     wanted = DEFAULT_QUANTITIES if quantities is None else quantities
     asked = parse_quantities(wanted, with_gas=model.has_gas)
     sweep = Sweep(model, parameters, asked, name)

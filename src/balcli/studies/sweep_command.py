@@ -42,8 +42,8 @@ _OF_CYLINDER = re.compile(r"cylinder\.\d+\.")
 
 
 def sheet(result: NamedNumbers, _system: System) -> Sheet:
-    """Return both lists with one row for each name. Keys of single cylinders that the file does not
-    give share one row for all cylinders.
+    """Return tables of the numbers and the quantities with one row for each name. Keys of single
+    cylinders that the file does not give have one row for all cylinders.
     """
     note = "–: not in the file; N stands for the number of a cylinder."
     heads = ("name", "value", "unit", "meaning")
@@ -103,12 +103,12 @@ VARY = (
 USUAL = DEFAULT_QUANTITIES.replace(",", ", ")  # help may fold it
 QUANTITY = f"Quantities by name: {describe_names()}"
 FORM = (
-    "Default: by the ending of -o, else a table in a terminal and csv in a pipe. With more than 50 "
-    "variants, tables show only the first ones."
+    "Default: by the ending of -o; without -o, a table in a terminal and csv in a pipe. Tables "
+    "show only the first 50 variants."
 )
 OUTPUT = (
     "File to write, or a folder for numbered Parquet files; repeating a sweep computes only "
-    "the missing ones. - is standard output."
+    "the missing files. - is standard output."
 )
 FORCE = "Replace the earlier sweep in the folder."
 PLOT = "Also draw the quantities over one or two parameters; .svg, .png or .pdf."
@@ -185,8 +185,8 @@ def _choose_target(
     """Return the path for the variants (None: standard output) and the format.
 
     Raises:
-        BalcliError: Format and ending contradict each other, or an option does not go with a
-            folder.
+        BalcliError: Format and ending contradict each other, or an option is not possible
+            with a folder.
     """
     file = None if output is None else output.path
     if output is None or not output.is_folder:

@@ -109,7 +109,7 @@ def make_sheet(sweep: Sweep, figures: Array) -> Sheet:
         unit_of_name(name).fit(size)
         for name, size in zip(sweep.units.values(), largest, strict=True)
     ]
-    asked = len(sweep.parameters)  # columns of given values
+    asked = len(sweep.parameters)  # number of columns with values of parameters
     rows = [
         (*(given(value, 8) for value in row[:asked]), *map(number, row[asked:]))
         for row in (figures / [unit.size for unit in units]).tolist()

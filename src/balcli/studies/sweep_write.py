@@ -88,7 +88,7 @@ def write_sweep_parquet(sweep: Sweep, chunks: Iterable[Chunk], place: Path) -> N
     with parquet.ParquetWriter(place, schema) as writer:
         for chunk in chunks:
             columns = split_columns(sweep, chunk)
-            nulls = [pyarrow.array(column, from_pandas=True) for column in columns]  # for nan
+            nulls = [pyarrow.array(column, from_pandas=True) for column in columns]  # nan: null
             writer.write_table(pyarrow.table(nulls, schema=schema))
 
 

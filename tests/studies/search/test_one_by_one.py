@@ -101,7 +101,7 @@ def test_the_firing_order_decides_where_gas_fires_in_two_turns(tmp_path):
         tmp_path / "six.toml", SIX.replace("spacing = 120", "spacing = 120\nthrows = [0, 240, 120, 120, 240, 0]")
     )
     told = refusal("search", path, "--over", "throws", "--minimise", "torque.2.amplitude")
-    assert told.startswith("with [gas] in four strokes the result depends on the firing order as well")
+    assert told.startswith("with [gas], results of four-stroke engines depend on the firing order as well")
 
 
 def test_a_number_in_a_range(tmp_path):
@@ -266,7 +266,7 @@ def test_numbers_are_shown_as_they_are_typed_and_not_written(tmp_path):
     path, out = ENGINES / "i4_wiebe.toml", tmp_path / "new.toml"
     args = ("--over", "gas.imep=8:12", "--minimise", "fluctuation")
     done = run_here("search", path, *args, "--write", out)
-    told = "balcli: --write takes throws, firing orders and angles; write gas.imep = 12 by hand\n"
+    told = "balcli: --write takes throws, firing orders and angles; edit the file: gas.imep = 12\n"
     assert (done.status, done.err, out.exists()) == (2, told, False)
     assert "Best gas.imep\n" in done.out
     head = next(line for line in done.out.splitlines() if line.startswith("gas.imep"))

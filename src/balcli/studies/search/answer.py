@@ -44,9 +44,9 @@ from .local import Box, Effort, find_local_optima
 from .throws import search_throws
 
 ARRANGED = ("throws", "firing_order")
-_ARRANGED = {"crank.throws", "layout.firing_intervals"}  # numbers that these searches vary
+_ARRANGED = {"crank.throws", "layout.firing_intervals"}  # numbers that searches over ARRANGED vary
 ANGLES = {"bank_angle": (0.0, 180.0), "splay": (-180.0, 180.0)}  # searched ranges, deg
-NEAR_AN_END = 1e-4  # values within this share of a range from its end count as the end
+NEAR_AN_END = 1e-4  # share of a range; a value within it from an end counts as the end
 _ROUNDING = 1e-13  # objectives that differ by less than this ratio are equal
 _GRID, _SPREAD = 720, 2048  # number of candidates for one number, and for several
 _SLOW = 32  # number of candidates for each number if they are computed one by one
@@ -64,8 +64,9 @@ class Search(Result):
         objective: Quantities with their weights and limits.
         ranges: Searched numbers with the ends of their ranges, ascending, by the keys that the user
             wrote.
-        constant: Whether the numbers have no effect on the objective.
-        refused: Message on values of the numbers that make no engine; empty if there are none.
+        constant: Whether the searched numbers have no effect on the objective.
+        refused: Message with an example of values for which the engine is impossible; empty if
+            there are none.
         even_firing: Whether only arrangements that can fire evenly were considered.
     """
 
@@ -113,7 +114,7 @@ class Search(Result):
         """
         check_type("rank", rank, (int, np.integer), "give a whole number from 1")
         if not 1 <= rank <= len(self.results):
-            raise IndexError(f"rank {rank}: there are {len(self.results)}, from 1")
+            raise IndexError(f"rank {rank}: there are {len(self.results)} results, from 1")
         return vary_engine(build(self.model), list_changes(self.results[rank - 1].design))
 
 
@@ -241,10 +242,10 @@ def _search_numbers(
     tell: Tell,
 ) -> tuple[Iterator[Found], bool, str]:
     """Return the local optima over some numbers, best first; whether the numbers have no effect;
-    and a message on values that make no engine.
+    and a message with an example of values for which the engine is impossible.
 
     Raises:
-        InputError: No values make an engine.
+        InputError: The engine is impossible with all tried values.
     """
     if model.gas is None and model.crank.throws is not None:
         model = drop_firing_order(model)
@@ -253,7 +254,7 @@ def _search_numbers(
     turns = [number.unit == "deg" and np.ptp(number.values) == TURN for number in numbers]
     box = Box(low, high, np.array(turns))
     effort = _choose_effort(box, objective)
-    if even_firing:  # candidates fire evenly to 1e-9 deg; a rounded angle may do so exactly
+    if even_firing:  # within 1e-9 deg; a rounder angle may fire exactly evenly
         effort = replace(effort, as_good=1e-9)
     total = effort.count_evaluations(box.size)
     paths = [number.path for number in numbers]
@@ -313,8 +314,7 @@ def search(
 
     Returns:
         The arrangements, best first: `result.results[0]` has `design`, `objective` and
-        `quantities`; `result.engine(1)` is the engine with the best
-            arrangement.
+        `quantities`; `result.engine(1)` is the engine with the best arrangement.
 
     Raises:
         BalcliError: There is nothing to arrange, no arrangement satisfies the limits, or a quantity

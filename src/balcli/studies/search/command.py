@@ -93,7 +93,7 @@ def _notes(result: Search) -> Iterator[str]:
     if ends:
         yield f"Searched: {', '.join(ends)}."
     if result.refused:
-        yield f"Some of these values make no engine, such as {result.refused}."
+        yield f"With some values the engine is impossible, such as {result.refused}."
     if result.constant:
         same = " and ".join(q.name for q in result.objective.weights)
         yield f"No effect on {same}, which is the same at every searched value."

@@ -70,7 +70,7 @@ class Found:
 
 
 def list_changes(design: Design) -> dict[str, object]:
-    """Return a design by dotted keys, as arguments for `Engine.vary`."""
+    """Return the values of a design by dotted file keys, as arguments for `Engine.vary`."""
     changed = {PATHS.get(key, key): value for key, value in design.items()}
     return changed | ({"layout.firing_intervals": None} if "firing_order" in design else {})
 
@@ -118,8 +118,8 @@ def _find_images(design: Design, other_end: Mapping[int, int]) -> Iterator[tuple
 
 
 def write_design(text: bytes, design: Design, name: str = "") -> str:
-    """Return the text of an engine file, with its comments, with a design. A firing order that no
-    longer fits is removed.
+    """Return the text of an engine file with the values of a design. Comments are kept; a firing
+    order that does not fit the design is removed.
 
     Args:
         text: Text of the file.
@@ -127,12 +127,12 @@ def write_design(text: bytes, design: Design, name: str = "") -> str:
         name: Path of the engine file; files that it refers to are in the same folder.
 
     Raises:
-        BalcliError: The firing order does not fit but is needed, or the design has other numbers.
+        BalcliError: The firing order does not fit but is needed, or a key is not in PATHS.
     """
     if any(key not in PATHS for key in design):
         settings = ", ".join(f"{path} = {best:.9g}" for path, best in design.items())
         raise BalcliError(
-            f"--write takes throws, firing orders and angles; write {settings} by hand"
+            f"--write takes throws, firing orders and angles; edit the file: {settings}"
         )
     new, changes = text.decode("utf-8-sig"), list_changes(design)
     try:
@@ -169,8 +169,8 @@ class Objective:
 
     @property
     def is_sum_over_cylinders(self) -> bool:
-        """Whether all quantities are orders of inertia forces or moments, to which throws
-        contribute.
+        """Whether all quantities belong to forces or moments by inertia alone, which are sums of
+        contributions of the cylinders.
         """
         return all(isinstance(q, Quantity) and q.kind not in GAS_KINDS for q in self.quantities)
 
@@ -180,8 +180,8 @@ class Objective:
 
     def judge(self, values: Mapping[AnyQuantity, Array]) -> Array:
         """Return the costs of candidates, shape (candidates,), from their quantities, each of this
-        shape. The cost is the sum, or minus the sum if it is maximised. If a limit is broken, it is
-        BROKEN times the largest ratio of a quantity to its limit.
+        shape. The cost is the weighted sum, or minus the sum if it is maximised. If a limit is
+        broken, the cost is BROKEN times the largest ratio of a quantity to its limit.
         """
         total = np.asarray(self.add_up(values.__getitem__), float)
         excess = np.zeros_like(total)
@@ -198,8 +198,8 @@ def parse_objective(
     maximise: str | None = None,
     with_gas: bool = False,
 ) -> Objective:
-    """Return the objective in texts: a sum such as `moment.1.major=1,force.2.major=0.5`, and limits
-    such as `moment.2.major<100`.
+    """Return the objective that texts state: a sum such as `moment.1.major=1,force.2.major=0.5`,
+    and limits such as `moment.2.major<100`.
 
     Args:
         minimise: Weighted sum to minimise.
@@ -246,17 +246,17 @@ def _refuse_several_units(quantities: Iterable[AnyQuantity], option: str) -> Non
 
 
 def _parse_sizes(name: str, with_gas: bool) -> tuple[AnyQuantity, ...]:
-    """Return the quantities of these names; raise BalcliError if one can be negative."""
+    """Return the quantities of these names; raise BalcliError if one is no magnitude."""
     found = parse_quantities(name, with_gas=with_gas)
     for q in found:
         if isinstance(q, Quantity) and (q.signed or q.part == "axis"):
             raise BalcliError(
-                f"{q.name} has a sign or a direction; name a size such as "
+                f"{q.name} has a sign or a direction; name a magnitude such as "
                 f"{q.kind}.{q.order:g}.major"
             )
         if q.part in _SIGNED:
             size = f"{q.name.rpartition('.')[0]}.max"
-            raise BalcliError(f"{q.name} may be negative; name a size such as {size}")
+            raise BalcliError(f"{q.name} may be negative; name a quantity such as {size}")
     return found
 
 
@@ -284,7 +284,7 @@ _EVEN_DEG = 1e-9  # firings with a smaller deviation count as even
 
 @dataclass
 class NumbersJudge:
-    """Function that computes the cost of an engine file with given values of some numbers.
+    """Function that returns the costs of an engine for different values of numbers of its file.
 
     Attributes:
         model: Engine file.
@@ -292,8 +292,8 @@ class NumbersJudge:
         objective: Objective of the search.
         even_firing: Whether the cylinders have to fire evenly.
         tell: Called with the number of candidates computed so far.
-        refused: Error of the first candidate that makes no engine, with its numbers as `file`; None
-            if there is no such candidate.
+        refused: Error of the first candidate whose engine is impossible; its attribute `file` has
+            the candidate's values. None if there is no such candidate.
     """
 
     model: EngineFile
@@ -309,8 +309,8 @@ class NumbersJudge:
         return Evaluator(self.model, self.objective.quantities)
 
     def __call__(self, points: Array) -> Array:
-        """Return the costs of points, shape (points, numbers); infinite for points that make no
-        engine.
+        """Return the costs of points, shape (points, numbers); infinite for points with an
+        impossible engine.
         """
         size = AT_ONCE if self.objective.is_sum_over_cylinders else 1
         parts = [self._judge(points[k : k + size]) for k in range(0, len(points), size)]
@@ -338,7 +338,7 @@ class NumbersJudge:
         """Return the values of each quantity, shape (points,).
 
         Raises:
-            InputError: A point makes no engine.
+            InputError: The engine of a point is impossible.
         """
         columns = dict(zip(self.paths, points.T, strict=True))
         return self._evaluator.evaluate(columns, (len(points),))
@@ -439,5 +439,5 @@ def refuse_many(count: int) -> None:
     if count > MOST_DESIGNS_ONE_BY_ONE:
         raise BalcliError(
             f"more than {MOST_DESIGNS_ONE_BY_ONE} arrangements, too many to compute one by one; "
-            "give crank.throws, or search by quantities of inertia such as moment.1.major"
+            "give crank.throws, or search by inertia forces or moments such as moment.1.major"
         )

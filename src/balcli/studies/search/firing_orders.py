@@ -34,9 +34,9 @@ class Slots:
 
     Attributes:
         cells: Cylinders that fire.
-    top: Angle of each cylinder's throw at its top dead centre, deg, by cylinder number.
-    cycle: Length of a cycle, deg.
-    sense: 1, or -1 if the cylinders turn about a crank at rest.
+        top: Angle of each cylinder's throw at its top dead centre, deg, by cylinder number.
+        cycle: Length of a cycle, deg.
+        sense: 1, or -1 if the cylinders turn about a crank at rest.
     """
 
     cells: tuple[Cell, ...]
@@ -46,7 +46,7 @@ class Slots:
 
     @property
     def first(self) -> Cell:
-        """Cylinder with which firing orders begin: the lowest, 1 unless that is a dummy."""
+        """Cylinder with which firing orders begin: the lowest that fires, 1 unless 1 is a dummy."""
         return min(self.cells, key=lambda cell: cell.number)
 
     def find_cranks(self) -> list[tuple[float, ...]]:
@@ -70,8 +70,8 @@ class Slots:
     def _place_throws(
         self, throws: dict[int, float], free: Sequence[int], left: Counter[int]
     ) -> Iterator[tuple[float, ...]]:
-        """Yield all cranks in which some throws have these angles. Each free throw takes every
-        angle with enough unused slots (`left`) for all its cylinders.
+        """Yield all cranks in which some throws have these angles. Every throw in `free` is
+        tried at each angle at which enough slots are unused (`left`) for all its cylinders.
         """
         if not free:
             yield tuple(throws[t] for t in sorted(throws))
@@ -152,7 +152,7 @@ def find_slots(model: EngineFile) -> tuple[Slots, Array]:
     possible = [model.crank.throws] if model.crank.throws else slots.find_cranks()
     if not possible or next(slots.find_orders(possible[0]), None) is None:
         splay = find_fitting_splay(model.with_table("layout", firing_intervals=None))
-        hint = "" if splay is None else f"; with split pins they do: crank.splay = {splay:g}"
+        hint = "" if splay is None else f"; with split pins they allow one: crank.splay = {splay:g}"
         told = "crank.throws allow no even firing order, and only even ones are searched"
         raise BalcliError(told + hint)
     throws = np.array(possible)

@@ -5,7 +5,7 @@ several. A local search starts from each candidate that is better than its neigh
 number it halves its steps; for several it is the evolution strategy with covariance adaptation
 (Hansen, The CMA Evolution Strategy: A Tutorial, arXiv:1604.00772). Both only compare candidates and
 use no derivatives, because magnitudes of vectors have kinks where they vanish, limits have edges,
-and some numbers make no engine.
+and some values are impossible.
 """
 
 from __future__ import annotations
@@ -24,14 +24,14 @@ from .designs import BROKEN
 
 Judge = Callable[[Array], Array]  # function that returns the costs of points (points, numbers)
 _DIGITS = 12  # largest number of decimals of rounded numbers
-# Costs are equal if they differ by less than this ratio, or by less than this share of the largest.
+# Costs are equal if they differ by less than _LEVEL times a cost, or _ROUNDING times the largest.
 _LEVEL, _ROUNDING = 1e-9, 1e-12
 
 
 @dataclass(frozen=True)
 class Box:
     """Ranges of some numbers, shape (numbers,) each. `ring` marks periodic numbers, for which
-    `high` is the same as `low`.
+    `high` means the same as `low`.
     """
 
     low: Array
@@ -49,8 +49,8 @@ class Box:
         return np.where(self.high > self.low, self.high - self.low, 1.0)
 
     def bring_inside(self, points: Array) -> Array:
-        """Return points (..., numbers) moved into the box: to its nearest point, or by whole
-        periods.
+        """Return points (..., numbers) moved into the box: by whole periods for periodic numbers,
+        otherwise to the nearest point of the box.
         """
         turned = self.high - np.remainder(self.high - points, self.span)
         return np.where(self.ring, turned, np.clip(points, self.low, self.high))
@@ -88,7 +88,7 @@ class Effort:
     points: int
     starts: int
     exact: float
-    as_good: float = 1e-13  # a smooth minimum is flat to rounding
+    as_good: float = 1e-13  # next to a smooth minimum, costs differ less
     same: float = 1e-5
     steps: int = 31
 
@@ -172,8 +172,8 @@ def _slide(judge: Judge, box: Box, point: Array, way: Array, effort: Effort) -> 
 
 
 def _find_starts(points: Array, costs: Array, box: Box) -> list[int]:
-    """Return the indices of the points that are better than their neighbours, best first. Among
-    equal ones, the first counts as better.
+    """Return the indices of the points that are better than their neighbours, best first. Of
+    equally good points, the first counts as better.
     """
     order = np.argsort(ranked(costs), kind="stable")
     place = np.argsort(order)

@@ -1,7 +1,7 @@
 """Search for the best sequence of the throw angles along a crank.
 
 Forces and moments are sums of contributions, which are tabulated by throw and angle. Branch and
-bound fixes the angles of the first throws and drops such a branch if no sequence of the remaining
+bound fixes the angles of the first throws and drops this branch if no sequence of the remaining
 angles can be better than the best known cranks.
 """
 
@@ -90,7 +90,7 @@ def list_throws(model: EngineFile) -> Array:
     """
     if model.gas is not None and model.layout.strokes == 4:
         raise BalcliError(
-            "with [gas] in four strokes the result depends on the firing order as well; use "
+            "with [gas], results of four-stroke engines depend on the firing order as well; use "
             "--over firing_order (without crank.throws in the file it tries all cranks)"
         )
     sets = _find_sets(model)
@@ -144,10 +144,10 @@ class Contributions(NamedTuple):
     """Forward and backward vectors of the throws, for the kinds and orders of some quantities.
 
     Attributes:
-        rows: Row of the kind and order of each quantity.
+        rows: For each quantity, the row of the arrays that holds its kind and order.
         throws: Vectors of every throw at every angle, shape (rows, 2, throws, angles).
         devices: Vectors of the devices, shape (rows, 2).
-        reach: Largest change of a vector by a throw, shape (rows, throws).
+        reach: Largest magnitude of the contribution of each throw, shape (rows, throws).
     """
 
     rows: Mapping[AnyQuantity, int]
@@ -268,8 +268,8 @@ def find_best_throws(
         count: Largest number of arrangements.
         allowed: Function that returns which arrangements (candidates, throws) are allowed; None:
             all.
-        tell: Called with the share of all arrangements that are decided; it returns whether to
-            stop with the best one so far.
+        tell: Called with the share of all arrangements that were tried or excluded; it returns
+            whether to stop with the best arrangements so far.
 
     Raises:
         BalcliError: There are more than MOST_ARRANGEMENTS.
@@ -303,8 +303,8 @@ class _BranchAndBound:
         self.best, self._costs, self._worst = np.empty((0, throws)), np.empty(0), BROKEN
 
     def grow(self, angles: AngleSet) -> Iterator[int]:
-        """Try all arrangements of an angle set, and yield how many more are decided after each
-        step.
+        """Try all arrangements of an angle set, and yield after each step how many more were
+        tried or excluded.
         """
         self._levels = angles.levels
         self._table = tabulate_contributions(
@@ -367,7 +367,7 @@ class _BranchAndBound:
             may = self._allowed(angles)
             angles, costs = angles[may], costs[may]
         costs = np.concatenate([self._costs, costs])
-        order = np.argsort(costs, kind="stable")[: self._count]  # of equal ones, the first stay
+        order = np.argsort(costs, kind="stable")[: self._count]  # of equal costs, the first stay
         self.best, self._costs = np.concatenate([self.best, angles])[order], costs[order]
         if len(order) == self._count:
             self._worst = float(self._costs[-1])
