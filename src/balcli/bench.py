@@ -156,6 +156,8 @@ def list_cases() -> Iterator[Case]:
 
 
 # ------------------------------------------------------------------ coefficients A_n of cos(n psi)
+# Acceleration of the piston / (crank radius * crank speed squared) = sum A_n cos(n psi), with the
+# angle psi of the crank pin from the cylinder's axis. lambda (`lam`): crank radius / rod length.
 Coefficients = Callable[[list[int], float], Array]
 
 
@@ -241,8 +243,9 @@ def _force_of_steps(psi: Array, lam: float, reciprocating: float, rotating: floa
 
 
 def _list_columns(engine: Engine) -> tuple[float, float, Array, Array, Array]:
-    """Return m r omega² of cylinder 1 for the reciprocating and for the rotating mass (N); and of
-    each cylinder the axis (rad), the crank angle (rad) and z from the point of reference (m).
+    """Return mass times crank radius times crank speed squared for the reciprocating and for the
+    rotating mass of cylinder 1 (N); and of each cylinder the axis (rad), the angle of its crank pin
+    from this axis at crank angle 0 (rad), and z from the point of reference (m).
     """
     c = engine.cylinders
     scale = c.radius[0] * engine.omega**2
@@ -273,7 +276,7 @@ WAYS: dict[str, Way] = {
 
 # ------------------------------------------------------------------ run times
 def time_run(run: Callable[[], object]) -> float:
-    """Return the time of a run, s, in the quickest of several batches of 20 ms or of one run."""
+    """Return the mean time of a run, s, in the quickest of several batches (20 ms, or one run)."""
     timer = timeit.Timer(run)
     once = max(timer.timeit(1), _SHORTEST)
     number = max(int(0.02 / once), 1)
@@ -281,7 +284,7 @@ def time_run(run: Callable[[], object]) -> float:
 
 
 def compare_starts() -> Iterator[Ratio]:
-    """Yield the time of a cold start of `balcli analyze`, divided by that of each other program."""
+    """Yield the time of a cold start of `balcli analyze` / that of each of two other programs."""
     others = {
         "import of numpy, typer and pydantic": LIBRARIES,
         "minimal typer program that imports numpy and pydantic": SMALLEST,

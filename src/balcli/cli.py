@@ -51,7 +51,7 @@ GROUPS = {
         "numbers": "List the numbers that a study can vary, and the quantities it can compute.",
         "sweep": "Quantities of an engine whose numbers vary over ranges.",
         "search": "Find the best crank, firing order, bank angle, splay, or other numbers.",
-        "scatter": "Spread of forces and moments by tolerances, and which of these matter most.",
+        "scatter": "Spread of forces and moments by tolerances, and which tolerances matter most.",
         "mounts": "Vibration of an engine on its mounts, over a range of speeds.",
         "torsion": "Torsional vibration of a crankshaft or any shafts; dampers, barred speeds.",
     },
@@ -263,11 +263,13 @@ _UNNAMED = {errno.ENOENT: "working folder", errno.EAGAIN: "", None: ""}
 
 def _tell_what_the_system_lacks(error: OSError | MemoryError | UnicodeEncodeError) -> str:
     if isinstance(error, OSError):
-        named = error.filename or _UNNAMED.get(error.errno, "standard output")  # as for help
+        # without a file name, usually standard output failed, for instance because of a full disk
+        named = error.filename or _UNNAMED.get(error.errno, "standard output")
         return ": ".join(filter(None, (named, error.strerror or str(error))))
     if isinstance(error, MemoryError):
         return f"there is not enough memory for this{f' ({error})' if str(error) else ''}"
-    return f"{error.object}: cannot be a file name on this system ({error})"  # text is UTF-8
+    # printed text is UTF-8, which always succeeds: only a file name can fail
+    return f"{error.object}: cannot be a file name on this system ({error})"
 
 
 def _usage(error: Any) -> str:

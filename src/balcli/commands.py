@@ -174,7 +174,7 @@ def _describe_result(name: str, kind: File | None) -> Node:
 
 def describe_document(name: str) -> Node:
     """Return the JSON Schema (draft 2020-12) of one of `DOCUMENTS`. It allows further keys, since
-    keys may be added without a new version.
+    keys may be added without a new version of the format.
     """
     from .file.schema import DIALECT  # pydantic
 

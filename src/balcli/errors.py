@@ -33,7 +33,7 @@ def legible(text: str) -> str:
 
 
 def say(text: str) -> None:
-    """Print a message on standard error; if that is closed, do nothing."""
+    """Print a message on standard error; if standard error is closed, do nothing."""
     with suppress(OSError):
         print(legible(text), file=sys.stderr, flush=True)
 
@@ -122,7 +122,7 @@ class BalcliError(Exception):
 
 
 def tell_unwritable(target: str | PathLike[str], error: OSError) -> BalcliError:
-    """Return the error for a file that cannot be written; it names the folder if this is missing.
+    """Return the error for a file that cannot be written; it says if the folder is missing.
 
     Args:
         target: Path of the file.
@@ -227,7 +227,7 @@ def refuse_more(name: str, values: object, most: int) -> None:
 
 
 def list_values(name: str, values: Iterable[T], most: int = MOST_LIST_VALUES) -> list[T]:
-    """Return an iterable argument as a list; reading ends once it has yielded more than `most`.
+    """Return an iterable argument as a list; reading ends after `most` + 1 values.
 
     Raises:
         BalcliError: There are more than `most` values.

@@ -25,12 +25,13 @@ MOST_PARTS = 1000  # cylinders, or devices of one kind
 MOST_ENGINES = 12  # engines geared together; the largest built have three or four cranks
 MOST_LIST_VALUES = 10_000  # length of a list; highest bank number, cylinder number or order
 MOST_KEY_VALUES = 2 * MOST_LIST_VALUES  # values of a key, inner lists included
-HIGHEST_RIPPLE_ORDER = 256  # order of the uneven speed; adds as much to the highest order
-MOST_RIPPLES = 256  # orders of the uneven speed
+HIGHEST_RIPPLE_ORDER = 256  # order of the uneven speed; raises the orders of forces by as much
+MOST_RIPPLES = 256  # number of orders of the uneven speed
 HIGHEST_SHAFT_ORDER = 1000  # order of a balancer shaft; orders are computed up to it
 SMALLEST_POSITIVE = 1e-12  # least figure above 0: its square and cube do not underflow
-# lambda + |offset| / rod length, and the sine of an articulated rod's angle, must stay below 1 by
-# this distance. At 1 the mechanism locks; closer to 1 it has too many orders.
+# Two figures must be below 1 by at least this difference: (crank radius + |offset|) / rod length,
+# and the sine of an articulated rod's angle. At 1 the mechanism locks; just below, it has too many
+# orders.
 NEAREST_TO_LOCK = 1e-6
 # Samples of a revolution, summed over all different mechanisms; so many take seconds. A mechanism
 # far from locking needs 64 to 256.
@@ -42,13 +43,13 @@ HIGHEST_ORDER_UNASKED = 512  # order shown by default: only a mechanism close to
 HIGHEST_GAS_ORDER_UNASKED = 12  # order of gas torque shown by default: amplitudes fall slowly
 MOST_HARMONICS_UNASKED = 512  # harmonics of a torque curve of many turns, shown by default
 HIGHEST_HARMONIC = 1 << 16  # harmonic of a torque curve's period; so many take seconds
-HIGHEST_TABLE_ORDER = 100  # order of tangential pressure: builders' tables end at 12 to 24
+HIGHEST_TABLE_ORDER = 100  # order in a table of tangential pressure: printed ones end at 12 to 24
 HIGHEST_ORDER_SOUGHT = 8  # order up to which a scheme looks for an unbalanced order
 MOST_RESULTS_BY_CYLINDER = 1 << 14  # cylinders x orders that are listed singly
 MOST_RESULTS_ALONG_CRANK = 1 << 15  # loads x orders whose peaks along the crank are computed
 MOST_FORCES_OVER_CYCLE = 1 << 23  # forces along the crank x angles of a cycle: half a minute
 MOST_DIFFERENT_GAS = 200  # gas cycles of one engine: each takes 10 to 40 ms
-MOST_LOADS_APART = 1_100_000  # loads x orders kept singly; half as many at uneven speed
+MOST_LOADS_APART = 1_100_000  # loads of single cylinders x orders; half as many at uneven speed
 
 # Figures asked for on the command line -------------------------------------------------------
 FINEST_STEP_DEG = 1e-3  # step of the crank angle: 360 000 angles
@@ -84,7 +85,7 @@ MOST_EVEN_CRANKS = 200_000  # cranks with an even firing order: all are tried
 MOST_CYLINDERS_FIRED = 64  # cylinders of an engine whose firing order is searched
 
 # Field balancing -----------------------------------------------------------------------------
-MOST_BALANCING_PLANES = 50  # weights that influence one another: solved together, 1 s at most
+MOST_BALANCING_PLANES = 50  # planes of a rotor: all weights are computed together, in 1 s at most
 MOST_SENSORS = 200  # readings of one run
 MOST_RUNS = 500  # nobody starts a machine more often
 MOST_PLACES = 720  # blades or holes of a plane: every pair of them may be looked at

@@ -83,7 +83,7 @@ DOCUMENTS = {
     "torsion": "torsion.answer:TorsionAnalysis",
 }
 
-# The module with the class of each optional table of an engine file; the key names the class.
+# The module of each optional table of an engine file; the capitalized key is its class (Gas).
 CHAPTERS = {
     "articulation": "file.model",
     "gas": "file.gas_tables",
@@ -109,6 +109,7 @@ QUANTITIES = {
     "mounts": "mounts.quantity",
     "torsion": "torsion.quantity",
 }
+# Functions whose modules are imported only when the function is called.
 NOTEBOOK = "show.notebook:show_engine"
 VARY = "engine.load:vary_engine"
 READ_GEARED = "engine.placed:read_engines"

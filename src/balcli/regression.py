@@ -34,7 +34,7 @@ from .torsion.answer import analyze_torsion
 
 TOLERANCE = 1e-9  # share of the largest figure of a quantity; rounding is allowed in addition
 PEAK_ANGLE_DEG = 1e-3  # allowed change of a peak's angle; rounding changes it more than the value
-DEAD_CENTER_DEG = 1e-6
+DEAD_CENTER_DEG = 1e-6  # allowed change of the angle of a dead centre
 RECORDED = (*KINDS, "peak")
 _LABELS = ("order", "mode", "name", "cylinder")  # keys by which members of lists are matched
 _DERIVED = ("axis_deg", "phase_deg", "peak_deg", "balanced")
@@ -301,7 +301,7 @@ def _compare(
     for path in dict.fromkeys((*new, *old)):
         before, after, shared = old.get(path), new.get(path), path in old and path in new
         if path[-1] == "order" and not shared and (before or after or 0) > 2:
-            continue  # its figures are compared instead; orders 1 and 2 are always recorded
+            continue  # its figures are compared, 0 where missing; 1 and 2 are always recorded
         group, is_angle = _find_group(path), path[-1].endswith("_deg")
         scale = largest.get(group, 0.0)
         order = next((part for part in path if part.startswith("order ")), "")

@@ -73,7 +73,7 @@ def test_files_that_would_take_too_much():
     flood = changed(("[0, 180, 180, 0]", "[" + "[]," * 20_000 + "]"))
     assert mistakes_in(flood).startswith("10000 mistakes")
     for digits in ("9" * 5000, "9_9" * 4000, "-" + "9" * 4400):
-        assert mistakes_in(changed(("stroke = 90", f"stroke = {digits}"))) == "has a number of thousands of digits"
+        assert mistakes_in(changed(("stroke = 90", f"stroke = {digits}"))) == "has a number with thousands of digits"
 
 
 def test_what_is_no_text():

@@ -56,7 +56,7 @@ def test_holes(runs, tmp_path):
     assert round(grams) == 38
     told = "Limits and depths ignore earlier weights and holes, which are not in the file"
     out = " ".join(run_here("field", runs).out.split())
-    assert "Each hole has the effect of its weight at the rim; the removed steel is nearer the axis and heavier." in out
+    assert "Each hole has the effect of its weight at the rim; the removed steel, nearer the axis, is heavier." in out
     assert told not in out
     last = '[[run]]\nweights = { front = "1.98 @ 124", rear = "1.07 @ 238" }\nreadings = ["9 @ 40", "6 @ 310"]\n'
     text = runs.read_text() + last

@@ -88,11 +88,12 @@ class Analysis(OrdersAndPeaks, Result):
 
     Attributes:
         engine: Analyzed engine.
-        state: Speed, numbers of cylinders without gas, and point of reference of the moments.
+        state: Speed, which cylinders have no gas, and point of reference of the moments.
         spectra: Orders shown.
         assumed: Values that are used because the engine file leaves them out.
         peak: Largest force and moment over a revolution, all orders added up.
-        sizing: Devices of the scheme `auto`, and the forces and moments that remain with them.
+        sizing: Devices of the scheme `auto`, the default of `balance`, and the forces and moments
+            that remain with them.
         ladder: Devices that balance the engine, step by step.
         cylinders: Forces and moments of each single cylinder, without devices.
         inner: Shear force and bending moment along the crankshaft; for an engine with gas, also
@@ -168,7 +169,8 @@ def shorten(analysis: Analysis) -> PeaksAndOrders:
 
 @dataclass(frozen=True)
 class Sizing:
-    """Devices of the scheme `auto`, and the forces and moments that remain with them.
+    """Devices of the scheme `auto`, the default of `balance`, and the forces and moments that
+    remain with them.
 
     Attributes:
         remedy: New devices.
@@ -197,8 +199,8 @@ def analyze(
             at which the amplitude of some quantity exceeds 1e-6 of this quantity's largest
             amplitude at any order.
         only: Any of force, moment, couple, torque, roll, peak, sizing, ladder, inner, guide,
-            journals, masses, parts, pru and gas, as a list or a text with commas; default: the
-            first six (force to peak), and gas if the engine has gas.
+            journals, masses, parts, pru (power related unbalance) and gas, as a list or a text with
+            commas; default: the first six (force to peak), and gas if the engine has gas.
         by_cylinder: Whether to compute the phasors of each single cylinder as well.
         reasons: Whether to find out why each order is balanced or not, and to compute phasor stars.
         guide_height_m: Distance from the crankshaft to the middle of the guides, m, for the X-type
@@ -236,7 +238,7 @@ def analyze(
     if engine.gas is None or computed.max() <= HIGHEST_ORDER_UNASKED:
         everything = compute_spectra(engine, computed, shown | peaked)
         visible = everything.only(shown)
-    else:  # an engine close to locking has tens of thousands of orders, which only peaks need
+    else:  # a rod barely long enough makes tens of thousands of orders, which only peaks need
         few = every[every <= HIGHEST_ORDER_UNASKED] if asked is None else asked
         visible = compute_spectra(engine, few, shown)
         everything = compute_spectra(engine, computed, peaked) if peaked else visible
@@ -329,7 +331,7 @@ def _analyze_cylinders(
 
 
 def _size(engine: Engine, ladder: Ladder, asked: Array | None, wanted: Collection[str]) -> Sizing:
-    """Return the devices of the ladder's default step, and the forces and moments they leave."""
+    """Return the devices of the ladder's default step, and the engine's analysis with them."""
     remedy = ladder.fit()
     left = {*wanted, "force", "moment", "peak"} - {"sizing", "ladder"}
     return Sizing(remedy, analyze(fit_devices(engine, remedy), asked, left))

@@ -73,7 +73,7 @@ def answer(
     """
     view = View(asked.whole, asked.parts, asked.orders is not None)
     rpm = asked.speeds_rpm[0] if asked.speeds_rpm else None
-    words = None if asked.quantities is None else asked.parts  # warnings concern only these
+    words = None if asked.quantities is None else asked.parts  # no warnings on other parts
     for_people = form in (Format.TABLE, Format.MARKDOWN)
     find, renderer = _choose_result(asked, for_people)
 
@@ -137,7 +137,7 @@ def _ask(asked: Request, engine: Engine, for_people: bool) -> Callable[..., Anal
         wanted = list(asked.quantities)
         if "verdict" in asked.parts and for_people:
             wanted.append(COUPLE.name)
-            wanted += [] if engine.gas is None else [ROLL.name, GAS.name]  # for tell_rocking
+            wanted += [] if engine.gas is None else [ROLL.name, GAS.name]  # for the verdict on roll
     return partial(
         analyze,
         only=wanted,

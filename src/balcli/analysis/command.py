@@ -219,7 +219,7 @@ Turn = Annotated[
     str, typer.Option(metavar="DEG", help="Angle by which the second engine is turned about z.")
 ]
 Reverse = Annotated[bool, typer.Option("--reverse", help="The second crank turns the other way.")]
-Write = Annotated[Path | None, optional("OUT.toml", "Write both to a file with [[engine]].")]
+Write = Annotated[Path | None, optional("OUT.toml", "Write a file with both as [[engine]] tables.")]
 LoadOption = Annotated[
     str, typer.Option(metavar="first|second|both", help="With --reverse: the crank with the load.")
 ]

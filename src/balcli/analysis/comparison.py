@@ -206,7 +206,7 @@ def _list_sizes(
     """Yield the figures of an analysis: kind, order (None for a peak), and size."""
 
     def by_order(kind: Kind, phasors: Phasors) -> Iterator[tuple[Kind, float | None, float]]:
-        sizes = phasors.major.reshape(len(phasors.orders), -1).max(axis=1)  # largest of all places
+        sizes = phasors.major.reshape(len(phasors.orders), -1).max(axis=1)  # largest along crank
         yield from zip(repeat(kind), map(order_number, phasors.orders), sizes.tolist())
 
     def peaks(of: Analysis) -> Iterator[tuple[Kind, float]]:
@@ -364,9 +364,9 @@ def fit_unit(kind: Kind, lines: Iterable[Line], system: System) -> ShownUnit:
 
 
 def find_lines_that_matter(lines: list[Line]) -> list[Line]:
-    """Return the lines with a value that is not negligible, either compared with the largest value
-    of all lines or with its own scale. Orders up to 2 and the peak are also kept if a value is not
-    known.
+    """Return the lines whose largest value is above 0.1 % of the largest value of all lines, unless
+    each of their values is below 0.1 % of its scale (`Line.single`). Orders up to 2 and the peak
+    are also kept if a value is not known.
     """
     least = NEGLIGIBLE * max((line.largest for line in lines), default=0.0)
     return [

@@ -3,16 +3,16 @@ cylinders (`--only masses`), and the free moments divided by the power (`--only 
 
 The crankshaft is rigid, turns at the steady mean speed and delivers its torque at the flywheel end.
 If T_i is the torque of the cylinders on throw i (1 to n), main journal j (1 to n + 1) carries the
-torque of all throws before it, `M_j = sum T_i, i < j`. The pin of throw i carries `M_i + T_i/2`,
-because the bearing before the throw takes half of the tangential force, at the distance of the
-crank radius from the pin. Under the torque T, a journal with the outer diameter D and the bore d
-has the nominal shear stress `16 T D/(pi (D^4 - d^4))`.
+torque of all throws before it, `M_j = sum T_i, i < j`. The pin of throw i carries `M_i + T_i/2`:
+the bearing before the throw takes half of the tangential force, and the lever arm of this bearing
+load about the pin is the crank radius. Under the torque T, a journal with the outer diameter D and
+the bore d has the nominal shear stress `16 T D/(pi (D^4 - d^4))`.
 
 Let l be the length of a rod, m its mass, and a and b the distances of its centre of mass from the
 piston pin and the crank pin. The rod is represented by two masses: m b/l at the small end and m a/l
 at the big end. About the centre of mass, the two masses have the moment of inertia m a b, and the
-rod has J; the difference is H = m a b - J. A rod that swings about the piston pin has the reduced
-length (J + m a^2)/(m a), which is l if H = 0.
+rod has the moment of inertia J; the couple constant is the difference H = m a b - J. A rod that
+swings about the piston pin has the reduced length (J + m a^2)/(m a), which is l if H = 0.
 """
 
 from __future__ import annotations
@@ -125,7 +125,7 @@ class CrankTorques(NamedTuple):
         return cls(orders, each, engine.gas)
 
     def measure(self, weights: Array) -> JournalTorque:
-        """Return the extremes of the inertia torque; `weights` are factors as in `sample`."""
+        """Return the extremes of the inertia torque; `weights`: as for `sample`."""
         series = self.each @ weights
         if np.abs(series).sum() <= _ROUNDING * np.abs(self.each).sum():
             return _NONE

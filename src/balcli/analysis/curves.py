@@ -185,7 +185,8 @@ def _compute_engine_parts(engine: Engine, crank_deg: Array) -> dict[str, Array]:
 
 
 def _compute_crank_parts(one: Placed, crank_deg: Array) -> dict[str, Array]:
-    """Return the terms of each curve for one crank, in the common axes, shape (terms, angles).
+    """Return the terms of each curve for one crank, in the axes of the whole engine, shape (terms,
+    angles).
 
     Args:
         one: Engine with this crank, one of several engines or the only one.
@@ -245,9 +246,10 @@ def _force_of_cylinders(motion: EngineMotion) -> Complex:
 def _couple_of_cylinders(motion: EngineMotion) -> Array:
     """Return the free couple of each cylinder about the crank's axis, N m, shape (cylinders,
     angles), from the moment of momentum at unit crank speed, h = -m_rec e s' + m_rot r^2 - H spin
-    (+ masses of the linkage). e is the offset of the cylinder, s' the derivative of the piston's
-    distance from the crank axis by the crank angle, H the couple constant of the rod, and spin the
-    angular velocity of the rod.
+    (+ masses of the linkage). m_rec is the reciprocating mass, e the offset of the cylinder, s' the
+    derivative of the piston's distance from the crank axis by the crank angle, m_rot the mass that
+    turns at the crank radius r, H the couple constant of the rod, and spin the rod's angular
+    velocity.
     """
     c, r, m = motion.cylinders, motion.radius, motion.moved
     pull = as_rows(c.reciprocating) * as_rows(c.offset) * r
@@ -261,7 +263,9 @@ _ROUNDING = 1e-14
 
 
 def _find_gas_torque(engine: Engine, crank_deg: Array) -> dict[str, Array]:
-    """Return two curves, N m, shape (angles,): gas torque on the cranks, and on the frame."""
+    """Return two curves, N m, shape (angles,): the gas torque on the cranks and, as "borne", the
+    gas torque on the loads of the cranks; the frame carries the opposite of the second one.
+    """
     at = np.radians(crank_deg)
     each = [c.share * c.torque.curve.at(at - c.fires) for c in take_gas(engine).cylinders]
     senses = [one.load_sense for one in engine.cranks for _ in one.engine.numbers]
@@ -319,9 +323,9 @@ def curves(
         engine: Engine from `load`.
         step_deg: Step of the crank angle, which runs from 0 over a revolution, or with gas over a
             cycle.
-        cylinder: Number of a cylinder (for geared engines with the engine's name, "upper.3"), whose
-            piston travel, speed, acceleration and rod angle, and with gas pressure and forces, are
-            returned; default: curves of the whole engine.
+        cylinder: Number of a cylinder; for geared engines after the engine's name, as in "upper.3".
+            Then the travel, velocity and acceleration of its piston and the angle of its rod are
+            returned, and with gas also pressure and forces. Default: curves of the whole engine.
         orders: Orders of the whole engine to add up; default: all.
 
     Returns:

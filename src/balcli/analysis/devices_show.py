@@ -175,7 +175,7 @@ def practical_grid(remedy: Remedy, practical: tuple[Practical, ...], system: Sys
 
     Args:
         remedy: Devices.
-        practical: Figures of the devices for the workshop, at least one.
+        practical: Figures for the workshop, one entry for each device; at least one entry.
         system: System of units.
     """
     length, mass, force = system.length, system.mass, system.force
@@ -199,11 +199,12 @@ def practical_grid(remedy: Remedy, practical: tuple[Practical, ...], system: Sys
 def holes_grid(
     remedy: Remedy, practical: tuple[Practical, ...], tools: Tools, system: System
 ) -> Grid:
-    """Return a table of the holes to drill, for slugs or instead of weights: a row for each device.
+    """Return a table of holes to drill, one row for each device. The holes replace weights on the
+    opposite side, or take slugs of heavy metal.
 
     Args:
         remedy: Devices.
-        practical: Figures of the devices for the workshop, at least one.
+        practical: Figures for the workshop, one entry for each device; at least one entry.
         tools: Tools of the workshop, with a drill.
         system: System of units.
     """

@@ -55,7 +55,7 @@ class Request(NamedTuple):
         why: Whether to show why orders are balanced or not, and phasor stars.
         height_m: Distance from the crankshaft to the middle of the guides; None: each rod's length.
         misfires: Numbers of the cylinders without gas.
-        marine: Whether the sheet of marine builders is wanted.
+        marine: Whether the sheet that builders of marine engines use is wanted.
         small: Share of one cylinder's first order. Ladder and sizing leave a rotating force or
             moment below this share unbalanced.
     """

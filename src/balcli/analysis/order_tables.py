@@ -1,5 +1,5 @@
 """Make tables of forces and moments order by order, of their largest values over a revolution, and
-of torque and roll of gas and inertia.
+of the torque and roll that gas and inertia make together.
 """
 
 from __future__ import annotations
@@ -117,10 +117,11 @@ def direction_tables(spectra: Spectra, system: System, *, every: bool = False) -
 
 
 def textbook_tables(book: Textbook, system: System, *, every: bool = False) -> Iterator[Grid]:
-    """Yield tables of force and moment as multiples of the units of textbooks, if such units exist.
+    """Yield tables of force and moment as multiples of the units of textbooks (for order n: the
+    largest force of order n of one cylinder's reciprocating mass), if the engine has such units.
 
     Args:
-        book: Forces in the form of textbooks.
+        book: Forces and moments, and their units in textbooks.
         system: System of units.
         every: As for `order_tables`.
     """
@@ -180,7 +181,7 @@ def _column(name: str, values: Complex, unit: ShownUnit) -> tuple[str, list[str]
 def peak_facts(
     result: OrdersAndPeaks, system: System, title: str, single: Mapping[str, float] | None = None
 ) -> Facts:
-    """Return the largest values over a revolution that were computed.
+    """Return lines on the peaks (largest values over a revolution) that were computed.
 
     Args:
         result: Result with peaks.
@@ -264,7 +265,7 @@ def fit_largest(unit: ShownUnit, *columns: Phasors) -> ShownUnit:
 
 
 def _textbook_table(kind: Kind, book: Textbook, note: str, every: bool) -> Grid:
-    """Return a table of multiples of each order's unit; a dash where there is no such unit."""
+    """Return a table of multiples of each order's unit; a dash if the order has no unit."""
     alone, built = book.reciprocating[kind.name], book.built[kind.name]
 
     columns = (alone.major, abs(alone.forward), abs(alone.backward), built.major)

@@ -155,7 +155,7 @@ _UNEVEN = (
 
 
 class _Vector(NamedTuple):
-    """Free force or moment of all orders; `scale` is that of one cylinder (0: not known)."""
+    """Free force or moment of all orders; `scale`: first order of one cylinder (0: not known)."""
 
     kind: Kind
     phasors: Phasors
@@ -174,8 +174,8 @@ class _Vector(NamedTuple):
         return size_text(size, self.unit)
 
     def describe(self, k: int, *, directed: bool) -> str:
-        """Return size and direction in words: `force of 4 N along x`. If the file gives `frame.up`,
-        the axis is also called vertical or horizontal.
+        """Return in words the size and, if `directed`, the direction: `force of 4 N along x`. If
+        the file gives `frame.up`, the axis is also called vertical or horizontal.
         """
         told = f"{_NAMED.get(self.kind.name, self.kind.name)} of {self.tell_size(k)}"
         if not directed:

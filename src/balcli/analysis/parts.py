@@ -1,16 +1,17 @@
 """Compute the bearing loads and bending of balancer shafts, and the shapes of counterweights
 (`analyze --only parts`).
 
-An eccentric with the unbalance U_i at z_i loads its shaft, which turns k times as fast as the crank
-(omega), with the force `F_i = U_i k^2 omega^2 e^{i angle_i}`. This load turns with the shaft.
-Bearing A at z_A takes `sum F_i (z_B - z_i)/(z_B - z_A)`, and bearing B at z_B takes the rest. The
-bending moment at a section is the sum of all loads and bearing forces before the section, each
+A shaft with the speed ratio k turns at k times the crank speed omega. Its eccentric number j has
+the unbalance U_j at the position z_j, in the direction angle_j at crank angle 0, and loads the
+shaft with the force `F_j = U_j k^2 omega^2 e^{i angle_j}` (i: imaginary unit). This load turns with
+the shaft. The bearing at z_A takes `sum F_j (z_B - z_j)/(z_B - z_A)`, the bearing at z_B the rest.
+The bending moment at a section is the sum of all loads and bearing forces before the section, each
 times its distance from the section. It is largest at a load or bearing.
 
-A gear may drive the shaft against a drag torque T. If the mesh is in direction d from the axis of
-the shaft, R is the pitch radius and alpha the pressure angle, the gear presses on the shaft with
-`T/R e^{i d} (i sign(k) - tan alpha)`. This force has a fixed direction; the lever rule shares it
-between the bearings as well.
+A gear may drive the shaft against a drag torque T. With the mesh in direction d from the axis of
+the shaft, the pitch radius R and the pressure angle alpha, the gear presses on the shaft with the
+force `T/R e^{i d} (i sign(k) - tan alpha)`. This force has a fixed direction; the lever rule shares
+it between the bearings as well.
 """
 
 from __future__ import annotations
@@ -151,7 +152,8 @@ def _describe_counterweight(table: Counterweight, lowest: float | None) -> Count
 
     Args:
         table: The `[[counterweight]]` table.
-        lowest: Least distance of a piston's lowest edge from the crank axis, m; None: not known.
+        lowest: Smallest distance of any piston's lowest edge from the crank axis, m; None: not
+            known.
     """
     place = table.position, float(wrap_degrees(table.angle, 360))
     if table.sector is None:
@@ -167,7 +169,7 @@ _BEARINGS_NOTE = (
     "Moving weights so that both resultants stay the same changes only the bending."
 )
 _RADIUS_NOTE = "Radius: distance of the centre of mass from the crank axis."
-_CLEARANCE_NOTE = "Clearance: gap to the piston that comes lowest, as if it were above the weight."
+_CLEARANCE_NOTE = "Clearance: gap between weight and lowest piston edge, as if both had the same z."
 
 
 _BEARING = {

@@ -1,9 +1,9 @@
 """Compute the motion of the pistons: strokes, dead centres, mean and largest speed, and
 accelerations; exactly, and by the two terms that textbooks use.
 
-Angles named "own" are crank angles of one cylinder: 0 means that its crank pin is on its axis.
+Angles named "own" are crank angles of one cylinder: at 0, the crank pin is on the cylinder's axis.
 The acceleration towards the crank is a series of cosines (`core.mechanisms.closed_form`), and the
-velocity is its integral. The extremes are those of these series.
+velocity is the integral of this series. The extremes are computed from both series.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ from ..show.sheet import NAMELESS, UNKNOWN, Facts, Grid, Sheet, assumed_facts, n
 from ..show.units import IMPERIAL, INCH, ShownUnit, System, name_with_unit
 
 # Rod ratio lam of a centred slider-crank for which the fourth derivative of the piston travel, by
-# crank angle, is 0 at 180 deg: 3 lam^3 - 4 lam + 1 = 0. Above it, the acceleration has two minima.
+# crank angle, is 0 at 180 deg: 3 lam^3 - 4 lam + 1 = 0. The acceleration has two minima above it.
 TYPE_LIMIT = (math.sqrt(7 / 3) - 1) / 2
 _TWO_TERM_LIMIT = 1 / 4
 _USUAL = (  # Lu and Meng, Automobile Engine Design, 1990, section 1.1.1.1 and Table 1-5
@@ -84,7 +84,8 @@ class Acceleration:
 @dataclass(frozen=True, kw_only=True)
 class TwoTerm:
     """Velocity and acceleration by the first two terms of their series. The velocity at crank angle
-    psi is r omega (sin psi + lam/2 sin 2 psi); r: crank radius, omega: crank speed, lam: rod ratio.
+    psi is r omega (sin psi + lam/2 sin 2 psi); r: crank radius, omega: crank speed, lam: r over the
+    rod length.
 
     Attributes:
         velocity_max_m_per_s: Highest velocity.
@@ -245,7 +246,7 @@ def _find_acceleration(orders: Array, series: Complex, scale: float) -> Accelera
 def _find_extremes(
     orders: Array, series: Complex, scale: float
 ) -> tuple[float, float, float, float]:
-    """Return value and crank angle (deg, 0 to 360) of the maximum, then of the minimum."""
+    """Return value (times `scale`) and crank angle (0 to 360 deg) of maximum, then of minimum."""
     high, low = (
         (scale * float(peak.value), math.degrees(float(peak.angle)) % 360)
         for peak in find_swing(orders, series)
@@ -256,8 +257,8 @@ def _find_extremes(
 def _use_two_terms(lam: float, radius: float, omega: float) -> TwoTerm:
     """Return velocity and acceleration of a centred slider-crank by their first two terms.
 
-    The minimum of `cos psi + lam cos 2 psi` is at `cos psi = -1/(4 lam)` if there is such an angle,
-    otherwise at 180 deg.
+    The acceleration in units of r omega^2 is `cos psi + lam cos 2 psi`. Its minimum is at
+    `cos psi = -1/(4 lam)` if there is such an angle psi, otherwise at 180 deg.
     """
     (psi, value), scale = fastest_two_term(lam), radius * omega**2
     two = lam > _TWO_TERM_LIMIT

@@ -85,7 +85,7 @@ class Load(NamedTuple):
 
 
 class Section(NamedTuple):
-    """Shear force and bending moment just behind one load.
+    """Shear force and bending moment just behind one load, on its flywheel side.
 
     Attributes:
         position_mm: Position along the crank.
@@ -235,10 +235,9 @@ class Stroke(NamedTuple):
     Attributes:
         cylinder: Number of the cylinder.
         stroke_m: Stroke.
-        top_deg: Crank angle at top dead centre, measured from the position in which the pin lies
-            along the cylinder's axis.
-        bottom_deg: Crank angle at bottom dead centre, measured from the position half a turn after
-            the one in which the pin lies along the cylinder's axis.
+        top_deg: Crank angle at top dead centre, measured from the position in which the crank pin
+            is on the cylinder's axis, towards the piston.
+        bottom_deg: Crank angle at bottom dead centre, measured from the position half a turn later.
     """
 
     cylinder: int
@@ -290,7 +289,7 @@ class Slider(NamedTuple):
     """A reciprocating mass.
 
     Attributes:
-        order: Frequency over crank speed.
+        order: Number of oscillations in a turn of the crank.
         unbalance_kg_m: Mass times amplitude.
         direction_deg: Direction of the path of the mass from x.
         angle_deg: Phase at crank angle 0.
@@ -379,8 +378,8 @@ class JournalTorque(NamedTuple):
         min_Nm: Lowest torque.
         range_Nm: Highest less lowest torque.
         mean_Nm: Mean torque.
-        max_deg: Crank angle of the highest torque; left out without torque.
-        min_deg: Crank angle of the lowest torque; left out without torque.
+        max_deg: Crank angle of the highest torque; left out if the torque is always 0.
+        min_deg: Crank angle of the lowest torque; left out if the torque is always 0.
     """
 
     max_Nm: float
@@ -430,8 +429,8 @@ class ShaftBearing(NamedTuple):
         rotating_N: Load of the eccentrics, which turns with the shaft.
         fixed_N: Load of the gear force, whose direction is fixed.
         largest_N: Largest load over a turn: the sum of both loads.
-        rotating_deg: Direction of the turning load at crank angle 0; left out without load.
-        fixed_deg: Direction of the fixed load; left out without load.
+        rotating_deg: Direction of the turning load at crank angle 0; left out if this load is 0.
+        fixed_deg: Direction of the fixed load; left out if this load is 0.
     """
 
     position_mm: float
@@ -463,7 +462,8 @@ class BalancerShaft(NamedTuple):
         name: Name of the shaft.
         ratio: Speed over crank speed; negative: it turns against the crank.
         inertia_at_crank_kg_m2: Moment of inertia of the shaft times the square of the ratio.
-        bearings: Loads of the bearings; without bearings, left out with all later attributes.
+        bearings: Loads of the bearings. If the file gives no bearings, this and all later
+            attributes are left out.
         bending_Nm: Largest bending moment of the turning loads.
         bending_position_mm: Position of this bending moment; left out if nothing bends the shaft.
         gear: Gear of the shaft; left out if the file gives none.
@@ -547,8 +547,8 @@ class PowerRelatedUnbalance(NamedTuple):
 
     Attributes:
         power_W: Power.
-        power_kind: Source of the power: "file" (brake power in the file), or "brake" or "indicated"
-            (power of the gas).
+        power_kind: "file": brake power in the file; "indicated": power of the gas; "brake": power
+            of the gas times the mechanical efficiency.
         orders: Orders 1 and 2.
     """
 
@@ -574,7 +574,7 @@ class Masses(NamedTuple):
         rod_inertia_kg_m2: Moment of inertia of the rod about its centre of mass.
         radius_of_gyration_m: Radius of gyration of the rod.
         couple_constant_kg_m2: Couple constant H: moment of inertia of the two shares of the rod's
-            mass, at its two pins, about its centre of mass, minus the rod's moment of inertia.
+            mass as points at the two pins, minus that of the rod, both about its centre of mass.
         reduced_length_m: Length of a pendulum that swings like the rod about the piston pin.
     """
 

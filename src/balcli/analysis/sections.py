@@ -40,7 +40,7 @@ if TYPE_CHECKING:
 
 _OPEN_END = (
     "Bearing forces are not included. The value at the last position is therefore the free moment "
-    "of all these loads about this position, which the mounts carry."
+    "of all these loads about this position. The mounts carry this moment."
 )
 _TOGETHER = (
     "These are loads of inertia: gas presses equally on throw and cylinder head, so it does not "

@@ -65,7 +65,7 @@ class SpeedSeries:
     Attributes:
         engine: Engine.
         analyses: Analysis at each speed, in the given order of speeds.
-        every_order: Whether orders were given; then all of them are shown.
+        every_order: Whether the caller chose the orders; if so, all of them are shown.
     """
 
     format: Literal["balcli.speeds/1"] = "balcli.speeds/1"
@@ -92,8 +92,8 @@ class MarineOrder:
         order: Order.
         force_v_N: External force along x.
         force_h_N: External force along y.
-        moment_v_Nm: External moment of the forces along x (about y).
-        moment_h_Nm: External moment of the forces along y (about x).
+        moment_v_Nm: External moment about y, from the forces along x.
+        moment_h_Nm: External moment about x, from the forces along y.
         guide_h_Nm: H-type guide-force moment.
         guide_x_Nm: X-type guide-force moment.
         torque_Nm: Torque of inertia and, with [gas], of gas on the crank.

@@ -116,8 +116,9 @@ class Combined(OrdersAndPeaks, Result):
     reference.
 
     Because the cranks are geared one to one, the kinetic energies of both engines add up. The
-    inertia torque at the first crank is therefore T1 + T2, where each torque is positive in the
-    direction of rotation of its own crank, whichever way the cranks turn. C is the transverse
+    inertia torque at the first crank is therefore T1 + T2. T1 is the inertia torque of the first
+    engine and T2 that of the second, each positive in the direction of rotation of its own crank,
+    whichever way the cranks turn. C is the transverse
     couple of both engines. The torque that the load takes does not act on the frame. With the load
     on the first crank, the roll is therefore C - (T1 + T2). With the load on a second crank that
     turns against the first, the roll is C + (T1 + T2). If each of two such cranks has its own load,
@@ -131,7 +132,7 @@ class Combined(OrdersAndPeaks, Result):
         spectra: Orders shown, sum of both engines.
         assumed: Values that are used because an engine file leaves them out.
         peak: Largest values over a revolution, sum of all orders.
-        every_order: Whether orders were given; then all of them are shown.
+        every_order: Whether the caller chose the orders; if so, all of them are shown.
     """
 
     format: Literal["balcli.sum/1"] = "balcli.sum/1"
@@ -263,7 +264,7 @@ def _name_beside(path: str, target: Path) -> str:
     return place.relative_to(home).as_posix()
 
 
-_GEARED = "Geared one to one, the engines' kinetic energies add: the first crank feels T = T1 + T2."
+_GEARED = "The kinetic energies of geared engines add: torque on the first crank T = T1 + T2."
 _ROLL = {
     "first": "The first crank drives the load: the roll is C − T.",
     "second": "The second crank drives the load in the opposite sense: the roll is C + T.",

@@ -52,10 +52,11 @@ class PermittedUnbalance:
     """Residual unbalance that a grade of ISO 21940-11 permits.
 
     Attributes:
-        grade: Permitted speed of the centre of mass, mm/s.
+        grade: Number of the balance grade (16 for G 16): permitted speed of the centre of mass,
+            mm/s.
         mass_kg: Mass of the crankshaft.
-        each_g_mm: Permitted unbalance at each counterweight, or in each plane of the remedy's
-            `needs`; it is the same in all planes.
+        each_g_mm: Permitted unbalance at each new counterweight. If scheme factor compares the
+            file's counterweights with what each plane needs: permitted unbalance in each plane.
     """
 
     grade: float
@@ -70,7 +71,7 @@ class FittedRemedy:
     Attributes:
         scheme: Name of the scheme.
         step: Step of the ladder; only for the schemes auto and step.
-        order: Order that the scheme balances; null if there is no single one.
+        order: Order that the scheme balances; null if the scheme is not for a single order.
         devices: New devices.
         reasons: Reasons for the devices.
     """
@@ -94,13 +95,16 @@ def describe_remedy(remedy: Remedy) -> FittedRemedy:
 
 
 def list_details(remedy: Remedy) -> Node:
-    """Return the further figures of a scheme, with its card, planes, range of factors and note."""
+    """Return the details of a remedy. Its bobweight card, the unbalance that each plane needs and
+    has (`planes`), the peaks for each of several factors (`sweep`) and the note are added, unless
+    they are empty.
+    """
     more = {"card": remedy.card, "planes": remedy.needs, "sweep": remedy.sweep, "note": remedy.note}
     return {**remedy.details, **{key: value for key, value in more.items() if value}}
 
 
 def shorten_with_bearings(analysis: Analysis) -> PeaksAndOrders:
-    """Return only peaks, orders and the largest loads within the crankshaft."""
+    """Return the peaks and orders of an analysis, and the largest loads within the crankshaft."""
     return replace(shorten(analysis), bearings=find_crank_loads(analysis.engine))
 
 
@@ -122,7 +126,7 @@ class Balance(Result):
         parts: Bearing loads of new shafts and shapes of new counterweights, if bearings or a sector
             were given.
         tools: Tools of the workshop.
-        every_order: Whether orders were given; then all of them are shown.
+        every_order: Whether orders were given; then all given orders are shown.
     """
 
     format: Literal["balcli.balance/1"] = "balcli.balance/1"
@@ -156,7 +160,8 @@ def balance_engine(
 ) -> Balance:
     """Return the devices that a scheme fits, and the analyses without and with them.
 
-    Devices are sized for a steady speed. If the speed is uneven, both analyses include that.
+    Devices are sized for a steady speed. If the engine's speed is uneven, both analyses are for
+    the uneven speed.
 
     Args:
         engine: One engine, not an array of variants.
@@ -169,7 +174,8 @@ def balance_engine(
             140)).
 
     Raises:
-        BalcliError: The scheme is unknown, or its options cannot be met (with the reason).
+        BalcliError: The scheme is unknown, or its options cannot be met; the message
+            gives the reason.
         TypeError: An argument has the wrong type.
 
     Example:
@@ -211,7 +217,8 @@ def balance_fit(
         targets: Quantities to cancel: "force", "moment", "roll" or "roll_total".
         orders: Orders to show, as in `balance_engine`.
         tools: Tools of the workshop, as in `balance_engine`.
-        small: Share of one cylinder's first order; the ladder cancels no force or moment below it.
+        small: Share of one cylinder's first order; the ladder cancels no force or moment below
+            this share.
 
     Raises:
         BalcliError: A target does not exist, or the file lacks data for it.
@@ -238,7 +245,7 @@ def _answer(
         tools: Tools of the workshop.
         ladder: Ladder of the engine.
         shapes: Shapes of new devices.
-        changed: Engine with the remedy; None: with its devices.
+        changed: Engine with the remedy; None: `engine` with the devices of the remedy.
     """
     tools, shapes, parts = tools or Tools(), shapes or Shapes(), None
     remedy = shape_devices(engine, remedy, shapes)
@@ -275,8 +282,8 @@ def permit_unbalance(
         speed_rpm: Speed of the engine.
 
     Raises:
-        BalcliError: Only one of grade and mass is given, one is not positive, or there are no
-            counterweights.
+        BalcliError: Only one of grade and mass is given, one of them is not positive, or there
+            are no counterweights.
     """
     if grade is None and mass is None:
         return None
@@ -315,14 +322,14 @@ def balance_knuckles(
     orders: Iterable[float] | None = None,
     speed_rpm: float | None = None,
 ) -> Balance:
-    """Turn each knuckle pin about the crank pin, at the radius of the file, until the dead centres
-    or strokes of its cylinders are those of the master cylinder.
+    """Turn each knuckle pin about the crank pin until its cylinders have the dead centres, or the
+    strokes, of the master cylinder. The pins keep the radius that the file gives.
 
     Args:
         model: Engine file.
         goal: "dead-centres": at top dead centre of every piston, the crank pin has the same angle
-            to the axis of its bank. "strokes": every piston has the stroke of the master piston.
-            (Both at once would need a different radius for each pin.)
+            to the axis of this piston's bank. "strokes": every piston has the stroke of the master
+            piston. (Both at once would need a different radius for each pin.)
         orders: Orders to show, as in `balance_engine`.
         speed_rpm: Speed of the engine; None: that of the file.
 
@@ -412,8 +419,13 @@ def _find_first_rows(model: EngineFile, numbers: tuple[CylinderNumber, ...]) -> 
 def _explain(
     result: str, hung: NDArray[np.bool_], done: NDArray[np.bool_], turn_deg: Array
 ) -> tuple[str, ...]:
-    """Return in words the changes, and the banks that cannot be made even; arrays have an element
-    for each bank.
+    """Return in words the changes, and the banks that cannot be made even.
+
+    Args:
+        result: Result of the changes, in words.
+        hung: Whether the rods of each bank hang on a master rod.
+        done: Whether the knuckle pin of each bank reaches the goal.
+        turn_deg: Turn of the knuckle pin of each bank.
     """
     largest = float(np.abs(np.where(hung & done, turn_deg, 0)).max(initial=0.0))
     turned = f"turned by up to {largest:.3g} deg" if largest > _STAYS_DEG else "stay where they are"
@@ -474,8 +486,8 @@ def _fill_in(text: str, remedy: Remedy, file: str) -> str:
 
 
 def _insert_devices(text: str, remedy: Remedy) -> str:
-    """Return the text with the remedy's tables appended. A file with devices in an inline list,
-    which cannot be extended, is written anew without its comments.
+    """Return the text with the remedy's tables appended. TOML cannot extend an inline list: a
+    file with its devices in such a list is written anew, without its comments.
     """
     end_of_line = "" if text.endswith("\n") or not text else "\n"
     tables = end_of_line + "".join(_write_tables(remedy))

@@ -91,8 +91,8 @@ Schemes = Annotated[
     ),
 ]
 Radius = Annotated[str | None, optional("MM", "Radius of the weights; default: crank radius.")]
-Thickness = Annotated[str | None, optional("MM", "Thickness of the half discs; default: 20.")]
-Disc = Annotated[str | None, optional("MM", "Radius of the half discs; instead of --thickness.")]
+Thickness = Annotated[str | None, optional("MM", "Thickness of half-disc weights; default: 20.")]
+Disc = Annotated[str | None, optional("MM", "Radius of half-disc weights; instead of --thickness.")]
 Drill = Annotated[str | None, optional("MM", "Diameter of holes to drill from --radius inwards.")]
 MaxDepth = Annotated[str | None, optional("MM", "Deepest hole; default: to the axis.")]
 Slug = Annotated[str | None, optional("METAL", "Slugs in holes: tungsten, lead, or g/cm3.")]
@@ -141,7 +141,7 @@ def parse_tools(units: Units, slug: str | None, **lengths: str | None) -> Tools:
     Args:
         units: Units of the command.
         slug: Name of a metal, or a density in g/cm3.
-        lengths: Texts of the options with lengths, by their names in `Tools`.
+        lengths: Texts of the options that are lengths, by the names of these options in `Tools`.
 
     Raises:
         BalcliError: A text is not a length, or not a metal.

@@ -15,7 +15,7 @@ from ..sizing.bobweights import NO_THROW, Bobweight, CardLine, FactorPeaks, Plan
 from ..sizing.planes import find_unbalance, measure_direction
 from .answer import Balance
 
-# Keys of the roll without and with new devices: of inertia, and of inertia and gas.
+# Keys of the roll without and with new devices. First pair: of inertia; second: inertia and gas.
 _ROLLS = (
     ("roll_before_Nm", "roll_left_Nm"),
     ("roll_with_gas_before_Nm", "roll_with_gas_left_Nm"),
@@ -25,8 +25,8 @@ _FOR_PROGRAMS = {"condition_number", "relative_error_bound", "axial_distance_mm"
 
 
 class _Figure(NamedTuple):
-    """A figure of the details with its key, and the key of the dict that holds it (`group`, may be
-    empty).
+    """A figure of the details with its key. `group` is the key of the dict that holds the figure;
+    empty if the details themselves hold it.
     """
 
     group: str
@@ -152,8 +152,8 @@ def _show(figure: _Figure, system: System) -> str:
 
 
 def tell_growing_rolls(result: Balance, system: System) -> Iterator[str]:
-    """Yield a sentence for every order whose roll (of inertia and, if there is any, gas) is larger
-    with the new devices than without them.
+    """Yield a sentence for every order whose roll (of inertia; for an engine with gas, of inertia
+    and gas) is larger with the new devices than without them.
     """
     remedy, (x, y, _) = result.remedy, result.before.engine.reference_m
     pivot = "the point of reference" if x or y else "the crankshaft"
@@ -261,7 +261,7 @@ def _sweep_grid(sweep: tuple[FactorPeaks, ...], system: System) -> Grid:
         rows.append((percent(row.factor), *cells))
     note = (
         "Bobweight: of the first pin. Weight: largest counterweight to add. Force: largest force "
-        "left, all orders added up. Along, across: its largest components along and across bank 1."
+        "left, all orders added up. Along, across: largest components along and across bank 1."
     )
     return Grid("Largest values by factor", heads, tuple(rows), note=note)
 

@@ -236,7 +236,7 @@ def _find_changes(before: ArrayLike, after: ArrayLike) -> NDArray[np.bool_]:
 
 
 def _tell_unchanged(told: Collection[str]) -> str:
-    """Return a line on values that do not change, given in words."""
+    """Return a line that lists the values in `told` as unchanged; empty if there are none."""
     return f"Unchanged within 1 %: {', '.join(told)}." if told else ""
 
 
@@ -249,7 +249,7 @@ def _orders(result: Balance, system: System) -> Iterator[Grid]:
     ]
     sizes = np.array([[state[kind.name].major for state in states] for kind in kinds])
     scales = dict(result.before.of_one_cylinder)
-    if has_gas:  # the roll with gas has no scale in one cylinder
+    if has_gas:  # one cylinder gives no scale for the roll with gas
         scales[ROLL_TOTAL.name] = float(sizes[2].max())
     every, least = result.every_order, [NEGLIGIBLE * scales[kind.name] for kind in kinds]
     small = (sizes < np.reshape(least, (-1, 1, 1))) & (not every)  # kind, state, order
@@ -274,7 +274,7 @@ def _orders(result: Balance, system: System) -> Iterator[Grid]:
 
 
 def _peaks(result: Balance, system: System) -> Iterator[Grid]:
-    """Yield a table of the largest values over a revolution that change."""
+    """Yield a table of those largest values over a revolution that change."""
     rows, left = [], list[str]()
     for (kind, before), (_, after) in zip(result.before.peaks, result.after.peaks, strict=True):
         if kind is MOMENT and not result.before.moments_known:
@@ -297,7 +297,7 @@ def _peaks(result: Balance, system: System) -> Iterator[Grid]:
 
 
 def _crank_loads(states: Sequence[CrankLoads | None], system: System) -> Iterator[Grid]:
-    """Yield a table of the largest loads within the crankshaft that change."""
+    """Yield a table of those largest loads within the crankshaft that change."""
     rows = []
     for name, kind, key, place in (
         ("largest main bearing load", FORCE, "main_N", "main_mm"),

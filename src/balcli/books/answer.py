@@ -1,10 +1,12 @@
 """Registry of the printed tables that balcli recomputes (`tables`), their errata, and the table of
 common engine layouts.
 
-The table of layouts lists free forces and moments of the example engines. Forces are multiples of
-F_n = m_rec r omega^2 A_n (A_1 = 1), one cylinder's force of order n. Moments, about the middle of
-the crankshaft, are multiples of F_n times the distance of neighbouring throws. Offsets of piston
-pins and all else that textbooks ignore are left out (`forces.symmetry`).
+The table of layouts lists free forces and moments of the example engines. Forces of order n are
+multiples of one cylinder's force of this order, F_n = m r omega^2 A_n: m is the reciprocating mass,
+r the crank radius, omega the crank speed, and A_n the coefficient of order n in the piston's
+acceleration (A_1 = 1). Moments, about the middle of the crankshaft, are multiples of F_n times the
+distance of neighbouring throws. Offsets of piston pins and all else that textbooks ignore are left
+out (`forces.symmetry`).
 """
 
 from __future__ import annotations
@@ -43,8 +45,8 @@ ORDERS = (1, 2, 4, 6)
 
 
 def tabulate_layouts(printed: Print, ranges: Ranges) -> Table:
-    """Return a row for each engine: semi-axes of the ellipses of force F and moment M for each
-    order.
+    """Return a row for each engine. For each order, it has the semi-axes of two ellipses: that
+    through which the force vector (F) turns, and that of the moment vector (M).
     """
     ends = [f"{letter}{n}_{axis}" for n in ORDERS for letter in "FM" for axis in ("major", "minor")]
     rows = [_row(name) for name in printed.column("engine")]
@@ -52,8 +54,8 @@ def tabulate_layouts(printed: Print, ranges: Ranges) -> Table:
 
 
 def find_gaps(name: str) -> tuple[float, ...]:
-    """Return the distinct intervals between firings of an example engine, deg, ascending; empty if
-    the file gives no firing order for its several cylinders.
+    """Return the distinct intervals between firings of an example engine, deg, ascending; empty for
+    an engine of several cylinders whose file gives no firing order.
     """
     _, engine = _load(name)
     several = len(engine.numbers) > 1  # a single cylinder needs no firing order

@@ -83,7 +83,7 @@ def tables(
 
 
 def layouts(form: FormatOption = None, output: Output = None) -> None:
-    """Free forces and moments of common engines at a glance, as multiples of one cylinder's.
+    """Free forces and moments of common engines at a glance, as multiples of one cylinder's force.
 
     \b
     Examples:

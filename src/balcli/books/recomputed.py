@@ -191,7 +191,7 @@ class Print(NamedTuple):
 
     def align_cells(self, stub: Sequence[str], columns: Sequence[str]) -> list[Words]:
         """Return the printed cells for these rows (by their first cell) and columns. Different
-        texts of the same number match. None marks cells without print.
+        texts of the same number match (0.3 and 0.30). None marks cells without print.
         """
         rows = {identify(row[0] or ""): row for row in self.rows}
         numbers = {identify(c): j for j, c in enumerate(self.columns)}

@@ -1,19 +1,22 @@
 """Recompute printed tables of balancing schemes.
 
 Tables 1 to 3 of Liu Xianzhi (received 1979): second-order balance of the flat-plane V8 by two
-shafts or by sliders. The second-order force of the engine is the sum of two vectors: a vector of
-size K cos(gamma/2) turns with the crank, and a vector of size K cos(3 gamma/2) turns against it
-(bank angle gamma, second-order force K of one bank). Two shafts cancel these vectors without a roll
-moment if their distances b'' and b''' from the crank axis are inversely proportional to these
-sizes. Sliders cancel the components Z_x and Z_y.
+shafts or by sliders. With the bank angle gamma and the second-order force K of one bank, the
+second-order force of the engine is the sum of two vectors: a vector of size K cos(gamma/2) turns
+with the crank, and a vector of size K cos(3 gamma/2) turns against it. Two shafts cancel these
+vectors without a roll moment if the shafts' distances b'' and b''' from the crank axis are
+inversely proportional to the sizes of the vectors. Sliders cancel the force's components Z_x and
+Z_y.
 
 Table 1 of Wang Yongding, Methods of balancing single-cylinder engines: a counterweight k m_j r
-stands at an angle alpha ahead of the point opposite the crank. The remaining force of orders 1 and
-2 is P = J (cos th + lam cos 2 th - k e^{i(th + alpha)}) with J = m_j r omega^2 (reciprocating mass
-m_j). The table lists the counterweight for which the largest |P| is smallest. The author searched k
-in steps of 0.1, alpha in steps of 5 degrees and theta in steps of 1 degree, but theta only over
-half a revolution. The best alpha is 0: the largest |P| is convex in k e^{i alpha}, and changing the
-sign of alpha only mirrors the curve of P.
+stands at an angle alpha ahead of the point opposite the crank, where m_j is the reciprocating mass
+and r the crank radius. With the crank angle theta, the crank speed omega, lam = crank radius / rod
+length and J = m_j r omega^2, the remaining force of orders 1 and 2 is
+P = J (cos theta + lam cos 2 theta - k e^{i(theta + alpha)}). The table lists the counterweight for
+which the largest |P| is smallest. The author searched k in steps of 0.1, alpha in steps of 5
+degrees and theta in steps of 1 degree, but theta only over half a revolution. The best alpha is 0:
+the largest |P| is convex in k e^{i alpha}, and changing the sign of alpha only mirrors the curve of
+P.
 """
 
 from __future__ import annotations
@@ -66,8 +69,8 @@ def _rough(degrees: Array) -> Array:
 def tabulate_paths(printed: Print, ranges: Ranges) -> Table:
     """Return Table 1: distances of the two shafts from the crank axis by bank angle gamma, the
     derivatives of these distances, and the ratio of each pair. With other angles than the printed
-    ones, two more rows have the lengths of both paths; the text of the source gives the lengths for
-    180 degrees: 3 b and b.
+    ones, two more rows have the lengths of the two paths along which the shafts move while gamma
+    grows from 0. For 180 degrees, the text of the source gives these lengths: 3 b and b.
     """
     headings = ranges.angle or printed.headings()
     gamma, stub = as_numbers(headings), list(printed.column(printed.columns[0]))
@@ -115,7 +118,8 @@ def tabulate_sliders(printed: Print, ranges: Ranges) -> Table:
 
 def _paths(gamma: Array, cosine: Cosine) -> Array:
     """Return b''/b, b'''/b, their ratio, their derivatives by gamma, the ratio of the derivatives,
-    and the lengths of both paths from gamma = 0 over b.
+    and the lengths of both shafts' paths from gamma = 0, divided by b. Here b is the distance of
+    both shafts from the crank axis at gamma = 0.
 
     The ratios are computed without division by zero, with x = gamma/2, from -cos 3x/cos x = 3 - 4
     cos^2 x and -3 sin 3x/sin x = 3 - 12 cos^2 x.
@@ -191,19 +195,20 @@ def tabulate_optimum(printed: Print, ranges: Ranges) -> Table:
 
 
 def _true(lam: float) -> Row:
-    """Return the smallest peak, its k and alpha, and the direction and crank angle of one of its
-    three equal maxima: that at theta = 0, where P lies along the cylinder.
+    """Return the smallest peak of |P|/J with its k and alpha. It is reached at three crank angles;
+    also return the direction and crank angle of the one at theta = 0, where P lies along the
+    cylinder.
 
     At theta = 0, P = 1 + lam - k falls with k. The two other maxima, symmetric to the cylinder,
-    rise with k. The best k makes all three equal.
+    rise with k. The best k makes all three maxima equal.
     """
     k = find_least(lambda k: max(_stationary(lam, k))[0], 0.0, 1.0, 80)
     return (1 + lam - k, k, 0.0, 0.0, 0.0)
 
 
 def _stationary(lam: float, weight: complex) -> list[tuple[float, float]]:
-    """Return (|P|/J, theta in degrees) at the angles where |P| is stationary. They are the roots z
-    = e^{i theta} of the derivative of P conj(P).
+    """Return (|P|/J, theta in degrees) at the angles where |P| is stationary; `weight` is
+    k e^{i alpha}. There, z = e^{i theta} is a root of the derivative of P conj(P).
     """
     p = np.array([lam / 2, 0.5, 0, 0.5 - weight, lam / 2])  # coefficients of z^-2 ... z^2
     square = np.convolve(p, np.conj(p[::-1]))  # coefficients of z^-4 ... z^4
@@ -215,7 +220,9 @@ def _stationary(lam: float, weight: complex) -> list[tuple[float, float]]:
 
 
 def _half_cycle(lam: float) -> Row:
-    """Return the result of the author's search: P, k, alpha, angle phi of the force, and theta."""
+    """Return the result of the author's search: the smallest peak of |P|/J, its k and alpha, and
+    the angle phi of P and the crank angle theta at this peak.
+    """
     k, alpha, theta = np.arange(11) / 10, np.arange(0.0, 91.0, 5.0), np.arange(181.0)
     th = np.radians(theta)
     weights = k[:, None, None] * np.exp(1j * (th + np.radians(alpha[:, None])))

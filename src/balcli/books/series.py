@@ -1,9 +1,10 @@
-"""Compute exact coefficients in powers of lambda, and compare them with the coefficients printed in
-the five books and papers of the tables.
+"""Compute exact coefficients in powers of lambda (crank radius over rod length), and compare them
+with the coefficients printed in the five books and papers of the tables.
 
 Kvasnikov, Determination of the unbalance of piston engines, Tomsk 1920, has Tables I and II
-(coefficients A_n of the piston's and D_k of the rod's acceleration) and statements on orders. One
-or two terms of the series explain the errata of these two tables.
+(coefficients A_n of the piston's acceleration and D_k of the rod's angular acceleration) and
+statements on orders. The errata of these two tables are explained by series that were cut off after
+one or two terms.
 """
 
 from __future__ import annotations
@@ -126,8 +127,8 @@ _REASONS = {
 
 def tabulate_kvasnikov_statements(printed: Print, ranges: Ranges) -> Table:
     """Return the computed figures of Kvasnikov's statements on sizes of orders, and on the orders
-    that stars, vees and rows leave. Each layout is analyzed as an engine of equal cylinders without
-    rotating masses, which counterweights can cancel.
+    that stars, vees and rows leave unbalanced. Each layout is analyzed as an engine of equal
+    cylinders. Rotating masses are left out, because counterweights can cancel them.
     """
     engines = tomllib.loads(read_data("kvasnikov-layouts.toml"))
     books = {layout: _analyze(layout, tables) for layout, tables in engines.items()}

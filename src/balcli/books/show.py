@@ -174,9 +174,10 @@ TABLE_LIST = Renderer(sheet=lay_out_list, document=describe_list, rows=list_tabl
 
 _SHOWN = ("F1", "F2", "M1", "M2")
 _NOTE = (
-    "Largest values: F1 as a multiple of m r ω² (m: reciprocating mass of a cylinder), F2 of "
-    "A2 m r ω² (A2 ≈ λ), M1 and M2 of these forces times the distance between throws. --format "
-    "csv adds orders 4 and 6 and smallest values; balcli engines lists the engines as files."
+    "Largest values: F1 as a multiple of m r ω² (m: reciprocating mass of a cylinder, r: crank "
+    "radius, ω: crank speed), F2 of A2 m r ω² (A2 ≈ r / rod length), M1 and M2 of these two "
+    "forces times the distance of neighbouring throws. --format csv adds orders 4 and 6 and "
+    "smallest values; balcli engines lists the engines as files."
 )
 
 

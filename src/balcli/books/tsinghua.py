@@ -28,8 +28,9 @@ ByAngle: TypeAlias = Callable[[Array, Array], Array]  # function of crank angle 
 
 
 def tabulate_engines(printed: Print, ranges: Ranges) -> Table:
-    """Return Table 1-1: lambda = r/l, mean piston speed S n/30 and xi = e/r of given engines."""
-
+    """Return Table 1-1: lambda = r/l, mean piston speed S n/30 and xi = e/r of given engines (crank
+    radius r, rod length l, stroke S in m, speed n in rpm, piston offset e).
+    """
     heads = ("r_mm", "l_mm", "e_mm", "stroke_mm", "rated_speed_rpm")
     lines = np.array([as_numbers(printed.column(head)) for head in heads]).T.tolist()
     rows, supposed = [], []
@@ -91,7 +92,7 @@ def tabulate_mean_speeds(printed: Print, ranges: Ranges) -> Table:
 
 def tabulate_by_angle(printed: Print, ranges: Ranges, function: ByAngle) -> Table:
     """Return a row for each crank angle and a column for each lambda, with the printed columns of
-    signs and of the angles 360 degrees - alpha.
+    signs and of the angles 360 degrees - alpha, where alpha is the crank angle.
 
     Raises:
         BalcliError: The table has too many cells.
@@ -117,8 +118,9 @@ def tabulate_by_angle(printed: Print, ranges: Ranges, function: ByAngle) -> Tabl
 
 
 def _extreme(lam: Array, psi: Array, value: Array) -> Array:
-    """Return the seven lines of Table 1-4, with angles in degrees; the mean piston speed is (2/pi)
-    r omega.
+    """Return the seven lines of Table 1-4, with angles in degrees. `value` is the greatest velocity
+    divided by r omega, and psi (rad) the crank angle at which it occurs. The last line is the
+    velocity divided by the mean piston speed, (2/pi) r omega.
     """
     alpha = np.degrees(psi)
     beta = np.degrees(np.arctan2(*sc.rod_angle(psi, lam)))

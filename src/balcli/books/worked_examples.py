@@ -51,12 +51,14 @@ def _acceleration(omega: float = OMEGA) -> float:
 
 
 def _second(gravity: float = GRAVITY) -> tuple[float, ...]:
-    """Return the answers of section 1-4 for a rod with a triangular outline: h k (distances of its
-    centre of gravity from both ends), q^2 (q: radius of gyration), their difference, the peak of
-    the rod's angular acceleration over lambda omega^2, and the residual couple in ft lb, both at
-    90 degrees.
+    """Return the answers of section 1-4 for a rod with a triangular outline. In units of the rod
+    length squared: the product h k of the distances h and k of its centre of gravity from the two
+    ends, the square q^2 of its radius of gyration, and h k - q^2. At 90 degrees: the rod's angular
+    acceleration (its peak), divided by lambda omega^2, and the residual couple, ft lb.
+
+    lambda is crank radius over rod length, and omega the crank speed.
     """
-    lam, hk, q2 = CRANK / ROD, 1 / 3 * 2 / 3, 1 / 18  # over the length squared
+    lam, hk, q2 = CRANK / ROD, 1 / 3 * 2 / 3, 1 / 18
     peak = float(SliderCrank(np.pi / 2, lam).spin_rate) / lam
     couple = 2.75 * ROD**2 * (hk - q2) * peak * lam * OMEGA**2 / gravity
     return (hk, q2, hk - q2, peak, couple)

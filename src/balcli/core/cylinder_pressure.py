@@ -46,7 +46,8 @@ class GasPiston:
     Attributes:
         area: Area of the bore, m2.
         stroke: Distance between the dead centres, m.
-        top: Crank angle from the cylinder's axis at the upper dead centre, rad.
+        top: Angle of the crank from the cylinder's axis when the piston is at its upper dead
+            centre, rad.
         bottom: Cycle angle of the lower dead centre, rad, in (0, 2 pi).
         radius: Crank radius, m.
         lam: Crank radius over rod length; with a linkage, an array with the values of the cylinder
@@ -180,9 +181,9 @@ class GasTorque:
         return self.work / self.piston.swept
 
     def harmonics(self, halves: ArrayLike) -> Complex:
-        """Return the coefficients t_h, N m, of the torque `Re sum t_h e^{i h c/2}`, shape
-        (orders,). The whole number h is twice the order; t_0 is the mean torque. In a two-stroke
-        engine, t_h is 0 for odd h.
+        """Return the coefficients t_h, N m, of the torque `Re sum t_h e^{i h c/2}`, where c is the
+        cycle angle, shape (orders,). The whole number h is twice the order; t_0 is the mean
+        torque. In a two-stroke engine, t_h is 0 for odd h.
         """
         half_orders = np.asarray(halves)
         every = round(4 * np.pi / self.curve.period)

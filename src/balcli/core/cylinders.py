@@ -173,8 +173,8 @@ class Travel(NamedTuple):
 
     Attributes:
         stroke: Stroke, m.
-        top_deg: Crank angle at the upper dead centre, from the cylinder's axis.
-        bottom_deg: Crank angle at the lower dead centre, from the cylinder's axis, less 180.
+        top_deg: Angle of the crank from the cylinder's axis at the upper dead centre.
+        bottom_deg: Angle of the crank from the cylinder's axis at the lower dead centre, minus 180.
     """
 
     stroke: Array
@@ -185,9 +185,11 @@ class Travel(NamedTuple):
 def find_travel(c: Cylinders) -> Travel:
     """Return strokes and dead centres of all cylinders.
 
-    Plain slider-cranks have a closed form: `sin tau = e/(l + r)` at the top, `e/(l - r)` at the
-    bottom, and the stroke `(l + r) cos tau_top - (l - r) cos tau_bottom`, computed without a
-    division by lambda, which may be 0. Dead centres of other mechanisms are found numerically.
+    Plain slider-cranks have a closed form. Let e be the offset, l the rod length, r the crank
+    radius, and tau_top and tau_bottom the crank angles from the cylinder's axis at the dead
+    centres. Then `sin tau_top = e/(l + r)`, `sin(tau_bottom - 180 deg) = e/(l - r)`, and the stroke
+    is `(l + r) cos tau_top - (l - r) cos(tau_bottom - 180 deg)`. It is computed without a division
+    by `lam`, which may be 0. Dead centres of other mechanisms are found numerically.
     """
     _, stroke, top_deg, bottom_deg = _find_dead_centres(c)
     shape, found = c.pin_deg.shape, (c.radius * stroke, top_deg, bottom_deg)
@@ -202,8 +204,8 @@ def find_innermost(c: Cylinders) -> Array:
 
 
 def _find_dead_centres(c: Cylinders) -> tuple[Array, Array, Array, Array]:
-    """Return the distance of the piston pins from the crank axis at the lower dead centre and their
-    stroke, both in crank radii, and the crank angles of both dead centres (`Travel`).
+    """Return the distance of the piston pins from the crank axis at the lower dead centre and the
+    stroke of the pistons, both in crank radii, and `top_deg` and `bottom_deg` of `Travel`.
     """
     if c.linkage is None:
         top, bottom = c.eps / (1 + c.lam), c.eps / (1 - c.lam)

@@ -2,19 +2,22 @@
 
 A four-stroke cycle has five parts: expansion from the firing dead centre to `exhaust_opens`,
 exhaust pressure to the gas-exchange dead centre, intake pressure to `intake_closes`, compression by
-`p V^nc = constant`, and the burn. In a two-stroke cycle, the intake (scavenge) pressure lasts from
-`exhaust_opens` until the rising piston is back at the position where the exhaust opened.
+`p V^nc = constant` (nc is the index of compression), and the burn. In a two-stroke cycle, the
+intake (scavenge) pressure lasts from `exhaust_opens` until the rising piston is back at the
+position where the exhaust opened.
 
 Heat Q raises the pressure by `d(p V^n) = (n - 1) V^(n-1) dQ`, n being the index of expansion. So `p
 V^n` after the burn follows directly from the heat, and the pressure during the burn is an integral,
 which needs no time steps. The only unknown of a cycle is its heat. Burn and expansion together do
-the work `X Q - [p V]/(n - 1)`: the released heat (share X) less the energy that the gas gains.
+the work `X Q - (p_2 V_2 - p_1 V_1)/(n - 1)`: the released heat, a share X of Q, less the energy
+that the gas gains from the start of the burn (1) to the opening of the exhaust (2).
 Compression is a polytrope, and pressures are constant while the valves are open, so imep has a
 closed form.
 
 Sources: the ideal cycles are those of every textbook (Heywood, Internal Combustion Engine
 Fundamentals, 1988, 5.4); Wiebe's law is `x = 1 - exp(-6.908 xi^(m+1))` (1956): 99.9 % of the heat
-is released within the duration, xi being the elapsed share of it.
+is released within the duration of the burn. x is the burnt share of the fuel, xi the elapsed share
+of the duration.
 """
 
 from __future__ import annotations
@@ -75,7 +78,8 @@ class Process:
 
 class Goal(NamedTuple):
     """Figure that a cycle must reach: `imep` or `max_pressure` (Pa), `heat` supplied per cycle (J),
-    or `cut_off`, the volume at the end of the burn at constant pressure over that at its start.
+    or `cut_off`, the volume at the end of the burn at constant pressure divided by the volume at
+    the start of this burn.
     """
 
     name: Literal["imep", "heat", "max_pressure", "cut_off"]

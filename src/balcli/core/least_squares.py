@@ -3,12 +3,13 @@ every unknown within a convex region of the complex plane, and minimises the sum
 the largest residual.
 
 `solve` uses singular values (Golub and Van Loan, Matrix Computations, 4th ed., 5.5). Where the
-unknowns are not determined, it returns the smallest solution. Then it fits the residual
-again and adds the result, so that every residual that can vanish does so to rounding.
+unknowns are not determined, it returns the solution with the smallest norm. Then it fits the
+residual again and adds the result, so that every residual that can vanish does so to rounding.
 
-Least squares within regions: `x = P(x - g / L)` holds only at the optimum, where P projects on the
-regions, g is the gradient of the sum of squares and L its largest curvature. Newton's method solves
-this equation. If a projected gradient step reduces the sum more, that step is taken instead.
+Least squares within regions: only the optimum fulfils `x = P(x - g / L)`. P is the projection on
+the regions, g the gradient of the sum of squares and L the largest curvature of this sum. Newton's
+method solves the equation. If the step `x -> P(x - g / L)` reduces the sum of squares more than
+Newton's step, it is taken instead.
 
 The largest residual is minimised by Lawson's iteration (Lawson, Contributions to the theory of
 linear least maximum approximation, thesis, UCLA 1961). Each reading has a share w. Solve least
@@ -103,13 +104,13 @@ def find_dependent_columns(matrix: NDArray[Number]) -> list[int]:
     directions = matrix / np.where(sizes > 0, sizes, 1.0)
     _, s, vh = np.linalg.svd(directions)
     rank = np.count_nonzero(s > _DEPENDENT * s[0])
-    combinations = np.abs(vh[rank:])  # combinations of columns that are 0
+    combinations = np.abs(vh[rank:])  # coefficients with which columns add up to 0
     return np.flatnonzero(np.any(combinations > _TAKES_PART, axis=0)).tolist()
 
 
 _ROUNDS = 1000  # largest number of rounds of Lawson's iteration
 _GAP = 1e-8  # relative distance of the largest residual from its bound that ends the iteration
-_REVIVED = 1e-9  # this part of the largest residual is added to all, so that no share becomes 0
+_REVIVED = 1e-9  # this part of the largest residual is added to each, so that no share becomes 0
 _STEPS = 500  # largest number of steps of Newton's method or the projected gradient; 5 are usual
 _SETTLED = 1e-15  # a step below this share of x ends the iteration
 _VANISHES = 1e-13  # a residual below this share of the target is rounding
@@ -141,7 +142,9 @@ class Region(NamedTuple):
         return float(self.radius - abs(x - self.centre))
 
     def project(self, x: complex) -> tuple[complex, Array]:
-        """Return the nearest point of the region, and its derivative by x, shape (2, 2)."""
+        """Return the nearest point of the region, and its derivative by x as a matrix of shape
+        (2, 2), whose rows and columns are real and imaginary part.
+        """
         if self.find_depth(x) > 0:
             return x, np.eye(2)
         if not len(self.starts):

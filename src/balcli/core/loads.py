@@ -5,6 +5,11 @@ Masses and harmonics give the loads of each cylinder in its own frame. `Phases` 
 axes of the engine and sums them over the cylinders; `Loads` adds the devices. docs/theory.md
 derives the formulas. Axes of arrays: orders, cylinders, then any others, which are called trailing
 (variants, for instance). All units are SI.
+
+Symbols: m_rec and m_rot are the masses at the piston pin and at the crank pin, r is the crank
+radius, e the offset, s the distance of the piston pin from the crank axis along the cylinder, beta
+the angle of the rod, H the attribute `Cylinders.couple`, and psi the crank angle from the
+cylinder's axis. A prime is a derivative by the crank angle.
 """
 
 from __future__ import annotations
@@ -116,7 +121,7 @@ class Loads:
     @cached_property
     def _pulls(self) -> Series:
         """Force of each cylinder in its own frame, N, in the form that `Phases.add_vectors` needs:
-        `m_rec r (-s'') + m_rot r e^{i psi}` times the squared speed, plus the force of a linkage's
+        `-m_rec s'' + m_rot r e^{i psi}` times the squared speed, plus the force of a linkage's
         masses.
         """
         c, phases, square = self.cylinders, self.phases, self.square
@@ -197,7 +202,7 @@ def find_inertia(cylinders: Cylinders, harmonics: Harmonics, square: Figure) -> 
 
     Args:
         cylinders: Cylinders of the engine.
-        harmonics: Series of their mechanisms.
+        harmonics: Series of the cylinders' mechanisms.
         square: Square of the crank speed, rad2/s2, shape (*trailing).
     """
     c = cylinders
@@ -247,8 +252,8 @@ def sum_weighted(loads: Phasors, weights: Array, sizes: Array | None = None) -> 
 
 
 def find_ahead(z: Array, sections: Array) -> Array:
-    """Return 1 for places at each section or on its free-end side, else 0, shape (sections,
-    places).
+    """Return, for each section, 1 for the places at the section or on its free-end side, and 0 for
+    all other places, shape (sections, places).
 
     Args:
         z: Axial positions of the places, m, shape (places,).

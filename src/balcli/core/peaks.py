@@ -31,14 +31,17 @@ _TURN = 2 * np.pi  # rad
 _SAMPLES = 16  # number of samples per period of the highest order
 _AT_ONCE = 1 << 19  # largest number of samples, or of terms of curves, which bounds the memory
 _ROUNDS = 40  # largest number of steps of Newton's method; 3 or 4 suffice for a round peak
-_SETTLED = 1e-16  # a step of Newton's method that gains a smaller share of all amplitudes ends it
-_SHORT = 1e-6  # share of the distance of samples; within it, a curve counts as a parabola
+# A step of Newton's method is the last if it gains less than _SETTLED of the sum of all amplitudes,
+# or if it is shorter than _SHORT of the distance of two samples.
+_SETTLED = 1e-16
+_SHORT = 1e-6
 _ZERO = 1e-12  # rad; an angle this close to a whole turn is 0
 _EQUAL = 1e-12  # peaks that differ by a smaller share of the sum of all amplitudes are equal
 
 
 class Peak(NamedTuple):
-    """Largest absolute value of a curve over a revolution (over two if it has half orders).
+    """Largest absolute value of a curve over a revolution, or over two revolutions if the curve has
+    half orders.
 
     Attributes:
         value: Largest absolute value, in the unit of the curve.

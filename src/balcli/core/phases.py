@@ -90,7 +90,7 @@ class Phases:
         return Phasors(self.orders, sums, self.add_figures(np.asarray(vectors.noise), sizes))
 
     def add_scalars(self, series: Series) -> Phasors:
-        """Return the sum of the cylinders' scalars; those of each bank are turned by `e^{i n
+        """Return the sum of the cylinders' scalars; the scalars of each bank are turned by `e^{i n
         (axis_1 - axis)}`.
         """
         noise = self.add_figures(self.rounding * np.abs(series.c) + series.noise)

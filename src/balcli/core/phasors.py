@@ -28,8 +28,8 @@ _UNITS = np.outer([1, 1j, -1, -1j], _COSINES[:6] + 1j * _COSINES[:0:-1]).ravel()
 
 
 def unit(degrees: ArrayLike) -> Complex:
-    """Return e^{i x} for x in degrees, any shape, within 2 ulp. It is exact at multiples of 30 and
-    45 degrees, after any number of turns.
+    """Return e^{i x} for angles x in degrees, any shape, within 2 ulp. It is exact at multiples of
+    30 and 45 degrees, also beyond a whole turn.
 
     The value at the nearest multiple of 15 degrees comes from a table, and is turned by the
     remaining angle, which floating point computes exactly.
@@ -175,21 +175,23 @@ class Phasors:
 
     @property
     def major(self) -> Array:
-        """Longer semi-axis of the ellipse; the amplitude of a scalar."""
+        """Longer semi-axis of the ellipse that the vector of an order describes in a cycle of this
+        order; for a scalar, its amplitude.
+        """
         ahead, astern = self._sizes
         return ahead + astern
 
     @property
     def minor(self) -> Array:
-        """Shorter semi-axis of the ellipse; 0 if it is within its rounding error."""
+        """Shorter semi-axis of the same ellipse; 0 if it is within its rounding error."""
         ahead, astern = self._sizes
         minor = np.abs(ahead - astern)
         return np.where(minor <= 2 * self.noise, 0, minor)
 
     @property
     def axis_deg(self) -> Array:
-        """Angle of the major axis from x, deg in (-90, 90]; nan for a circle, a balanced order or a
-        mean.
+        """Angle of the longer axis of the ellipse from x, deg in (-90, 90]; nan for a circle, a
+        balanced order or a mean.
         """
         angle = np.degrees((np.angle(self.forward) + np.angle(self.backward)) / 2)
         turned = wrap_degrees(angle, 180)

@@ -147,8 +147,8 @@ class PiecewiseCurve:
 
     def extremes(self) -> tuple[Extreme, Extreme]:
         """Return the lowest and the highest value, each at the first angle that has it; at a jump,
-        the values on both sides count. A value below the rounding error of the largest size
-        becomes 0.
+        the values on both sides count. An extreme below the rounding error of the curve's largest
+        absolute value becomes 0.
         """
         return self._find_top(-1), self._find_top(1)
 
@@ -350,8 +350,9 @@ class Panels:
 
         Args:
             samples: Samples of the forces, shape (forces, samples).
-            orders: Orders, shape (orders,), up to the highest for which the panels were made. For
-                orders that the period does not have, the vectors are 0.
+            orders: Orders, shape (orders,), up to the highest for which the panels were made. If
+                the oscillations of an order in the period are not a whole number, its vectors are
+                0.
         """
         weighed = (samples * quadrature(self.breaks)[1].reshape(-1)).T
         both = np.hstack([weighed, weighed.conj()])
@@ -361,7 +362,7 @@ class Panels:
         against = against.conj()
         against[orders == 0] = 0.0  # the mean is kept in `ahead`
         waves = orders * (self.breaks[-1] - self.breaks[0]) / (2 * np.pi)
-        there = np.abs(waves - np.rint(waves)) < 0.1  # orders that the period has
+        there = np.abs(waves - np.rint(waves)) < 0.1  # whole numbers of oscillations
         ahead[~there] = against[~there] = 0.0
         return ahead, against
 
@@ -390,12 +391,12 @@ class Panels:
 
 
 def find_panels(forces: Vectors, breaks: Array, highest_order: float) -> Panels:
-    """Return panels for forces that are smooth between breakpoints, fine enough for all orders.
+    """Return panels for forces that are smooth between breakpoints.
 
     Args:
         forces: Function that returns the values of all forces at angles (rad).
         breaks: Rising breakpoints, rad; the last is one period after the first.
-        highest_order: Highest order for which the panels are fine enough.
+        highest_order: Highest order for which the panels must be fine enough.
     """
 
     def add_squares(angle: Array) -> Array:

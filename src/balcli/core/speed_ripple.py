@@ -2,12 +2,16 @@
 shaft under a varying torque.
 
 Forces: the speed is given as `omega = omega_m W`, where omega_m is the mean speed and W is 1 plus a
-few harmonics ("lines"). If G is the momentum at crank speed 1, the momentum is `omega_m W G` and
-the force `-omega_m^2 W (W G)'`; the couple follows in the same way from the moment of momentum. The
-inertia torque is `-omega_m^2 1/2 (I W^2)'` (from `-(1/2 I' omega^2 + I omega omega')`,
-docs/theory.md). For Fourier coefficients these products are short convolutions, so every order is
-as exact as at steady speed. Orders are whole, or multiples of 1/2 if the speed repeats itself after
-two revolutions.
+few harmonics ("lines"). A prime is a derivative by the crank angle. If G is the momentum at crank
+speed 1, the momentum is `omega_m W G` and the force `-omega_m^2 W (W G)'`; the couple follows in
+the same way from the moment of momentum. With the moment of inertia I, the inertia torque is
+`-omega_m^2 1/2 (I W^2)'` (from `-(1/2 I' omega^2 + I omega omega')`, docs/theory.md). For Fourier
+coefficients these products are short convolutions, so every order is as exact as at steady speed.
+Orders are whole, or multiples of 1/2 if the speed repeats itself after two revolutions.
+
+At uneven speed, a curve is one sum of harmonics of the crank angle and another sum of harmonics of
+the time. "Orders over the angle" are oscillations per revolution. "Orders over the time" are
+oscillations per mean time of a revolution, as a spectrum analyser shows them.
 
 Speed under a torque: the energy `1/2 I omega^2` grows by the work E of the torque less the load. So
 `omega^2 = (C + 2 E)/I` at every angle, and no differential equation has to be solved. I is the
@@ -30,7 +34,8 @@ from .phasors import EPS, Array, Complex, Figure, Phasors, unit
 from .piecewise import Extreme, Function, PiecewiseCurve, find_zero, resolved
 
 Number = TypeVar("Number", np.float64, np.complex128)
-_FELT = 1e-13  # smaller contributions of orders over the angle to orders over the time count as 0
+# An order over the angle that adds less than this share of itself to an order over the time adds 0.
+_FELT = 1e-13
 
 
 class RippleLine(NamedTuple):
@@ -42,8 +47,9 @@ class RippleLine(NamedTuple):
 
 
 def find_speed(lines: Iterable[RippleLine], step: float = 1.0) -> Complex:
-    """Return the Fourier coefficients of W at the orders from -k to k steps, shape (2 k + 1,
-    *trailing); k steps are the highest order of the lines.
+    """Return the Fourier coefficients of W at all multiples of the step from minus the highest
+    order of the lines to this order, shape (2 k + 1, *trailing), where k is the highest order
+    divided by the step.
 
     Args:
         lines: Harmonics of the uneven speed; their orders are multiples of the step.
@@ -76,8 +82,9 @@ class Timetable(NamedTuple):
     """Times at which a crank of uneven speed passes equally spaced angles of a cycle.
 
     Attributes:
-        clock: Time at which the crank passes each angle, shape (samples,), as the angle (rad) that
-            a uniformly turning crank with the same time for a cycle has then, up to a constant.
+        clock: Time at which the crank passes each angle, shape (samples,), measured as an angle
+            (rad): the angle through which a crank of the same cycle time turns until then at
+            uniform speed. The zero of the time is arbitrary.
         stay: Time per angle, relative to its mean, shape (samples,).
         step: Step of the orders: 1 for a cycle of one turn, 1/2 for a cycle of two turns.
         turns: Speed averaged over the time, relative to the speed averaged over the angle.
@@ -173,7 +180,8 @@ def apply_speed(
     shape = (2 * n + 1, *np.broadcast_shapes(forces.shape[1:], np.shape(mean)))
     momentum = np.broadcast_to(1j * forces / divisor, shape).copy()  # force = -i n momentum
     momentum[n] = mean
-    sizes = np.broadcast_to(noise / EPS / np.abs(divisor), shape).copy()  # sizes with this noise
+    # magnitudes of momenta whose rounding errors are this noise
+    sizes = np.broadcast_to(noise / EPS / np.abs(divisor), shape).copy()
     sizes[n] = np.maximum(sizes[n], np.abs(mean))
     result = shake(momentum, w, np.asarray(1j * order, np.complex128))
     magnitudes = (np.asarray(v, np.complex128) for v in (sizes, np.abs(w), np.abs(order)))
@@ -198,7 +206,7 @@ def _convolved(series: Complex, w: Complex) -> Complex:
 
 
 def _two_sided(backward: NDArray[Number], forward: NDArray[Number]) -> NDArray[Number]:
-    """Return the rows of the orders -N .. N from those of 0 .. N in both directions."""
+    """Return the rows of the orders -N .. N: backward rows N .. 1, then forward rows 0 .. N."""
     return np.concatenate([backward[:0:-1], forward])
 
 
@@ -210,9 +218,11 @@ class Surplus(NamedTuple):
     """Surplus energy of a torque over a constant load.
 
     Attributes:
-        energy: Highest less lowest value of the integral of torque less load over the angle, J.
-        start: First angle of the lowest speed at constant inertia, rad, in [0, period).
-        end: First angle of the highest speed at constant inertia, rad, in [0, period).
+        energy: Highest minus lowest value of the running integral of (torque - load) over the
+            angle, J.
+        start: First angle at which this integral is lowest, rad, in [0, period). At constant
+            inertia, the speed is lowest there.
+        end: First angle at which this integral is highest, rad, in [0, period).
     """
 
     energy: float
@@ -270,7 +280,7 @@ def speed_variation(torque: PiecewiseCurve, inertia: Function, mean_speed: float
         StallError: The shaft would stop.
     """
     wanted = mean_speed**2
-    done = torque.antiderivative(torque.mean)  # energy above the load
+    done = torque.antiderivative(torque.mean)  # work of the torque less that of the load
     slowest, _ = done.extremes()
     panels = np.unique(np.append(done.breaks, slowest.angle))
 

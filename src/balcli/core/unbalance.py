@@ -26,7 +26,8 @@ def find_drill_depth(unbalance: float, rim: float, drill: float, density: float 
         density: Density of the rotor, kg/m3; for a hole with a slug, the density of the slug less
             that of steel.
     """
-    unbalance_per_square = density * math.pi / 4 * drill**2  # kg m, for a depth and radius of 1 m
+    # kg m, for a hole of 1 m depth whose centre of mass is at the radius 1 m
+    unbalance_per_square = density * math.pi / 4 * drill**2
     share = unbalance / unbalance_per_square / rim**2  # = h/rim - (h/rim)^2 / 2, at most 1/2
     return rim * 2 * share / (1 + math.sqrt(1 - 2 * share)) if share <= 0.5 else math.nan
 

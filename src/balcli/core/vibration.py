@@ -18,9 +18,13 @@ Complex = NDArray[np.complexfloating]
 Indices = NDArray[np.intp]
 
 UNDAMPED = 2e-9  # a loss factor up to this counts as 0: a vibration would take 1e8 periods to decay
-ROUNDING = 1e-12  # smaller shares of damping, and relative distances of frequencies, are rounding
-_UNMOVED = 1e-10  # a load drives no mode on which it does less than this share of its largest work
-_SINGULAR = 1e-11  # a matrix is singular if the work of the load is below this share of its terms
+# Smaller shares of damping and smaller relative distances of frequencies are rounding errors.
+ROUNDING = 1e-12
+# A load does not drive a mode if its work on the mode shape is below this share of the work that it
+# could do at most on any mode.
+_UNMOVED = 1e-10
+# Equations A x = f are singular if |x| |f| is below this share of |x| |A| |x|.
+_SINGULAR = 1e-11
 _RANK = 1e-13  # singular values below this share of the largest are 0
 
 
@@ -39,7 +43,7 @@ class Modes(NamedTuple):
 
 
 class Resonance(NamedTuple):
-    """An undamped mode, by its index in `Modes`, that an order excites at a speed (rad/s)."""
+    """An undamped mode (its index in `Modes`) that an order excites at a crank speed (rad/s)."""
 
     mode: int
     order: float
@@ -62,7 +66,7 @@ def find_modes(springs: Real, stiffness: Real, mass: Real, rigid: Real | None = 
     """Return natural modes of masses on springs.
 
     The frequencies are the singular values of `k^1/2 S M^-1/2`. The roots of the eigenvalues of
-    `(S^T k S, M)` are the same, but low ones would lose half their digits by the squaring.
+    `(S^T k S, M)` are the same, but the squaring would cost low frequencies half their digits.
 
     Args:
         springs: S, stretch of each spring per unit of each motion, shape (springs, dof).
@@ -95,8 +99,8 @@ def scale_shapes(shapes: Real) -> Real:
 
 
 def modal_loss(modes: Modes, stiffness: Complex, damping: Real) -> Real:
-    """Return the loss factor of every mode x, `x^T (Im K + w C) x / w^2`, shape (modes,); it is 0
-    for rigid modes.
+    """Return the loss factor `x^T (Im K + w C) x / w^2` of every mode, shape (modes,); it is 0 for
+    rigid modes. Here x is the mode shape and w the angular frequency of the mode.
 
     At resonance, a single mode is magnified by the inverse of its loss factor.
 

@@ -17,8 +17,8 @@ fires, and so on. The groups of `RULES` are checked from early stages to late on
 with mistakes ends the check, because later rules presuppose earlier ones. Mistakes in tables that
 the rules do not need do not prevent these checks (`engine.parse`).
 
-Variants of an engine are built in the same way: arrays in `varied` replace figures of the file, and
-every stage accepts arrays as well as numbers.
+Variants of an engine are built in the same way: the argument `varied` of `build` has arrays that
+replace figures of the file, and every stage accepts arrays as well as numbers.
 """
 
 from __future__ import annotations
@@ -69,9 +69,9 @@ def build(
             `crank.throws.2`). The arrays broadcast against each other. If a figure varies and the
             file gives throws, the firing order is ignored, unless the file has [gas] and all
             values are numbers.
-        rank: Minimum number of trailing axes, the axes of the variants. A figure that does not vary
-            along such an axis has length 1 along it, as has every result that depends only on
-            figures that do not vary there.
+        rank: Minimum number of trailing axes (the last axes of each array, along which figures
+            differ from variant to variant). A figure that does not vary along one of these axes
+            has length 1 there; so has a result that depends only on such figures.
         gas: Gas of the engine, if it is already known.
 
     Raises:
@@ -143,8 +143,8 @@ def build_fitted(
 ) -> Device:
     """Return a device of an engine, in SI units. If engines are geared together, the angle of a
     counterweight counts from cylinder 1's crank pin in the engine that carries the counterweight,
-    in that engine's direction of rotation. The z of every device is in the axes of the joined
-    engine.
+    in that engine's direction of rotation. The z of every device is in the axes of `engine`, which
+    joins these engines.
 
     Args:
         table: Table of the device in an engine file.
@@ -263,7 +263,7 @@ def check_articulation(parts: Parts) -> Iterator[Problem]:
 
 
 def _check_knuckle_angles(parts: Parts) -> Iterator[Problem]:
-    """Check that the knuckle angle of the master rod's bank is 0, in every row."""
+    """Check that the knuckle angle of the master rod's bank is 0 on every throw."""
     rows = parts.find_knuckle_angles() or ()
     for master, angles in zip(parts.find_master_places(), rows, strict=False):
         if np.any(np.asarray(angles[master - 1]) != 0):

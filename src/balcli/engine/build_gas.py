@@ -1,8 +1,8 @@
 """Build the gas in an engine's cylinders from [gas] and the gas keys of single cylinders.
 
-The pressure in a cylinder is measured (`engine.indicator`) or computed from a cycle
-(`core.gas_cycle`); tables of engine builders have harmonics of the torque instead. Cylinders with
-equal mechanism, diagram and heat share one torque curve.
+The pressure in a cylinder is measured (an indicator diagram, `engine.indicator`) or computed from a
+cycle (`core.gas_cycle`). Instead of a pressure, tables of engine builders give harmonics of the
+torque. Cylinders with equal mechanism, diagram and heat share one torque curve.
 """
 
 from __future__ import annotations
@@ -34,8 +34,9 @@ from .layout import find_first
 from .parts import Parts
 
 _HARMONICS = (Head("order"), Head("cos"), Head("sin"))
-# Above this ratio of heat to pressure x volume of the charge, a warning is given. If the fuel uses
-# all the air, the ratio is 34: 2.95 MJ per kg of air at 300 K, for petrol and Diesel fuel alike.
+# A warning is given if the heat, divided by the product of the charge's pressure and volume, is
+# above this ratio. If the fuel uses all the air, the ratio is 34: 2.95 MJ per kg of air at 300 K,
+# for petrol and Diesel fuel alike.
 HEAT_MOST = 40.0
 _KEPT = 512  # number of speeds for which the gas is cached
 _OVERSPEED = 1.6  # beyond this multiple of the rated speed, the gas is not interpolated
@@ -47,7 +48,7 @@ class _Source(NamedTuple):
 
     Attributes:
         number: Cylinder number.
-        path: Key that names the diagram of the cylinder.
+        path: Key that names the file with the indicator diagram of the cylinder.
         indicator: Name of the file with this diagram; None without a diagram.
         heat: Heat supplied in a computed cycle, J; None if the file gives none.
         heat_path: Key that gives this heat.
@@ -90,8 +91,8 @@ def build_gas(parts: Parts) -> EngineGas:
 
 def _find_knees(gas: Gas, found: Sequence[GasPiston], strokes: int) -> list[Array]:
     """Return, for each piston, the speed (as a share of the rated speed) up to which the propeller
-    law demands less imep than the cycle has without heat. A dual cycle has a second array: speeds
-    up to which the law demands less imep than the cycle needs to reach `max_pressure`.
+    law demands less imep than the cycle has without heat. For a dual cycle, a second array follows:
+    the speeds up to which the law demands less imep than the cycle needs to reach `max_pressure`.
     """
     process, rated = _describe_process(gas, strokes), _find_goal(gas, None).value
     kinds = ("otto", "dual") if gas.cycle == "dual" else (process.cycle,)
@@ -175,7 +176,9 @@ def _take_at(gas: Gas, speed: float) -> Gas:
 
 
 def _name_point(gas: Gas, number: int, text: str) -> str:
-    """Return a path or warning in which keys of a point have their full path, `gas.at.1.imep`."""
+    """Return a path or warning in which `gas.imep` and the other keys of a point of [[gas.at]] are
+    replaced by their full paths, such as `gas.at.1.imep`.
+    """
     if not (keys := "|".join(gas.keys_of_points)):
         return text
     return re.sub(rf"\bgas\.({keys})\b", rf"gas.at.{number}.\1", text)
@@ -331,8 +334,9 @@ def _list_contradictions(parts: Parts, gas: Gas, bore: float | None) -> Iterator
 def _read_harmonics(
     name: str, columns: NumberColumns, piston: GasPiston, strokes: int
 ) -> GasTorque:
-    """Return the torque of a builders' table: `T/(A r)` is the sum of `a cos(n c) + b sin(n c)`
-    over all orders n, where c is the crank angle after the firing dead centre.
+    """Return the torque of a builders' table: the torque divided by piston area and crank radius,
+    in bar, is the sum of `a cos(n c) + b sin(n c)` over all orders n. Here c is the crank angle
+    after the firing dead centre, and a and b are the columns cos and sin of the table.
 
     Raises:
         BalcliError: The first mistake in the table, with its line number.

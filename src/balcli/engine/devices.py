@@ -96,15 +96,15 @@ def build_device(
         spin = table.ratio * take(f"{path}.inertia", table.inertia) / 1e6
         kind = DeviceKind.SHAFT
         return Device(order, forward, backward, place, z, kind, compensates, spin)
-    # The displacement `U cos(n theta + angle)` is the sum of two vectors of half the size, which
-    # turn in opposite directions.
+    # With unbalance U, order n and crank angle theta, the vector `U cos(n theta + angle)` along the
+    # slider's path is the sum of two vectors of size U/2, which turn in opposite directions.
     half = _turn(0.5, take(f"{path}.direction", table.direction))
     forward, backward = half * turning, half * np.conj(turning)
     return Device(table.order, forward, backward, place, z, DeviceKind.SLIDER)
 
 
 def _turn(size: Figure, angle_deg: Figure) -> Complex:
-    """Return the vector of a size and a direction at crank angle 0, deg."""
+    """Return the vector that has this size and, at crank angle 0, this direction (deg)."""
     return size * unit(angle_deg)
 
 
@@ -194,7 +194,7 @@ def group_eccentrics(shafts: Iterable[Shaft]) -> list[tuple[str, dict[int, Shaft
     Args:
         shafts: All [[shaft]] tables.
 
-    Returns: For each shaft its name, or `shaft 2` by its number if it has no name, and its entries.
+    Returns: For each shaft, its name (without a name, `shaft 2` by its number) and its entries.
     """
     groups: dict[tuple[str, int], dict[int, Shaft]] = {}
     for number, table in enumerate(shafts, 1):
@@ -204,8 +204,9 @@ def group_eccentrics(shafts: Iterable[Shaft]) -> list[tuple[str, dict[int, Shaft
 
 
 def check_shafts(parts: Parts) -> Iterator[Problem]:
-    """Check that eccentrics with the same name have the same `ratio` and `at`, that each key of the
-    whole shaft is in only one of their tables, and that a shaft with drag has a gear.
+    """Check the [[shaft]] tables with the same name, which are the eccentrics of one shaft: their
+    `ratio` and `at` are equal, a key that describes the whole shaft is in only one of them, and a
+    shaft with `drag` has a `gear`.
     """
     for name, entries in group_eccentrics(parts.model.shaft):
         first, *others = entries

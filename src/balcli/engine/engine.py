@@ -40,9 +40,9 @@ class Bearings(NamedTuple):
     """Bearings of the crankshaft; None where the file gives none.
 
     Attributes:
-        pin_m2: Projected area (diameter times width) of each crank pin's bearing.
-        main_m2: Projected area of each main bearing.
-        pin_m, main_m: Outer and inner diameter of each crank pin and of each main journal.
+        pin_m2: Projected area (diameter times width) of each crank pin's bearing, m2.
+        main_m2: Projected area of each main bearing, m2.
+        pin_m, main_m: Outer and inner diameter of each crank pin and of each main journal, m.
     """
 
     pin_m2: float | None = None
@@ -435,8 +435,8 @@ class Engine:
 
     @property
     def rotary(self) -> bool:
-        """Whether the cylinders turn about a crank at rest. All their masses then belong to the
-        linkage.
+        """Whether the cylinders turn about a crank at rest. `cylinders.linkage` then has all their
+        masses.
         """
         c = self.cylinders
         return c.linkage is not None and c.linkage.turning and not self.placed
@@ -551,8 +551,8 @@ class Engine:
 
     @property
     def mechanical_efficiency(self) -> float | None:
-        """Brake work over indicated work; None if the file does not give it, or if some cylinders
-        do not fire, because their friction remains.
+        """Brake work over indicated work; None if the file does not give it. Also None if some
+        cylinders do not fire: their friction remains, so the efficiency in the file does not hold.
         """
         if self.gas is None or any(self.silent):
             return None
@@ -575,7 +575,7 @@ def check_engine(function: str, value: object) -> Engine:
 
 
 def refuse_geared(subject: Engine | EngineFile) -> None:
-    """Raise an error for engines that are geared together, which some results do not cover.
+    """Raise an error if engines are geared together, for results that cover only a single engine.
 
     Raises:
         BalcliError: The engine, or its file, joins several engines.

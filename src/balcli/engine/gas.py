@@ -1,7 +1,7 @@
 """Describe the gas in an engine's cylinders: torque over the cycle and firing angle.
 
 The cycle angle of a cylinder is 0 at the upper dead centre at which it fires. In a four-stroke
-engine, the firing order determines in which of the two revolutions that is.
+engine, the firing order determines in which of the two revolutions the cylinder fires.
 """
 
 from __future__ import annotations
@@ -31,8 +31,8 @@ class CylinderGas(NamedTuple):
             axis of the cylinder when it fires.
         share: Factor by which the gas force is multiplied; 0 is a misfire.
         heat: Heat supplied in a computed cycle, J; None if the file gives none.
-        like: Row of the first cylinder with an equal mechanism, diagram and heat. The two cylinders
-            differ at most in `nominal_deg` and `share`.
+        like: Row of the first cylinder with an equal mechanism, diagram and heat. The gas of this
+            cylinder differs from the gas of that row at most in `nominal_deg` and `share`.
     """
 
     piston: GasPiston
@@ -114,7 +114,7 @@ class EngineGas:
 
     def follow(self, find: Callable[[EngineGas], ArrayLike]) -> Callable[[ArrayLike], Array]:
         """Return a function that computes a figure of the gas for an array of speeds (rpm). The
-        array that this function returns has the shape (*speeds, *figure).
+        array that it returns has the axes of the array of speeds, then the axes of the figure.
 
         Args:
             find: Function that returns the figure for the gas at one speed. The figure has to be
@@ -162,13 +162,13 @@ class EngineGas:
 
 @dataclass(frozen=True, eq=False)
 class GasLaw:
-    """Gas of an engine as a function of its speed, smooth between nodes. Outside the points of the
-    file, the gas of the first or last point is used.
+    """Gas of an engine as a function of its speed, smooth between nodes. Outside the points of
+    [[gas.at]], the gas of the first or last point is used.
 
     Attributes:
         solve: Function that returns the gas at a speed, rpm; InputError if no cycle can be
             computed.
-        nodes_rpm: Rising speeds. Without a law: the speeds of [[gas.at]]. For the propeller law: 0,
+        nodes_rpm: Rising speeds. For [[gas.at]]: speeds of its points. For the propeller law: 0,
             the speeds at which a cycle begins to burn or to reach `max_pressure`, the rated speed,
             and an overspeed.
         linear: Whether all pressures are linear in the speed between the nodes.

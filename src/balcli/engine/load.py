@@ -165,11 +165,11 @@ def choose_speeds(
     engine: Engine, values: Mapping[str, float], usual: Callable[[Engine], Real]
 ) -> Real:
     """Return the speeds (rpm) over which the largest value of a quantity is sought: only the
-    speed of the variant if the speed varies, else the usual speeds.
+    variant's own speed if the speed is one of the varied figures, else the usual speeds.
 
     Args:
         engine: Engine of the variant.
-        values: Values that vary, by dotted names.
+        values: Varied figures of this variant, by dotted names.
         usual: Function that returns the usual speeds, rpm.
     """
     return np.array([float(engine.speed_rpm)]) if SPEED in values else usual(engine)

@@ -52,7 +52,8 @@ from .layout import (
 from .parts import Parts
 
 LIST_LENGTH = 3  # largest number of engines in a list to choose from
-NARROW_DEG = 30.0  # largest bank angle of a vee with one head (its cylinder axes miss the crank)
+# Largest bank angle of a vee with one head, whose cylinder axes pass beside the crank axis.
+NARROW_DEG = 30.0
 FREE_END = (
     "Numbers count from the free end. If the maker counts from the flywheel end, reverse every "
     "list."
@@ -111,7 +112,8 @@ class Candidate:
         model: The file with `layout.numbering` and, if needed to fit, other firing intervals or
             another splay.
         numberings: Numberings that describe this engine; the first is that of `model`.
-        change: Another key and its value, if this engine fits only with a change; else empty.
+        change: Key to change and its new value as text, `crank.splay = 30`, if this engine fits
+            only with this change; else empty.
     """
 
     model: EngineFile
@@ -163,9 +165,9 @@ class Candidate:
 
     @property
     def backward_share(self) -> float:
-        """Backward vector of order 1 as a share of one cylinder's force of order 1: the larger of
-        the shares of the force and of the moment over engine length. If the positions are not
-        known, only the force counts.
+        """Size of the vector of order 1 that turns against the crank, divided by one cylinder's
+        force of order 1. The force and the moment (divided by the engine length) have such a
+        vector, and the larger counts; if the positions are not known, only that of the force.
         """
         force, moment = (float(abs(p.backward[0])) for p in self.balance)
         parts, c = self.parts, self.parts.cylinders
@@ -223,7 +225,8 @@ def _change(
 
 def find_missed(parts: Parts) -> list[Problem]:
     """Return the mistake of the first cylinder that is not at its dead centre when it fires.
-    Cylinders with articulated rods may fire at their true or at their nominal dead centres.
+    With articulated rods, cylinders may fire at their true dead centres, or at their nominal ones:
+    crank pin on the cylinder's axis.
     """
     if parts.order is None:
         return []
@@ -383,8 +386,9 @@ def _find_remedies(parts: Parts) -> list[Candidate]:
 
 
 def _list_shared_intervals(parts: Parts) -> Iterator[tuple[float, ...]]:
-    """Yield the possible firing intervals of a vee with two rods on each pin. The bank angle (or
-    this angle plus a turn) alternates with the rest of two even intervals; either may be first.
+    """Yield the possible firing intervals of a vee with two rods on each pin. Two intervals
+    alternate, and either may be first: one is the bank angle, or the bank angle plus a turn; both
+    together are twice the interval of even firing.
     """
     first, second = map(float, bank_angles(parts.model.layout, parts.figures))
     both = 2 * cycle_deg(parts.model.layout) / len(parts.plan.cells)

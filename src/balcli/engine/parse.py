@@ -37,8 +37,8 @@ def parse(text: str | bytes, name: str = "") -> EngineFile:
         name: Name of the file, for messages.
 
     Raises:
-        InputError: The text has mistakes; the error lists all of them, and contradictions between
-            the tables without mistakes.
+        InputError: The text has mistakes. The error lists all of them, and also the contradictions
+            between tables that have no mistakes themselves.
     """
     return _refuse_mistakes(read_tables(text, name), name)
 

@@ -71,8 +71,8 @@ def find_gears(parts: Parts) -> dict[int, RunningGear]:
 
 def find_strokes(parts: Parts) -> dict[int, Figure]:
     """Return twice the crank radius of each cylinder's pin, mm, by cylinder number. A cylinder with
-    an articulated rod has the value of its master. Key 0 has the stroke of the first throw, which
-    belongs to the general figures of rods.
+    an articulated rod has the value of its master. Key 0, the number for the general figures of
+    rods, has the stroke of the first throw.
     """
     on_pin = {c.number: parts.masters.get(c.number, c.number) for c in parts.plan.cells}
     throws = {c.number: parts.throw_strokes[c.throw] for c in parts.plan.cells}
@@ -317,8 +317,8 @@ def _link(parts: Parts, at_pistons: Array) -> Linkage | None:
 
 
 def _hang_rods(parts: Parts, table: Articulation) -> Articulated:
-    """Return the mechanism of master and articulated rods. Seen from turning cylinders, all angles
-    change sign.
+    """Return the mechanism of master and articulated rods. If the cylinders turn about a crank at
+    rest, all angles change sign.
     """
     numbers, masters, axes, rank = parts.numbers, parts.masters, parts.pins.axes_deg, parts.rank
     angles = {n: axes[n] - axes[master] for n, master in masters.items()}
@@ -446,8 +446,9 @@ class Parts:
         return {key: mass for key, mass in given.items() if mass is not None}
 
     def kind_of_rod(self, place: RodPlace) -> tuple[int, int, bool]:
-        """Return a key that is the same for rods with the same figures: cylinder and throw, if
-        these have figures of their own, and whether the rod is articulated.
+        """Return a key that is the same for rods with the same figures: cylinder number (0 if the
+        cylinder has no figures of its own), throw (0 if all throws have one stroke), and whether
+        the rod is articulated.
         """
         number, throw = place.number if place.number in self.tables else 0, 0
         if isinstance(self.model.crank.stroke, tuple) and place.number:

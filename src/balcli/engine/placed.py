@@ -107,7 +107,9 @@ _IGNORED = ("body", "mount", "point", "torsion", "locomotive", "operation", "fra
 
 
 def _tell_ignored(engines: Sequence[EngineTable], cranks: Sequence[EngineFile]) -> None:
-    """Report ignored tables of engines' files. [operation] and [frame] of the first are used."""
+    """Report the tables of the engines' files that are ignored. [operation] and [frame] are used in
+    the first engine's file, and ignored in the others.
+    """
     for k, (table, crank) in enumerate(zip(engines, cranks, strict=False)):
         keys = [key for key in (_IGNORED if k else _IGNORED[:5]) if crank.has(key)]
         if keys:
@@ -116,7 +118,7 @@ def _tell_ignored(engines: Sequence[EngineTable], cranks: Sequence[EngineFile]) 
 
 @contextmanager
 def _collecting(problems: list[Problem], number: int, file: str) -> Iterator[None]:
-    """Collect the mistakes of an engine's file, each with the path of the key that names it."""
+    """Collect the mistakes of an engine's file, each with the path `engine.N.file`."""
     try:
         yield
     except InputError as error:
@@ -169,7 +171,8 @@ def build_geared(
 
 def gear_engines(placed: Sequence[Placed]) -> Engine:
     """Return one engine, the whole, of engines that are geared together. The whole has the speed
-    and the point of reference of the first engine, and no devices besides those of the engines.
+    and the point of reference of the first engine. Its `devices` are empty; each engine keeps its
+    own devices.
     """
     speed = placed[0].engine.speed_rpm
     placed = [one._replace(engine=one.engine.at_speed(speed)) for one in placed]

@@ -94,8 +94,8 @@ def weigh_rod(
 
     Two masses at the ends of the rod replace it; they have its total mass and its centre of mass.
     `couple` corrects their moment of inertia (docs/theory.md). A pendulum test gives the moment of
-    inertia I of a rod of mass m by `I + m a^2 = m g a (T / 2 pi)^2`; T is the period, and a the
-    distance of the centre of mass from the pivot.
+    inertia I of a rod of mass m by `I + m a^2 = m g a (T / 2 pi)^2`: T is the period, g standard
+    gravity, and a the distance of the centre of mass from the pivot.
 
     Args:
         rod: Figures of the rod. If the mass of only one end is given, which is a mistake in the
@@ -110,7 +110,7 @@ def weigh_rod(
         mass, from_big_end = or_zero(rod.mass), or_zero(rod.cg)
         small, big = mass * (from_big_end / length), mass * ((length - from_big_end) / length)
     whole = small + big
-    share = small / np.where(whole == 0, 1.0, whole)  # centre of mass from the big end / l
+    share = small / np.where(whole == 0, 1.0, whole)  # (centre of mass to big end) / length
     two_masses = whole * share * (1 - share) * length**2
     if rod.inertia is not None:
         spin = rod.inertia

@@ -43,8 +43,8 @@ _SMALL_CHANGE = 0.1  # share of the largest reading; smaller changes give bad co
 _SMALLEST_RADIUS = 1.0  # smallest likely radius of weights, mm
 _FAR_BEYOND = 5.0  # coefficients hold for corrections up to this multiple of a trial weight
 _ROUNDING = 1e-13  # a prediction below this share of the largest reading is a rounding error
-# A warning is given if a reading differs from its prediction by more than this share of the largest
-# reading as found, or of the largest change by weights if it is larger.
+# A warning is given if a reading differs from its prediction by more than this share of a scale:
+# the largest reading as found, or the largest change by weights, whichever is larger.
 _SURPRISING = 0.5
 
 
@@ -77,7 +77,7 @@ def find_doubts(result: FieldBalance) -> Iterator[str]:
 
 
 def _doubt_trials(result: FieldBalance, series: list[Series]) -> Iterator[str]:
-    """Yield warnings of trial weights with little effect, and of corrections far above them."""
+    """Yield warnings of weak trial weights, and of corrections far above all trial weights."""
     for correction in result.corrections:
         plane, weight = correction.plane, abs(correction.weight)
         k = result.file.planes.index(plane)
@@ -128,7 +128,7 @@ def _doubt_runs(result: FieldBalance, series: Series) -> Iterator[str]:
 def _predict(series: Series, used: list[int]) -> tuple[Complex, float]:
     """Return the readings predicted by the first runs that determine the coefficients, shape (runs,
     sensors), and the scale for judging errors: the largest reading as found, or the largest change
-    by weights if it is larger.
+    by weights, whichever is larger.
     """
     count = count_needed(series, used)
     first = series._replace(readings=series.readings[:count], weights=series.weights[:count])
@@ -142,7 +142,7 @@ Minimise = Literal["squares", "max"]
 Weight: TypeAlias = Annotated[complex, Polar("weight", "angle_deg")]
 _READING = Polar("amplitude", "phase_deg")
 
-_NOISE = 1e-14  # a reading below this share of its cancelling terms is a rounding error
+_NOISE = 1e-14  # a residual below this share of the terms that cancel in it is a rounding error
 _NEGLIGIBLE = 1e-9  # negligible weight, as a share of a weight that cancels the largest reading
 _AT_EDGE = 1e3  # a weight closer to its limit than this many negligible weights is at its limit
 _G_MM = 1e-6  # 1 g mm in kg m
@@ -168,7 +168,7 @@ class Correction:
         plane: Name of the plane.
         weight: Correction weight relative to the rotor as found, with all trial weights off.
         add: Weight to add to the weight of the last correction run; left out without such a run.
-        unbalance_g_mm: Unbalance of the correction weight; left out if a radius for it is missing.
+        unbalance_g_mm: Unbalance of the correction weight; left out if the radius is unknown.
         own_effect: Share of the plane's effect that no combination of other planes can produce; 1
             if they can produce none of it.
         at_limit: Whether the places or the largest weight of the plane limit its correction.
@@ -200,9 +200,9 @@ class PlanePermitted:
         permitted_g_mm: Permitted residual unbalance.
         present_g_mm: Present unbalance, estimated from the last readings by least squares.
         scatter_g_mm: Distance from the estimate within which the true unbalance lies with 95 %
-            probability, judged by the residuals of the fit; left out if there are no more readings
-            than unknowns.
-        reached: Whether the sum of present unbalance and scatter is permitted.
+            probability, judged by the residuals of the fit; left out if there are only as many
+            readings as unknowns.
+        reached: Whether present unbalance plus scatter is at most the permitted unbalance.
         after_g_mm: Residual unbalance after the corrections.
     """
 

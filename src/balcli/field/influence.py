@@ -175,8 +175,8 @@ def find_scatter(file: RunsFile, runs: Influence, used: list[int], step: Complex
         step: Least-squares weights that cancel the readings best, shape (planes used,).
 
     Returns:
-        Distances as amounts of weight, shape (planes used,); None if there are no more readings
-        than unknowns.
+        Distances as amounts of weight, shape (planes used,); None if there are only as many
+        readings as unknowns.
     """
     after, blocks, squares, freedom = runs.weights_on.copy(), collect_series(file), 0.0, 0
     after[used] += step

@@ -85,7 +85,7 @@ class PlaneLimits(NamedTuple):
         return Region(0j if self.find_depth or math.isinf(self.most) else -weight_on, self.most)
 
     def plan(self, weight: complex, negligible: float) -> tuple[Piece, ...]:
-        """Return the weights, or holes, that replace a given weight in the region.
+        """Return the weights, or holes, whose sum is a given weight; it lies in the plane's region.
 
         Args:
             weight: Weight to add.

@@ -340,7 +340,7 @@ def _check_holes(file: RunsFile) -> Iterator[Problem]:
         yield Problem.of_missing("drill", "deepest is for holes, which need a diameter")
     for key, most, fault in (
         ("drill", 2.0, "is wider than its rim of radius {:g} mm"),
-        ("deepest", 1.0, "passes the axis, {:g} mm below the rim"),
+        ("deepest", 1.0, "passes the axis, which is {:g} mm below the rim"),
     ):
         pairs = zip(getattr(file, key) or (), file.radius or (), strict=False)
         for k, (size, rim) in enumerate(pairs, 1):

@@ -164,7 +164,7 @@ def _show_pieces(result: FieldBalance, system: System) -> Grid:
     if file.drill:
         note = (
             "Radial holes in steel, from the rim inwards, opposite to the weights. Each hole has "
-            "the effect of its weight at the rim; the removed steel is nearer the axis and heavier."
+            "the effect of its weight at the rim; the removed steel, nearer the axis, is heavier."
         )
     if result.trimmed and (file.drill or file.most):
         note += " Limits and depths ignore earlier weights and holes, which are not in the file."

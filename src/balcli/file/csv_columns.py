@@ -22,16 +22,18 @@ _CRANK_ANGLE = r"(?i)^(?:deg|°|degrees?)?[\s_.]*(?:ca|cad|ka|kw|crank angle|atd
 _DEGREES_OF_CRANK = r"(?i)cad|(?:°|deg(?:rees?)?)[\s_.]*(?:ca|kw|crank angle|atdc)"
 _THOUSANDS = r"[+-]?[1-9]\d{0,2}\.\d{3}"
 _STARTS_NUMBER = r"(?i)\s*[+-]?(?:\.?\d|nan\b|inf)"
-_SPACE = r"(?<=\d)[ \u00a0\u2009\u202f'](?=\d{3}\b)"  # between thousands
+_SPACE = r"(?<=\d)[ \u00a0\u2009\u202f'](?=\d{3}\b)"  # a blank or ' that separates thousands
 
 
 class Head(NamedTuple):
-    """The heads that a wanted column may have: the text above its numbers.
+    """A wanted column, described by the heads that it may have (a head is the text above the
+    numbers of a column).
 
     Attributes:
         usual: Usual head, such as torque_Nm. Heads with its name (torque) and another unit are
             accepted as well.
-        dimension: Dimension of the numbers; with PLAIN, only `usual` itself is accepted.
+        dimension: Dimension of the numbers; with PLAIN (numbers without a unit), only
+            `usual` itself is accepted.
         others: Accepted heads that messages list in addition to `usual`.
         symbols: Other names of the quantity, as a regular expression.
     """
@@ -104,7 +106,7 @@ def locate_beside(folder: Path, name: str) -> Path:
     """
     try:
         home, place = folder.resolve(), (folder / name).resolve()
-    except ValueError as error:  # letters that file names cannot have here, such as with LC_ALL=C
+    except ValueError as error:  # a letter that this system's file names lack (LC_ALL=C)
         raise BalcliError(f"{shorten(name)}: cannot be read ({error})") from None
     if not place.is_relative_to(home):
         raise BalcliError(f"{shorten(name)} is outside the folder of the engine file; put it there")
@@ -153,7 +155,7 @@ def _list_lines(text: str) -> dict[int, str]:
 def _parse(text: str, wanted: Sequence[Head]) -> NumberColumns:
     lines = _list_lines(text)
     first = next(iter(lines.values()), "")
-    # The separator is the most frequent of these marks in the heading; a comma if there is none.
+    # The separator is the mark that is most frequent in the heading; a comma if there is no mark.
     # Tabs after a comma or semicolon are only white space.
     mark = max(",;\t", key=re.sub(r"([,;])\s+", r"\1", first).count)
     if not re.search("[,;\t]", first) and re.search(r"\S\s+\S", first):

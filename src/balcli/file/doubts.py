@@ -18,7 +18,7 @@ from .plain_tables import list_tables
 from .units import ask_unit
 
 # The mass of similar pistons grows with the cube of the bore. With pin and rings, aluminium pistons
-# have 300 to 1000 kg per m^3 of bore^3 (racing to lorry), pistons of cast iron up to 3000. The
+# have 300 (racing) to 1000 (lorry) kg per m^3 of bore^3, pistons of cast iron up to 3000. The
 # limits are wider; a confusion of g and kg is a factor of 1000.
 PISTON = 100.0, 5000.0  # mass of a piston over bore^3, kg/m^3
 CROSSHEAD_HEAVY = 40_000.0  # largest mass of piston and crosshead over bore^3, kg/m^3
@@ -41,8 +41,8 @@ SLOW_SPEED, SLOW_BORES = 250.0, 2.0  # rpm, bores
 OFFSET = 0.2  # largest offset / stroke: up to 0.05 is usual, in narrow-angle vees up to 0.15
 MAX_PRESSURE = 500.0  # largest cylinder pressure, bar; engines have 50 to 250
 # Absolute pressures: 0.26 bar at an altitude of 10 km, 10 bar after two stages of charging; figures
-# in psi or MPa lie outside. Mean pressures: 8 to 30 bar is usual, racing engines had 50; in psi, 7
-# bar are 100, which is outside.
+# in psi or MPa lie outside. Mean pressures: 8 to 30 bar is usual, racing engines had 50; 7 bar
+# are 100 psi, and 100 lies outside.
 PRESSURES = {
     **dict.fromkeys(("intake", "exhaust", "crankcase"), (0.15, 12.0, " bar absolute")),
     **dict.fromkeys(("imep", "bmep"), (0.0, 60.0, " bar")),
@@ -52,10 +52,11 @@ PRESSURES = {
 # crankshaft, with counterweights, weighs 4 to 10 times as much as the rods and pistons.
 THROW = 6.0
 BEARING = 0.5  # largest mass of shells or oil / mass of rod and piston: engines have up to 0.05
-# Doubtful range of the largest difference between two throw angles, deg. Cranks have 60 or more, or
-# 0. A difference of 1 to 10 comes from a firing order such as [1, 3, 4, 2], or angles in radians.
+# Doubtful range of the largest difference between two throw angles, deg. In a real crankshaft this
+# difference is 0, or 60 and more. A difference of 1 to 10 comes from a firing order such as
+# [1, 3, 4, 2], or from angles in radians.
 THROWS = 1.0, 10.0
-BANK = 4.0  # smallest angle between banks, deg: a narrow vee has 10 or more; 180 deg are 3.14 rad
+BANK = 4.0  # smallest bank angle, deg: narrow vees have 10 or more; 180 deg in radians are 3.14
 UNBALANCE = 5.0  # largest unbalance / (all moving masses x crank radius); balancing needs 1 or 2
 # Least inertia of a crankshaft or flywheel / inertia of rods and pistons at the crank radius:
 # engines have more than 1. A slip from kg m^2 to kg mm^2 is a factor of a million.

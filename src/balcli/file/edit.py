@@ -20,9 +20,9 @@ def set_keys(text: str, table: str, keys: Mapping[str, object], note: str) -> st
     """Return the text with some keys of a table set; comments are kept.
 
     A key keeps its place and its comment, to which the note is added. A new key comes last in its
-    table. If the table has a section of its own, only this section is edited, because tomlkit
-    reorders two lists whose tables alternate. If the result does not have the wanted values, the
-    file is written anew, without comments.
+    table. If the table has a section of its own, only this section is edited, because tomlkit would
+    reorder the file if tables of two lists alternate in it. If the result does not have the wanted
+    values, the file is written anew, without comments.
 
     Args:
         text: Text of the file.
@@ -99,8 +99,9 @@ def format_value(value: object) -> str:
 
 
 def _find_section(text: str, table: str) -> Iterator[tuple[int, int, str]]:
-    """Yield start and end of a table's section, and the table's name within it, where a member of a
-    list has the number 1. Yield nothing if the table has no section of its own.
+    """Yield start and end of the section that holds a table, and the name of the table within this
+    section, in which a member of a list is number 1. Yield nothing if the table has no section of
+    its own.
     """
     path, _, number = table.rpartition(".")
     in_list = number.isdigit() and path != "cylinder"

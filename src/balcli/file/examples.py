@@ -23,7 +23,7 @@ LAYOUT = "layout"  # class of the files that are in the folder of examples itsel
 
 
 class Example(NamedTuple):
-    """A shipped engine.
+    """An example engine that comes with balcli.
 
     Attributes:
         name: Short name: the name of its file without ending.

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 _DIGITS, _LAST = "0-9０-９¼-¾⅐-⅞", 'A-Za-zА-я°ºµμ²³¹π"”″㎀-㏟'
 STRING_PATTERN = rf"^\s*[+−–-]?\s*(?:pi|π|(?:[{_DIGITS}.]|pi|π).*[{_LAST}{_DIGITS}.])\s*$"
-RIGID = "rigid"  # infinite stiffness of a flange or a mesh of gears
+RIGID = "rigid"  # text for the infinite stiffness of a flange or of meshing gears
 
 
 def printable(text: str) -> str:
@@ -242,7 +242,7 @@ class Number(_Field):
 
 
 class Whole(_Field):
-    """A whole number (4.0 counts as 4), or a multiple of 1/2."""
+    """A whole number (4.0 counts as 4); if `halves` is true, a multiple of 1/2."""
 
     def __init__(self, *, least: float, most: int, zero: bool = True, halves: bool = False) -> None:
         self.least, self.most, self.zero, self.halves = least, most, zero, halves
@@ -307,7 +307,7 @@ class OneOrEach:
 
 
 class ListOrEach:
-    """A list that holds for all rows, or a list of such lists, one for each row.
+    """A list that holds for all rows of cylinders, or a list of such lists, one for each row.
 
     Args:
         one: Type of a list.
@@ -384,8 +384,8 @@ class Choice(NamedTuple):
         groups: Groups of keys, of which one may be given.
         required: Whether one group must be given.
         unless: Key that makes all groups optional if it is given; empty: there is no such key.
-        complete: Whether all keys of a group must be given if one of them is given. A group here
-            means that this holds only for that group.
+        complete: Whether all keys of a group must be given if one of them is given. If the value
+            is a group, this is required only of this group.
         instead: Keys that may be given in place of a required group, or in addition to it.
     """
 

@@ -38,7 +38,9 @@ MEAN_PRESSURES = ("imep", "bmep")
 
 
 class GasPoint(FileTable):
-    """Gas at one of several speeds. Between these speeds, figures and pressures are linear."""
+    """Gas at one of several speeds. Between two of these speeds, figures and pressures are
+    interpolated linearly.
+    """
 
     speed: Speed
     """Crank speed. Example: 1000"""
@@ -124,16 +126,17 @@ class Gas(FileTable):
     heat: Heat | None = None
     """Heat supplied per cycle and cylinder. Example: 1400"""
     burn_start: Angle = -15.0
-    """Wiebe: cycle angle at which the burn starts. Example: -10"""
+    """Wiebe: cycle angle (from the firing dead centre) at which the burn starts. Example: -10"""
     burn_duration: Duration = 50.0
     """Wiebe: crank angle that the burn takes. Example: 60"""
     burn_shape: Annotated[float, Number(PLAIN, least=0, most=100)] = 2.0
-    """Wiebe: form factor m, the exponent. Example: 1.5"""
+    """Wiebe: form factor m, the exponent of Wiebe's law. Example: 1.5"""
     exhaust_opens: Annotated[float, Number(ANGLE, above=0, most=360)] | None = None
-    """Cycle angle at which the exhaust opens; left out: lower dead centre. Example: 140"""
+    """Cycle angle (from the firing dead centre) at which the exhaust opens; left out: lower dead
+    centre. Example: 140"""
     intake_closes: Annotated[float, Number(ANGLE, least=360, below=720)] | None = None
-    """Cycle angle at which the intake closes, four-stroke; left out: lower dead centre. Example:
-    580"""
+    """Four-stroke: cycle angle (from the firing dead centre) at which the intake closes; left out:
+    lower dead centre. Example: 580"""
     harmonics: NamedFile | None = None
     """Table of harmonics from an engine builder: CSV file headed order,cos,sin, for the tangential
     pressure in bar (torque / (piston area * crank radius)) over the angle from the firing dead
@@ -180,7 +183,7 @@ class Gas(FileTable):
         """Return the keys whose values do not matter for the gas in this engine.
 
         Args:
-            strokes: 2 or 4.
+            strokes: Strokes of a cycle: 2 or 4.
             measured: Whether a cylinder has a diagram.
             computed: Whether a cylinder has a computed cycle.
         """
@@ -212,7 +215,7 @@ class Gas(FileTable):
                 yield f"gas.{key} = {at_dead_centre.get(key) or format(value, 'g')}"
 
     def _check_points(self) -> Iterator[str]:
-        """Check that the points have rising speeds and the same keys, which [gas] does not have."""
+        """Check that all points have the same keys, none of them in [gas], and that speeds rise."""
         if not self.at:
             return
         if len(self.at) == 1:

@@ -33,7 +33,7 @@ BESIDE_ENGINES = (*TEXTS, *_OF_WHOLE)
 
 
 def import_table(key: str) -> type[FileTable]:
-    """Return the class of the table with this key; import its module if it is of a chapter."""
+    """Return the class of the table with this key; the module of a chapter is imported first."""
     place = (CHAPTERS | CHAPTER_LISTS).get(key)
     table: type[FileTable] = getattr(import_name(place) if place else model, key.capitalize())
     return table
@@ -176,7 +176,7 @@ INSTEAD = {
     **dict.fromkeys(("cylinders", "count", "number_of_cylinders"), _COUNT),
     **dict.fromkeys(("radius", "crank_radius"), "give crank.stroke, twice the crank radius"),
 }
-# Least similarity of an unknown key and a proposed key: of the same table, and of another table
+# Least similarity (1: equal) of an unknown key to a proposed key of the same or of another table
 _NEAR = 0.65
 _NEAR_ELSEWHERE = 0.75
 
@@ -226,7 +226,7 @@ def suggest_place(key: str) -> str:
     if key in TEXTS:
         return f"{key} belongs at the head of the file, above all tables"
     having = [name for name, table in import_tables().items() if key in table.model_fields]
-    # Tables of chapters are named only if no other table has the key: there, the same key may have
-    # another meaning.
+    # Tables of chapters are named only if no other table has the key: in a chapter, the same key
+    # may have another meaning.
     names = [f"[{name}]" for name in having if name in TABLES] or [f"[{name}]" for name in having]
     return f"{key} belongs to {' or '.join(names)}" if names else ""

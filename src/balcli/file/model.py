@@ -1,9 +1,10 @@
 """The tables of an engine file: one pydantic class for each table, in the units of the file (mm,
 kg, degrees, rpm, kg mm^2, g mm, s).
 
-The tables only check figures. Values that follow from them (rod length from its ratio, inertia from
-a pendulum test) are computed by the package `engine`. pydantic builds a validator only for tables
-that a file has. The string below a key documents it (`table.document_keys`).
+The tables only check figures. Values that follow from these figures (the length of a rod from
+rod.ratio, its inertia from a pendulum test) are computed by the package `engine`. pydantic builds a
+validator only for tables that a file has. The string below a key documents it
+(`table.document_keys`).
 """
 
 import math
@@ -206,8 +207,9 @@ class Layout(FileTable):
     """Number of rows of a radial, each on a throw of its own; left out: one row for each throw.
     Example: 2"""
     row_angle: Angle | None = None
-    """Angle by which each row of a radial is turned from the row before it; left out: the banks
-    of all rows together are evenly spaced, or in line if rows is left out. Example: 25.714"""
+    """Angle by which each row of a radial is turned from the row before it; left out: if rows
+    is given, the banks of all rows together are evenly spaced; if not, the rows are in line.
+    Example: 25.714"""
     rods: Annotated[str, OneOf("shared", "alternating")] = "shared"
     """Shared: every throw carries one rod of each bank; alternating: every throw carries only one
     rod, and the throws belong to the banks in turn. Example: 'alternating'"""
@@ -409,7 +411,7 @@ class Counterweight(Device):
     )
 
     angle: Angle = 0.0
-    """Angle at crank angle 0, from cylinder 1's crank pin. Example: 180"""
+    """Angle from cylinder 1's crank pin to the counterweight. Example: 180"""
     engine: Annotated[str, Label()] | None = None
     """With [[engine]]: engine whose crank carries the counterweight; left out: the first engine.
     Example: 'lower'"""

@@ -82,8 +82,8 @@ class Mount(FileTable):
     left out: x and y. Example: [[0, 1, 0], [-1, 0, 0]]
     """
     angles: Annotated[tuple[Angle, ...], _three] | None = None
-    """Angles by which the mount's axes are turned about x, then y, then z, instead of axes.
-    Example: [0, -10, 0]
+    """Instead of axes: angles by which the mount's axes are turned about the engine's x, then its
+    y, then its z. Example: [0, -10, 0]
     """
     loss: Annotated[float, Number(PLAIN, least=0, most=10)] = 0.0
     """Loss factor of the stiffness. Example: 0.1"""

@@ -180,12 +180,13 @@ STEADY = ("crank.spacing", "layout.stagger", "crank.throw_mass", "crank.inertia"
 def choose_assumed(
     inferred: Iterable[str], chapters: Collection[str], without: Collection[str] = ()
 ) -> tuple[str, ...]:
-    """Return the lines of `engine.numbering.list_inferred` on which certain results depend.
+    """Return the lines about assumed defaults on which certain results depend.
 
     Args:
-        inferred: Lines such as `rod.cg = 0`.
-        chapters: As for `Engine.list_assumed`.
-        without: As for `Engine.list_assumed`.
+        inferred: Lines such as `rod.cg = 0`, from `engine.numbering.list_inferred`.
+        chapters: Tables on which the results depend, of those that not every result needs (gas,
+            torsion, body, mount, flywheel).
+        without: Keys to omit.
     """
     idle = _OF_CHAPTERS.difference(chapters).union(without)
     keys = ((line, line.partition(" =")[0]) for line in inferred)

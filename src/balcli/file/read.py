@@ -138,7 +138,7 @@ class TableReader:
         """
         place = join_path(path, [key])
         self._unknown += 1
-        if self._unknown > MOST_MISTAKES_SHOWN:  # these are only counted
+        if self._unknown > MOST_MISTAKES_SHOWN:  # further unknown keys are only counted
             self.problems.append(Problem(place, "unknown key", meant=""))
             return
         hint, near = suggest(key, own or (), is_engine=self.is_engine)
@@ -178,7 +178,7 @@ class TableReader:
                 *parents, last = finding["loc"]
                 inner = find_inner_table(table, finding["loc"]).keys()
                 self.refuse_key(join_path(path, parents), str(last), inner, finding["input"])
-            elif not (  # pydantic does not count members that have findings themselves
+            elif not (  # a list is not too short if pydantic only left out members with mistakes
                 finding["type"] == "too_short"
                 and len(finding["input"]) >= finding["ctx"]["min_length"]
             ):

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from pydantic import GetJsonSchemaHandler
     from pydantic_core import CoreSchema
 
-INTERVAL_TOLERANCE_DEG = 0.5  # tolerance of firing intervals, which are often printed rounded
+INTERVAL_TOLERANCE_DEG = 0.5  # of the sum of firing intervals, which are often printed rounded
 
 # The bounds of figures are far beyond any engine; products and powers of bounds do not overflow.
 Length = Annotated[float, Number(LENGTH, most=1e9)]
@@ -112,7 +112,7 @@ class FileTable(BaseModel):
 
     @model_validator(mode="after")
     def _consistent(self) -> FileTable:
-        """Raise ValueError if there are contradictions; its arguments are their messages."""
+        """If keys contradict each other, raise ValueError; its arguments are the messages."""
         of_choices = [fault for choice in self.choices for fault in choice.mistakes(self.given)]
         if found := [*of_choices, *self.contradictions()]:
             raise ValueError(*found)
@@ -149,7 +149,7 @@ class FileTable(BaseModel):
         return key in self.given
 
     def rivals(self, key: str) -> tuple[str, ...]:
-        """Return the keys that exclude this one, because they give the same figure."""
+        """Return the keys that exclude this key, because they give the same figure."""
         return tuple(rival for choice in self.choices for rival in choice.rivals(key))
 
     @classmethod

@@ -39,7 +39,8 @@ _HINTS = (
 
 
 def read_bytes(source: str | Path) -> bytes:
-    """Return the content of a file ("-": standard input), up to one byte more than the limit.
+    """Return the content of a file ("-": standard input). Of a file that is too large, return one
+    byte more than LARGEST_FILE_BYTES.
 
     Raises:
         BalcliError: The file cannot be read.
@@ -102,7 +103,7 @@ def parse_toml(text: str | bytes, file: str, right: str = ENGINE_FILE) -> Node:
         except RecursionError:
             decoded, message = "", _TOO_DEEP
         except ValueError:  # Python limits the number of digits
-            decoded, message = "", "has a number of thousands of digits"
+            decoded, message = "", "has a number with thousands of digits"
     # A text without any key or heading was not meant as TOML, unless it is empty.
     key = r"""^(?:[\w."' \t-]++=|[ \t]*+\[{1,2}[\w. \t-]*(?:\]|$))"""
     if re.search(r"^[ \t]*[^\s#]", decoded, re.M) and not re.search(key, decoded, re.M):
@@ -112,7 +113,7 @@ def parse_toml(text: str | bytes, file: str, right: str = ENGINE_FILE) -> Node:
 
 def _decode(text: str | bytes, right: str) -> tuple[str, str]:
     """Return the text of a file, and the reason why tomllib must not read it (empty if there is no
-    reason). The text is empty if the message need not say whether it is TOML.
+    reason). The text is empty if this reason is reported even for a text that is no TOML at all.
     """
     if len(text) > LARGEST_FILE_BYTES:
         decoded = text if isinstance(text, str) else text.decode("utf-8-sig", "replace")

@@ -140,7 +140,7 @@ class NodeKeys(FileTable):
     """Keys of a node: its name, its inertia, and its damper."""
 
     name: Name
-    """Name of the node; each node needs another name. Example: 'flywheel'"""
+    """Name of the node; the names of nodes must differ. Example: 'flywheel'"""
     inertia: GivenInertia | None = None
     """Moment of inertia; left out: the node is massless. Example: 2.075e6"""
     damper: Damper | None = None
@@ -161,7 +161,9 @@ class ChainKeys(FileTable):
 
 
 def find_stiffness(shaft: ShaftKeys) -> float:
-    """Return the torsional stiffness, N m/rad; for a plain shaft `G pi (D^4 - d^4)/(32 L)`."""
+    """Return the torsional stiffness, N m/rad. For a plain shaft with shear modulus G, diameter D,
+    bore d and length L it is `G pi (D^4 - d^4)/(32 L)`.
+    """
     if shaft.stiffness is not None or shaft.length is None:
         return math.inf if shaft.stiffness is None else shaft.stiffness
     return shaft.shear_modulus * 1e9 * _find_polar_moment(shaft) / (shaft.length / 1e3)
@@ -186,7 +188,7 @@ def _find_polar_moment(shaft: ShaftKeys) -> float:
 
 
 class _Ratio(Number):
-    """A speed ratio: it is not 0, and negative if the gears reverse the rotation."""
+    """A speed ratio. It must not be 0, and is negative if the gears reverse the rotation."""
 
     def read(self, value: object) -> float:
         ratio = super().read(value)
@@ -212,7 +214,7 @@ class Part(ShaftKeys, NodeKeys):
     part before this one in the list, or for the first part the nearest throw. Example: 'throw 1'
     """
     node_damping: Damping = 0.0
-    """Damping of the part against ground, such as a propeller in water. Example: 5"""
+    """Damping of the part against ground, such as that of a propeller in water. Example: 5"""
 
 
 class ThrowDamper(FileTable):

@@ -22,7 +22,7 @@ from unicodedata import normalize
 
 from ..limits import LONGEST_FIGURE
 
-# Names and the figures that define them. r, U (German Umdrehung) and tr (French tour) are
+# Names of units, and the figures that define them. r, U (German Umdrehung) and tr (French tour) are
 # revolutions; mmHg is 13 595.1 kg/m3 at standard gravity; Btu is that of the International Table.
 # No key takes a volume, temperature or current; their units are here so that messages name them.
 _DEFINED = """
@@ -235,7 +235,7 @@ _PER_SECOND = r"\d\.?(?:(?:\s+1)?\s*/\s*|\s*(?=\w+(?:\^|\*\*)?-))s(?:ec)?(?:(?:\
 _HERTZ = r"(\d\.?)\s*(k?)(?:Hz|hertz)\s*$"
 # pi/2, -3*pi/4 rad
 _PI = rf"\s*([+-]?)(?:({_NUMBER})\s*[*·⋅]?)?\s*(?:pi|π)(?:\s*/\s*({_NUMBER}))?(?:\s+rad)?\s*"
-# A mass unit stands for a force if only that fits: 24 lb in/rad, 0.3 lb in s2, 70 kg/cm2
+# A mass unit stands for a force if only a force fits: 24 lb in/rad, 0.3 lb in s2, 70 kg/cm2
 _FORCES = (
     (r"(?i)(?:\b|(?<=ft|in))(?:lbs?|pounds?)(?=\b|ft|in)", "lbf"),
     (r"(?i)\bkgs?(?=(?:\b|[cm]?m).*[/s])", "kgf"),  # "3 kgm" as a torque is rejected
@@ -462,7 +462,7 @@ def _find_pair(name: str) -> tuple[Unit, ...]:
 
 
 def ask_unit(unit: str, *others: str) -> str:
-    """Return the question in the warning of an unlikely figure: is it in the unit of bare numbers?
+    """Return the text for a warning that asks whether a figure is in the unit of bare numbers.
 
     Args:
         unit: Unit of bare numbers.

@@ -3,8 +3,9 @@ and loads of the main bearings.
 
 Inertia: the shaft is rigid. At each section the shear force is the sum of all loads between the
 free end and the section, and the bending moment is the moment of these loads about the section,
-`i sum (z_i - z) F_i` (M_x + iM_y). Just behind the last load, they are the free force and the free
-moment about this load. The bending moment is linear between loads, so its maxima are at loads.
+`i sum (z_i - z) F_i` (M_x + iM_y). Just behind the last load, the shear force is the free force,
+and the bending moment is the free moment about the position of this load. The bending moment is
+linear between loads, so its maxima are at loads.
 
 Gas and inertia: the shaft is treated as cut in each main bearing, so that every span is statically
 determinate. The shaft carries the forces of the rods, of the masses that turn with the throws and
@@ -110,7 +111,7 @@ class CrankLoads:
         main_N: Largest load of a main bearing; left out where all throws are at one position.
         main_mm: Axial position of this bearing; left out where all throws are at one position.
         inner_moment_Nm: Largest bending moment.
-        inner_mm: Axial position of this bending moment.
+        inner_mm: Axial position of the largest bending moment.
     """
 
     main_N: float | None = None
@@ -129,7 +130,7 @@ def compute_inner_loads(engine: Engine, orders: Array | None = None) -> InnerLoa
             which the bending moment is worth showing.
 
     Raises:
-        BalcliError: Orders x loads exceed a limit; the error states it.
+        BalcliError: Orders x loads exceed a limit; the error states this limit.
     """
     every = merge_orders(find_relevant_orders(engine), [1, 2] if orders is None else orders)
     loads, z = compute_loads(engine, every)
@@ -205,7 +206,7 @@ def compute_loads(engine: Engine, orders: Array) -> tuple[Phasors, Array]:
 
 
 def list_places(z: Array) -> Array:
-    """Return the different positions, ascending (`numpy.unique` would load `numpy.ma`)."""
+    """Return the different positions, ascending (not by `numpy.unique`, which imports more)."""
     return np.array(sorted(set(z.tolist())))
 
 
@@ -218,7 +219,8 @@ ROUNDING = 1e-13  # a sum below this share of its terms is a rounding error
 
 
 class LoadsWithGas(NamedTuple):
-    """Forces (N) and moments (N m) over the cycle by inertia and gas, exact for distributed rods.
+    """Forces (N) and moments (N m) over the cycle by inertia and gas, exact for rods of distributed
+    mass.
 
     Attributes:
         shear: Shear force in the crankshaft, just behind each load and bearing.
@@ -296,7 +298,8 @@ def compute_loads_with_gas(engine: Engine, orders: Array | None = None) -> Loads
             z: Axial places, m, shape (places,).
             weights: Share of each force at each place, shape (places, forces).
             factor: Factor of all values.
-            size: Size of the terms of the weights, which determines the rounding error.
+            size: Bound of the terms from which the weights are computed; it determines the rounding
+                error of the values.
         """
         values, least = factor * (weights @ samples), ROUNDING * size * largest
         forward, backward = panels.find_orders(values, shown)

@@ -144,7 +144,10 @@ def compute_device_forces(engine: Engine, crank_deg: Array) -> Complex:
 
 def torque_of_cylinders(motion: EngineMotion) -> Array:
     """Return the inertia torque of each cylinder on the crank, N m, shape (cylinders, angles), from
-    I = m_rec s'^2 + m_rot r^2 - H spin^2, plus the inertia of a linkage's masses.
+    I = m_rec s'^2 + m_rot r^2 - H spin^2, plus the inertia of a linkage's masses. m_rec and m_rot
+    are the masses at the piston pin and at the crank pin, s is the distance of the piston pin from
+    the crank's axis, r the crank radius, `spin` the rod's angular velocity at crank speed 1, and H
+    `Cylinders.couple`.
     """
     c, r, m = motion.cylinders, motion.radius, motion.moved
     on_axis = as_rows(c.reciprocating) * r**2 * m.velocity * m.acceleration
@@ -175,8 +178,8 @@ class TorqueCurves(NamedTuple):
     Attributes:
         gas: Gas torque of all cylinders.
         total: Torque of gas and inertia.
-        gas_once: Gas torque over the period of gas and inertia torque: one firing interval if equal
-            cylinders fire evenly, else the cycle.
+        gas_once: Gas torque over one period of `total`: one firing interval if equal cylinders fire
+            evenly, else the cycle.
     """
 
     gas: PiecewiseCurve
@@ -185,7 +188,7 @@ class TorqueCurves(NamedTuple):
 
 
 def find_torque_curves(engine: Engine) -> TorqueCurves:
-    """Return the torque of an engine without trailing axes at constant speed.
+    """Return the torque of one engine, not of an array of variants, at constant speed.
 
     Raises:
         BalcliError: The engine has no gas.
@@ -194,7 +197,7 @@ def find_torque_curves(engine: Engine) -> TorqueCurves:
 
     gas, times = take_gas(engine), count_repeats(engine)
     cylinders = [(c.torque, c.fires, c.share) for c in gas.cylinders]
-    # A two-stroke engine geared to a four-stroke engine has two cycles in each of that engine's
+    # If a two-stroke engine is geared to a four-stroke one, it has two cycles in the common cycle.
     twice = [c for c in gas.cylinders if engine.placed and 1.5 * c.torque.curve.period < gas.cycle]
     cylinders += [(c.torque, c.fires + c.torque.curve.period, 0.0) for c in twice]
     once = crank_torque(cylinders, gas.cycle / times)
@@ -249,7 +252,7 @@ def find_moving_inertia(engine: Engine) -> Function:
 
 def find_constant_inertia(engine: Engine) -> float | None:
     """Return the moment of inertia of all parts that turn in a constant ratio to the crank,
-    referred to the crank, kg m2; None where the file gives none.
+    referred to the crank, kg m2; None if the file gives no such inertia.
     """
     crank = None if engine.rotary else engine.crank_inertia
     found = float(engine.find_turning_inertia().energy)

@@ -37,8 +37,8 @@ class GuideMoments(NamedTuple):
         h: H-type moment: the sum of the roll moments.
         x: X-type moment, the moment of the guides' side forces: `sum roll_i (z_i - z_ref) / L_i`;
             None if all cylinders have the same axial position, or positions are not known.
-        height_m: Height L of each guide's middle above the crankshaft, by cylinder number, shape
-            (cylinders,).
+        height_m: Height L of the middle of each cylinder's guide above the crankshaft, ascending by
+            cylinder number, shape (cylinders,).
         with_gas: Whether the moments include the gas.
     """
 
@@ -55,7 +55,8 @@ def compute_guide_moments(
 
     Roll moments are about the crank axis, even if the point of reference is away from this axis.
     The X-type is defined as in section 17.05 of the project guides of MAN B&W two-stroke engines:
-    the bi-moment `sum force couple x distance` divided by the height of the guide.
+    the bi-moment (the sum of each cylinder's roll moment times its distance from the point of
+    reference), divided by the height of the guide.
 
     Args:
         engine: One engine, not an array of variants.
@@ -67,7 +68,7 @@ def compute_guide_moments(
     about_crank = replace(engine, reference_m=(0.0, 0.0, z_ref))
     roll = "roll" if engine.gas is None else "roll_total"
     every = find_relevant_orders(engine) if orders is None else orders
-    if orders is None and engine.gas is not None:  # higher ones: `list_gas_orders`
+    if orders is None and engine.gas is not None:  # above: `list_gas_orders`
         few = every[every <= HIGHEST_GAS_ORDER_UNASKED]
         every = merge_orders(few, list_gas_orders(engine))
     rolls = compute_spectra(about_crank, every, [roll], each=True)[roll]
@@ -86,7 +87,7 @@ def compute_guide_moments(
 
 
 def list_names(model: EngineFile) -> Iterator[str]:
-    """Yield the names of the guide-force quantities that an engine has, with N for the order."""
+    """Yield the names of an engine's guide-force quantities, with the letter N for the order."""
     if model.engine:
         return
     yield "guide.N.H"

@@ -65,7 +65,7 @@ class Kind(NamedTuple):
         return f"{self.upright[0]} {self.name}", f"{self.upright[1]} {self.name}"
 
     def key_along(self, axis: str) -> str:
-        """Return the JSON key of the component along an axis: `force_x_N`."""
+        """Return the JSON key of the component along an axis, such as `force_x_N`."""
         stem, _, unit = self.key.rpartition("_")
         return f"{stem}_{axis}_{unit}"
 

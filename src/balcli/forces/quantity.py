@@ -41,8 +41,8 @@ class Quantity(NamedTuple):
         kind: Kind of force or moment.
         order: Order; 0 for a peak.
         part: Figure of the order, such as "major" (`VECTOR_PARTS`, `SCALAR_PARTS`), or "peak".
-        called: First word of its name if it differs from the kind: with gas, `torque` means the
-            torque of gas and inertia.
+        called: First word of the quantity's name if it differs from `kind`. With gas, the word
+            `torque` means the kind `torque_total`.
     """
 
     kind: str
@@ -121,7 +121,7 @@ def leave_out_unknown(engine: Engine, quantities: Iterable[Quantity]) -> tuple[Q
 
 def refuse_unknown(engine: Engine, quantities: Iterable[Quantity]) -> None:
     """Raise an error for a moment if the positions of the throws are not known, and for a quantity
-    of gas if the engine has none.
+    of gas if the engine has no gas.
 
     Args:
         engine: Engine whose quantities are wanted.
@@ -140,7 +140,7 @@ def refuse_unknown(engine: Engine, quantities: Iterable[Quantity]) -> None:
 
 def evaluate_quantities(engine: Engine, quantities: Sequence[Quantity]) -> list[Array]:
     """Return the value of each quantity, SI or degrees, shape (*trailing), with length 1 along axes
-    on which the quantity does not depend.
+    that do not affect the quantity.
 
     Only the wanted orders of each kind are computed; kinds with the same orders are computed
     together.

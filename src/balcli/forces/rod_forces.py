@@ -8,14 +8,16 @@ at the small end, b at the big end) and a massless body with the moment of inert
 (docs/theory.md). With the gas force P towards the crank, the piston mass M and the rod's angular
 acceleration alpha,
 
-    W_x = M Re p'' + P                                    rod on piston
+    W = W_x + i W_y                                       rod on piston
+    W_x = M Re p'' + P
     W_y = (Im d (W_x + a Re p'') + H alpha + S)/Re d - a Im p''
     N   = W_y - M Im p''                                  piston on wall
     Q   = a p'' + b f'' + W - sum K                       pin on rod
 
 Derivatives are by time; p'' has a component across the axis only if the cylinder itself turns. K
 are the forces of articulated rods on the knuckle pins of a master rod, S is their moment about the
-crank pin. At the crank pin c, the rod causes the torque `Im(conj(c) (-Q))`, as virtual work does.
+crank pin. At the place c of the crank pin, the rod causes the torque `Im(conj(c) (-Q))`; virtual
+work gives the same torque.
 """
 
 from __future__ import annotations

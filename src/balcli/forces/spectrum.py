@@ -10,8 +10,8 @@ convolves them with the coefficients of the speed (`core.speed_ripple`).
 
 Gas presses equally on piston and head: it causes no free force and no free moment, only a torque on
 the crank and its reaction on the frame. If t_h are the coefficients of one cylinder's torque over
-its cycle, a cylinder that fires at crank angle f adds `t_h e^{i h (theta - f)/2}`, which is of
-order n = h/2.
+its cycle, a cylinder that fires at crank angle f adds `t_h e^{i h (theta - f)/2}` at the crank
+angle theta, which is of order n = h/2.
 """
 
 from __future__ import annotations
@@ -134,13 +134,13 @@ def compute_spectra(
         engine: Engine at steady or uneven speed. The phasors have its trailing axes last; with
             `each`, it must have none.
         orders: Multiples of 1/2, ascending, not negative, shape (orders,).
-        kinds: Names of KINDS, and of GAS_KINDS for an engine with gas.
+        kinds: Names of kinds: any of KINDS, and also of GAS_KINDS if the engine has gas.
         each: Whether to return the phasors of each cylinder, as if only that one had masses, shape
             (orders, cylinders), in the order of `engine.numbers`; devices are then ignored.
 
     Raises:
-        BalcliError: A kind of gas is wanted, and the engine has none; or orders x cylinders exceed
-            MOST_LOADS_APART.
+        BalcliError: One of GAS_KINDS is wanted, and the engine has no gas; or, with `each`, orders
+            x cylinders exceed MOST_LOADS_APART.
     """
     wanted = np.asarray(orders, float)
     if engine.placed:
@@ -180,7 +180,7 @@ def place_spectra(
     the direction in which the load turns.
 
     Args:
-        one: The engine, with the point of reference of all engines.
+        one: The engine; its moments are about the common point of reference of all engines.
         orders: Orders, shape (orders,).
         kinds: Names of the kinds.
         each: Whether to return the phasors of each cylinder, as in `compute_spectra`.
@@ -200,7 +200,7 @@ def place_spectra(
 
 
 def _see(one: Placed, kind: Kind, own: Phasors) -> Phasors:
-    """Return the phasors of a kind in the common axes, from those of an engine alone."""
+    """Return the phasors of a kind in the axes of all engines, from those in an engine's own."""
     n = own.orders.reshape(-1, *(1,) * (own.forward.ndim - 1))
     lead = unit(n * one.phase_deg)
     forward, backward = lead * own.forward, np.conj(lead) * own.backward
@@ -413,8 +413,8 @@ def find_relevant_orders(engine: Engine) -> Array:
 
 def list_gas_orders(engine: Engine, highest: float = HIGHEST_GAS_ORDER_UNASKED) -> Array:
     """Return orders of gas torque, shape (orders,): multiples of 1/2 (of 1 in two-stroke engines).
-    If the engine fires more than `highest` times a revolution, the order with this number and its
-    double are added, because all lower orders may cancel.
+    If the engine fires more than `highest` times a revolution, two orders are added, because all
+    lower orders may cancel: the number of firings per revolution and twice this number.
 
     Args:
         engine: Engine with gas.

@@ -5,8 +5,9 @@ against it (`core.phasors`). Drawn from one point, at crank angle 0, the vectors
 direction are a star of the order; in an in-line engine with equal cylinders, the directions in the
 star of order n are n times the crank angles. Put one after the other, the vectors form a polygon.
 If it closes, their sum is 0: no force of this order turns in this direction. Moments have stars as
-well: each vector is that of the force times the cylinder's distance along the crank, turned ahead
-by a quarter turn. Source: W. Thomson, Fundamentals of Automotive Engine Balance.
+well: each vector is that of the force times the cylinder's axial distance from the point of
+reference, turned ahead by a quarter turn. Source: W. Thomson, Fundamentals of Automotive Engine
+Balance.
 """
 
 from __future__ import annotations
@@ -26,7 +27,7 @@ from .symmetry import without_devices
 Force = Annotated[complex, Polar("force_N", "force_deg"), INLINE]
 Moment = Annotated[complex | None, Polar("moment_Nm", "moment_deg"), INLINE]
 Turns: TypeAlias = Literal["forward", "backward"]
-WAYS: tuple[Turns, ...] = ("forward", "backward")  # the axis of `Phasors.vectors`
+WAYS: tuple[Turns, ...] = ("forward", "backward")  # in the order of `Phasors.vectors`
 
 
 class Ray(NamedTuple):
@@ -71,7 +72,7 @@ class Bank(NamedTuple):
 
 
 class Star(NamedTuple):
-    """Vectors of one order that turn in one direction, without those of devices.
+    """Vectors of the cylinders of one order that turn in one direction; devices are left out.
 
     Attributes:
         order: Order.

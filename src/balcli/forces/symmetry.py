@@ -2,8 +2,10 @@
 order is balanced by symmetry or by chance.
 
 Multiples: textbooks state forces of order n as multiples of one cylinder's `F_n = A_n F1`, with `F1
-= m_rec r omega^2`, and moments as multiples of `F_n a`, where a is the smallest distance of
-neighbouring throws. The cylinder is number 1, or its master cylinder if its rod is articulated.
+= m_rec r omega^2`: the product of reciprocating mass, crank radius and squared crank speed. A_n is
+the coefficient of order n of the piston acceleration (docs/theory.md). Moments are multiples of
+`F_n a`, where a is the smallest distance of neighbouring throws. The cylinder is number 1, or its
+master cylinder if its rod is articulated.
 Textbooks consider only reciprocating masses, each in the plane of its throw, because counterweights
 balance rotating masses. Source: Bosch, Automotive Handbook, "Free forces and moments of the 1st and
 2nd order".
@@ -86,8 +88,8 @@ class Textbook(NamedTuple):
         units: Units of the multiples.
         reciprocating: Forces, N, and moments, N m, as textbooks count them: of reciprocating masses
             in the planes of their throws.
-        built: Forces and moments of all masses of the cylinders at their positions, without
-            devices, at a steady speed.
+        built: Forces and moments of all masses of the cylinders at their real axial positions,
+            without devices, at a steady speed.
     """
 
     units: TextbookUnits
@@ -159,7 +161,7 @@ _GROUPS = {
 }
 _WORDS = {"turning": "torque and roll", "gas": "gas torque"}
 _INERTIA = ("force", "moment", "couple", "torque", "roll")
-NEARLY = 1e-2  # an order below this share of that of one cylinder is nearly balanced
+NEARLY = 1e-2  # an order is nearly balanced below this share of the amplitude of one cylinder
 _DRAWS = 3
 _SEED = 1
 _EVEN = 1e-11  # intervals that differ by less than this share of a cycle are equal
@@ -215,7 +217,8 @@ class Symmetry(NamedTuple):
     Attributes:
         reasons: Reason for every order and group.
         firing: Whether the engine fires evenly, in words; empty if it is not known.
-        scope: Parts of the engine that are ignored; omitted if there are none.
+        scope: What is ignored (devices, uneven speed, place of the point of reference), in words;
+            omitted if nothing is ignored.
     """
 
     reasons: tuple[Reason, ...]

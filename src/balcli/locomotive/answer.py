@@ -59,8 +59,9 @@ class WheelLoads(NamedTuple):
         unbalance: Unbalance of the balance mass, angle from cylinder 1's crank pin.
         mass_kg: Balance mass; null without `locomotive.radius`.
         hammer_blow_N: Amplitude of the load that the remaining unbalance adds.
-        least_rail_load_N: Static load less the hammer blow; below 0 the wheel lifts.
-        most_rail_load_N: Sum of static load and hammer blow.
+        least_rail_load_N: Static load less the hammer blow; below 0 the wheel lifts. Null without
+            wheel load (the static load in the file).
+        most_rail_load_N: Sum of static load and hammer blow; null without wheel load.
         lift_rpm: Crank speed at which the wheel lifts; null without wheel load or hammer blow.
         lift_km_h: Speed on the track at which the wheel lifts; null without a wheel diameter.
     """

@@ -85,7 +85,7 @@ def sheet(result: LocomotiveBalance, system: System) -> Sheet:
 
 def _tell_variation(first: float, peak: float, unit: ShownUnit) -> str:
     amplitude = f"±{size_text(first, unit)}" if first else NOTHING
-    return f"order 1 {amplitude}, all orders up to {size_text(peak, unit)}"
+    return f"order 1 {amplitude}, sum of orders at most {size_text(peak, unit)}"
 
 
 def _tell_speed(rpm: float, km_h: float | None, system: System) -> str:
@@ -142,7 +142,7 @@ def sheet_of_factors(results: Results, system: System) -> Sheet:
     columns = [_write_column(*column) for column in _list_columns(results, system)]
     speed = _tell_speed(results[0].speed_rpm, results[0].speed_km_h, system)
     title = f"{results[0].engine.name or NAMELESS}: balance factors"
-    note = "Largest blow of all wheels and rails; speed at which the first wheel lifts."
+    note = "Blows: worst wheel and worst rail. Lifts at: speed at which the first wheel lifts."
     return Sheet(title, (Facts((("speed", speed),)), Grid.of_columns("", columns, note)))
 
 

@@ -184,7 +184,8 @@ class BodyMode(NamedTuple):
 
 
 class BodyModes(NamedTuple):
-    """Equations `(K + i w C - w^2 M) q = f` about the centre of gravity, and their natural modes.
+    """Equations of motion about the centre of gravity, and their natural modes. The motion q under
+    a load f at the frequency w (rad/s) follows from `(K + i w C - w^2 M) q = f`.
 
     Attributes:
         stiffness: Dynamic stiffness K in SI units, shape (6, 6).
@@ -239,7 +240,7 @@ def settle(mounted: MountedBody, torque: float = 0.0) -> tuple[Real, Real]:
 
 
 SAG_LEAST, SAG_MOST = 0.02, 200.0  # plausible travel under the weight, mm; rubber mounts: 1 to 20
-SMALL_BODY = 0.01  # least plausible radius of gyration / farthest mount's distance; usual: 0.2 to 1
+SMALL_BODY = 0.01  # least plausible ratio of radius of gyration to mount distance; usual: 0.2 to 1
 
 
 def read_mounted(path: str | Path) -> tuple[EngineFile, Engine | None, tuple[str, ...]]:
@@ -279,7 +280,7 @@ def check_mounted(draft: Draft, name: str) -> tuple[EngineFile, Engine | None, t
 
 
 def _find_doubts(model: EngineFile) -> Iterator[str]:
-    """Yield warnings of impossible or unlikely figures of body and mounts; units may be wrong."""
+    """Yield warnings of impossible or unlikely figures of body and mounts, such as wrong units."""
     body, mounts = model.body, model.mount
     if body is None:
         return

@@ -62,10 +62,10 @@ class ForceOfOrder(NamedTuple):
 
 
 class MetMode(NamedTuple):
-    """An order that meets a mode at, or close to, the speed of the largest value.
+    """An order that has the frequency of a mode at, or close to, the speed of the largest value.
 
     Attributes:
-        order: Order; if several orders meet modes, the one with the largest amplitude.
+        order: Order; if several orders have a mode's frequency, the one with the largest amplitude.
         mode: Number of the mode, from 1.
         speed_rpm: Speed at which the order and the mode have the same frequency.
     """
@@ -243,7 +243,8 @@ class MountReport(Result):
             which the free body turns under a torque about the crankshaft.
         elastic_centre_mm: Point x, y, z at which forces move the body with the least turning.
         static: The body at rest.
-        stiffness_N_per_m: Dynamic stiffness matrix about the centre of gravity, N/m, N, N·m.
+        stiffness_N_per_m: Dynamic stiffness matrix about the centre of gravity: forces (N) and
+            moments (N·m) for displacements of 1 m and rotations of 1 rad.
         response: Response to the engine; left out without an engine.
         fitted: Response with a balance scheme, if requested.
         others: Responses to other engines.
@@ -271,7 +272,7 @@ class MountReport(Result):
 
     @property
     def beside(self) -> tuple[Other, ...]:
-        """Responses to compare with the engine's: with a scheme, and of other engines."""
+        """Responses to compare with the engine's own: with the scheme, and to other engines."""
         fitted = self.fitted and Other(self.fitted.scheme, self.fitted.response)
         return (*([fitted] if fitted else []), *(self.others or ()))
 

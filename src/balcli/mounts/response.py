@@ -43,7 +43,7 @@ from .records import (
 )
 from .rigid_body import ROLL, carry_points, couple_mounts, drop_rounding
 
-_BESIDE = np.array([-0.5, -0.25, 0, 0.25, 0.5])  # speeds added around a resonance, in widths
+_BESIDE = np.array([-0.5, -0.25, 0, 0.25, 0.5])  # speeds added around a resonance, in its widths
 RESONANT = 0.05  # an order is in resonance within this relative distance from a mode's frequency
 _PART = 0.25  # least share of the largest order's value at which a resonance is reported
 _AT = 1e-9  # relative difference below which speeds are equal

@@ -78,7 +78,8 @@ def turn_axes(about_x: float, about_y: float, about_z: float) -> Real:
 
 def carry_points(points: ArrayLike, centre: ArrayLike) -> Real:
     """Return the displacement of points p of the body for a unit of each motion, shape (points, 3,
-    6): `[1, -(p - c) x]` with the centre c. The transpose converts forces at the points to a load.
+    6): the matrix `[I, -(p - c) x]` with the unit matrix I, the centre c and the cross product x.
+    Its transpose converts forces at the points to a load.
     """
     arms = np.atleast_2d(np.asarray(points, float)) - np.asarray(centre, float)
     still = np.broadcast_to(np.eye(3), (len(arms), 3, 3))
@@ -158,9 +159,9 @@ def find_body_modes(body: Body, mounts: Mounts) -> Modes:
 
 
 def share_energy(modes: Modes, body: Body) -> Real:
-    """Return the share of each motion in each mode's kinetic energy, `x_i (M x)_i`, shape (modes,
-    6); the shares of a mode add up to 1. Products of inertia may make some negative; rounding
-    errors become 0.
+    """Return the share of each motion in each mode's kinetic energy, shape (modes, 6):
+    `x_i (M x)_i` with the mode's shape x and the mass matrix M. The shares of a mode add up to 1.
+    Products of inertia may make some shares negative; rounding errors become 0.
     """
     shares = modes.shapes * (modes.shapes @ mass_matrix(body))
     return np.where(np.abs(shares) < _NO_SHARE, 0.0, shares)
@@ -179,9 +180,10 @@ def elastic_centre(stiffness: Real, centre: ArrayLike) -> Real:
     gravity: the point about which the spring forces of pure displacements have the smallest
     moments, in mean square over all directions of a unit force.
 
-    A displacement u needs the force `F = K_uu u` and the moment `K_ru u = N F` with `N = K_ru
-    K_uu^-1`. A force at the point p has the moment `p x F`. Hence p follows from the antisymmetric
-    part of N; the symmetric part is the same for any point.
+    K_uu and K_ru are the forces and moments for unit displacements. A displacement u needs the
+    force `F = K_uu u` and the moment `K_ru u = N F` with `N = K_ru K_uu^-1`. A force at
+    the point p has the moment `p x F`. Hence p follows from the antisymmetric part of N; the
+    symmetric part is the same for any point.
     """
     moments = np.linalg.solve(stiffness[:3, :3].T, stiffness[3:, :3].T).T
     skew = (moments - moments.T) / 2
@@ -217,7 +219,7 @@ AXES = ("x", "y", "z", "rx", "ry", "rz")
 ROLL = AXES.index("rz")  # the turn about the crankshaft's axis
 _ALONE = 0.8  # a motion with this share of the energy names a mode alone
 _PART = 0.15  # a motion with this share of the energy is one of several that name a mode
-_STEEP = 0.8  # least cosine of the angle to the vertical of an axis called up and down
+_STEEP = 0.8  # least cosine of the angle between the vertical and an axis called up and down
 _EXACT = 1e-9  # smaller components of a direction are rounding errors
 
 

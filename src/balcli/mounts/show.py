@@ -67,7 +67,7 @@ class Kind(NamedTuple):
 
 def list_kinds(system: System) -> tuple[Kind, Kind]:
     """Return the forces of mounts and the motion of points."""
-    length = ShownUnit(system.length.name, 1e3 * system.length.size)  # of mm
+    length = ShownUnit(system.length.name, 1e3 * system.length.size)  # lengths of records are in mm
     return Kind("mount", "force", system.force), Kind("point", "motion", length)
 
 
@@ -172,7 +172,7 @@ def _grid_modes(result: MountReport) -> Grid:
     if any(mode.loss_factor for mode in modes):
         columns.append(("damping %", [f"{50 * mode.loss_factor:.1f}" for mode in modes]))
     note = (
-        "x to rz: shares of motion along and rotation about the axes in the kinetic energy; "
+        "x, y, z %: kinetic energy of motion along the axes; rx, ry, rz %: of rotation about them; "
         "products of inertia may make some negative. Hz: with dynamic stiffness, without damping."
     )
     return Grid.of_columns("Natural modes", columns, note)._replace(words=(0, 2))

@@ -1,1 +1,1 @@
-"""Pictures, and a self-contained HTML page with the results of all chapters."""
+"""Pictures, and a self-contained HTML page of an engine: forces, balance, mounts, torsion, gas."""

@@ -153,7 +153,8 @@ def describe_one(
     name: str = "",
     small: float = SMALL,
 ) -> Node | None:
-    """Return the data of the panel of numbers on the page; None if it cannot compute the engine.
+    """Return the data of the page's panel for changing numbers; None if the page cannot compute the
+    engine itself.
 
     Args:
         model: Engine file.
@@ -177,7 +178,7 @@ def make_book(
     choice: str = "",
     small: float = SMALL,
 ) -> Node:
-    """Return the data of the panel of numbers for one or more engines.
+    """Return the data of the panel for changing numbers, for one or more engines.
 
     Args:
         engines: Engines from `describe_engine`, by key.
@@ -299,8 +300,8 @@ def _find_forms(
     cylinders, and for positions of the throws. Each function has a constant, and coefficients by
     the names of numbers.
 
-    If the firing of a cylinder determines the throw, the angle of its pin does not include the
-    shift of top dead centre by the piston offset: the page adds it.
+    If the firing of a cylinder determines the angle of a throw, the angles of this throw's pins do
+    not include the shift of top dead centre by the piston offset: the page adds this shift.
     """
     start = _measure(parts, throws)
     forms: dict[str, list[Node]] = {
@@ -319,7 +320,9 @@ def _find_forms(
 
 
 def _measure(parts: Parts, throws: Mapping[int, int]) -> dict[str, list[float]]:
-    """Return cylinder axes and pin leads (deg), and positions of cylinders and throws (mm)."""
+    """Return the values of the functions of `_find_forms`: cylinder axes, and angles of crank pins
+    from cylinder 1's pin (deg); positions of cylinders and throws (mm).
+    """
     cells, pins, places = parts.plan.cells, parts.pins, parts.places
     tops = {n: float(pins.tops_deg[n] - axis) for n, axis in pins.axes_deg.items()}
     first = next(cell for cell in cells if cell.number == 1)

@@ -1,5 +1,5 @@
 """Write a self-contained HTML page on an engine, with pictures, tables and animation. Its scripts
-get the mechanism, its forces and moments (mm, deg), the body on its mounts (mm, rad), and torque
+get the mechanism (mm, deg), its forces and moments, the body on its mounts (mm, rad), and torque
 and pressure over the cycle.
 """
 
@@ -63,7 +63,7 @@ ASSUMED_BORE = 0.95  # bore over stroke for drawing pistons if the file gives no
 
 def scene(now: Analysis, shown: Mapping[str, Analysis], system: System) -> Node:
     """Return the data of the moving drawings: the mechanism, and forces and moments of each variant
-    in `shown`. All are turned so that `frame.up`, if the file gives it, is up.
+    in `shown`. If the file gives `frame.up`, the drawings are turned so that this direction is up.
     """
     engine = now.engine
     stroke, bore = 2e3 * float(engine.cylinders.radius.max()), clean(engine.bore_m * 1e3)
@@ -89,9 +89,9 @@ def scene(now: Analysis, shown: Mapping[str, Analysis], system: System) -> Node:
 
 
 def _cylinder_entries(engine: Engine) -> list[Node]:
-    """Return an entry for each cylinder, mm and degrees: axis, the cylinder's own angle at crank
-    angle 0, rod length (0 in harmonic motion), offset and position; its crank radius if the radii
-    differ; for an articulated rod, its knuckle pin and the index of its master cylinder.
+    """Return an entry for each cylinder, mm and degrees: axis, angle of the crank pin from this
+    axis at crank angle 0, rod length (0 in harmonic motion), offset and position; the crank radius
+    if the radii differ; for an articulated rod, its knuckle pin and its master cylinder's index.
     """
     c, linkage = engine.cylinders, engine.cylinders.linkage
     rods = linkage.hung if isinstance(linkage, Rotary) else linkage
@@ -140,9 +140,9 @@ def _vector_rows(phasors: Phasors, unit: ShownUnit) -> list[list[float]]:
 
 
 def place_beside(engine: Engine, bore: float) -> dict[int, complex]:
-    """Return positions next to the engine for shafts that would be drawn within the circle of the
-    crank pins, by device index, m: real part upwards, imaginary part to the right. Shafts that turn
-    with the crank are to the right of the engine, the others to its left.
+    """Return positions next to the engine, by device index, for shafts that would be drawn within
+    the circle of the crank pins. The real part of a position is upwards, the imaginary part to the
+    right, m. Shafts that turn with the crank are to the right of the engine, others to its left.
 
     Args:
         bore: Cylinder bore, m.
@@ -154,7 +154,7 @@ def place_beside(engine: Engine, bore: float) -> dict[int, complex]:
     across, reach = np.sin(leans), c.radius + rods + bore
     width = float(np.max(np.abs(across) * reach + (1 - np.abs(across)) * bore, initial=1.5 * r))
     found: dict[int, complex] = {}
-    rows: dict[tuple[int, bool], int] = {}  # row on its side, by order and direction
+    rows: dict[tuple[int, bool], int] = {}  # by order and direction: place on its side, downwards
     for k, device in enumerate(engine.devices):
         if device.kind is not DeviceKind.SHAFT or abs(complex(device.place)) >= r:
             continue
@@ -165,8 +165,8 @@ def place_beside(engine: Engine, bore: float) -> dict[int, complex]:
 
 
 def _device_entry(device: Device, drawn: complex | None, turn_deg: float) -> Node:
-    """Return a device for the page, turned by an angle: unbalance in g mm, position in mm. `drawn`
-    replaces its position in the picture.
+    """Return a device for the page, turned by `turn_deg`: unbalance in g mm, position in mm. If
+    `drawn` is given, the picture shows the device there instead of at its true position.
     """
     vectors = np.array([device.forward, device.backward, device.place])
     forward, backward, place = (unit(turn_deg) * vectors).tolist()
@@ -194,8 +194,8 @@ _STILL = (("force", "polar"), ("moment", "polar"))
 
 
 class Answers(NamedTuple):
-    """Results on the page of an engine. `mounted` and `twisted` are None if the file has no [body]
-    and no [torsion]. The motion of the piston of `cylinder` is drawn if a number is given.
+    """Results on the page of an engine. `mounted` is None without a result for [body], `twisted`
+    without one for [torsion]. `cylinder`: whose piston's motion is drawn; None: no such picture.
     """
 
     result: Analysis
@@ -242,7 +242,7 @@ def find_answers(
 
 @contextmanager
 def _warning(chapter: str) -> Iterator[None]:
-    """Turn an error within the context into a warning that the page does not show this chapter."""
+    """Turn an error within the context into a warning that the page lacks the part `chapter`."""
     try:
         yield
     except BalcliError as error:
@@ -250,8 +250,8 @@ def _warning(chapter: str) -> Iterator[None]:
 
 
 def page(found: Answers, system: System, live: Node | None = None, tell: Tell = tell_nobody) -> str:
-    """Return the page of an engine: forces and moments, a remedy, vibration on mounts, torsional
-    vibration, and gas. All text from the engine file is escaped.
+    """Return the page of an engine: forces and moments, devices of a balance scheme, vibration on
+    mounts, torsional vibration, and gas. All text from the engine file is escaped.
 
     Args:
         found: Results to show.
@@ -317,7 +317,7 @@ class Explorer:
 
 
 def explore(engine: Engine) -> Explorer:
-    """Return the page of an engine for a notebook: `Engine.explore`.
+    """Return the page of an engine for a notebook; `Engine.explore` calls this function.
 
     Args:
         engine: Engine that comes from a file.
@@ -332,8 +332,9 @@ def explore(engine: Engine) -> Explorer:
 
 
 def _list_variants(result: Analysis, balanced: Balance) -> dict[str, Analysis]:
-    """Return the analyses to show, by label: the engine with the devices of each step of the
-    ladder, and with the devices of the scheme if the scheme is not a step.
+    """Return the analyses to show, by label: the engine with the devices of each step of the ladder
+    (balancing in steps), or as in the file if there is no ladder; and with the scheme's devices, if
+    the scheme is not a step.
     """
     remedy, ladder = balanced.remedy, balanced.ladder
     shown = {"as in the file": result}

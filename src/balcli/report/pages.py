@@ -89,7 +89,7 @@ def draw_end_curves(ax: Axes, banks: Banks, unit: ShownUnit) -> None:
 
 def draw_radii(ax: Axes, banks: Banks) -> None:
     """Draw the radii of two shafts that cancel the force without a roll moment, and their ratio,
-    over the bank angle (Liu, figure 4).
+    over the bank angle, as figure 4 of Liu's paper (docs/theory.md).
     """
     with_crank, against, ratio = banks.find_radii()
     angles = banks.angles_deg
@@ -129,8 +129,8 @@ def _mirrored(values: Array) -> Array:
 def draw_radius_roses(ax: Any, banks: Banks) -> None:
     """Draw the curves of `draw_radii` in polar coordinates, in the directions of both banks. For a
     flat-plane V8 (Liu, figure 8), the backward radius is a circle, the forward radius a rose of
-    three leaves, and the ratio a rose of four. The ratio continues over a whole turn; its line is
-    thin beyond 180 deg.
+    three leaves, and the ratio a rose of four leaves. The curve of the ratio continues over a whole
+    turn; beyond a bank angle of 180 deg its line is thin.
     """
     sides = _set_up_compass(ax, banks)
     with_crank, against, ratio = (np.abs(_mirrored(each)) for each in banks.find_radii())
@@ -185,8 +185,8 @@ class PageSubject:
         return self.study.now
 
     def phasors(self, quantity: str) -> tuple[Phasors, Phasors | None]:
-        """Return the phasors of a force, a moment or the roll now, and before devices were fitted
-        (None without a scheme). Forces and moments are along the axes of the picture.
+        """Return the phasors of a force, a moment or the roll now, and those before devices were
+        fitted (None without a scheme). Forces and moments are along the axes of the picture.
         """
         name = ROLL.name if quantity == ABOUT else quantity
         turn = 0.0 if quantity == ABOUT else -(self.now.engine.up_deg or 0.0)

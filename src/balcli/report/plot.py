@@ -86,7 +86,7 @@ def plot(
             picture.
         orders: Orders of an engine to draw; default: all that are not negligible.
         scheme: Balance scheme; the page compares the engine without and with its devices.
-        speeds_rpm: Speeds for the pages of torsion; default: 0.5 to 1.5 times its speed.
+        speeds_rpm: Speeds for the pages of torsion; default: 0.5 to 1.5 times the engine's.
         small: Share of one cylinder's first order below which the ladder of an engine ignores a
             force or moment.
         cylinder: Number of the cylinder whose piston is drawn.
@@ -153,7 +153,8 @@ def _plot_torsion(result: TorsionAnalysis, what: str) -> Figure:
     return make_torsion(result, check_page(what, known))
 
 
-_SHOWN = {"inner": "inner", "bank": "force", "ladder": "ladder"}  # result on a page
+# Result that a page needs, as `asked` of `read_engine` names it.
+_SHOWN = {"inner": "inner", "bank": "force", "ladder": "ladder"}
 
 
 class Asked(NamedTuple):

@@ -1,5 +1,5 @@
-"""Compute the data of a page of pictures: an engine without or with a scheme's devices, over the
-balance factor, or over the bank angle.
+"""Compute the data of a page of pictures: forces and moments of an engine without and with a
+scheme's devices, over the balance factor, or over the bank angle.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ _ALONE = ("ladder", "bank", *OF_GAS, *OF_PARTS)  # pages that show the engine wi
 
 
 class Banks(NamedTuple):
-    """Free force of one order over the bank angle of a vee; nothing else changes.
+    """Free force of one order over the bank angle of a vee; all other figures stay the same.
 
     Attributes:
         order: Order of the force.
@@ -52,13 +52,15 @@ class Banks(NamedTuple):
     force: Phasors
 
     def find_radii(self) -> tuple[Array, Array, Array]:
-        """Return the distances from the crank axis (radii) at which a forward and a backward shaft
-        cancel the force without a roll moment, as shares of the longest radius, and their ratio,
-        which is nan where no force turns with the crank. Each has the shape (angles,).
+        """Return the distances from the crank axis (radii) at which two shafts cancel the force
+        without a roll moment, as shares of the longest radius: first of the shaft that turns with
+        the crank, then of the other one; and the ratio first / second, which is nan where no force
+        turns with the crank. Each has the shape (angles,).
 
-        Radii are inversely proportional to the forces. Their sign follows Liu: it is
-        positive if one shaft is above and one below the crank, on the same side of the middle
-        plane; negative if both are above or both below it, on opposite sides (docs/theory.md).
+        Radii are inversely proportional to the forces. The first radius, and so the ratio, has the
+        sign of Liu's paper (docs/theory.md): positive if one shaft is above and one below the
+        crank, on the same side of the middle plane of the vee; negative if both shafts are above or
+        both below the crank, on opposite sides of this plane.
         """
         forward, backward = self.force.forward[0], self.force.backward[0]
         alike = forward * backward * unit(-2 * self.middle_deg)
@@ -79,8 +81,9 @@ class Study(NamedTuple):
         factors: Peaks by balance factor, ascending, including the best factor.
         banks: Force of one order over the bank angle, for the page "bank".
         pair: Whether the page shows the two shafts that cancel the force at each bank angle.
-        bent: Loads along the crankshaft now, and before devices were fitted.
-        steps: Engine with the devices of each step of the ladder, by name.
+        bent: Loads along the crankshaft now, then those before devices were fitted.
+        steps: Analysis of the engine with the devices of each step of the ladder (balancing in
+            steps), by number and name of the step.
     """
 
     now: Analysis
@@ -119,7 +122,7 @@ def compute_study(
     Args:
         engine: A single engine, not an array of variants.
         orders: Orders to show; "bank" shows the first one.
-        scheme: Balance scheme; the page compares the engine without and with its devices.
+        scheme: Balance scheme; the page compares the engine without and with the scheme's devices.
         options: Options of the scheme; the page "factor" uses only `planes`, "ladder" only
             `small`.
 
@@ -140,7 +143,7 @@ def compute_study(
         force = now.spectra["force"]
         free = force.orders[(force.orders >= 1) & ~force.balanced].tolist()
         order = asked.order or [*(orders or free), 2][0]
-        # The pair of shafts cancels the reciprocating masses; counterweights cancel the others.
+        # The shafts cancel the force of the reciprocating masses; counterweights cancel the rest.
         swung = with_reciprocating_only(engine) if pair else engine
         return Study(now, banks=swing_banks(swung, order), pair=pair)
     if scheme is not None:

@@ -98,7 +98,7 @@ def check_speeds(function: str, speeds_rpm: ArrayLike | None) -> Array | None:
         found = np.unique(given.astype(float).ravel())
     except (TypeError, ValueError):
         raise wrong_type(function, speeds_rpm, "give speeds in rpm, such as [1500, 2000]") from None
-    except OverflowError:  # a whole number of hundreds of digits
+    except OverflowError:  # an integer with hundreds of digits
         found = np.array([math.inf])
     if given.ndim > 1:
         raise BalcliError(f"speeds_rpm: has the shape {given.shape}; give speeds along one axis")

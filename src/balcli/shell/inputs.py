@@ -229,8 +229,8 @@ def named_by_file(engine: Engine, path: str) -> Engine:
 
 
 def name_engines(names: Sequence[str], paths: Sequence[str]) -> list[str]:
-    """Return distinct names of engines: the engine's name, or its file if it has no name or shares
-    its name with another engine.
+    """Return distinct names of engines: the name of each engine, or the name of its file if the
+    engine has no name or another engine has the same name.
 
     Args:
         names: Names of the engines; may be empty.

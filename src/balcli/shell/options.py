@@ -95,8 +95,8 @@ Misfire = Annotated[
     list[str] | None,
     optional(
         "N|NAME.N",
-        "Cylinder without gas pressure (NAME.N: cylinder N of engine NAME of several); repeat for "
-        "more cylinders. If a cylinder still compresses, give it heat = 0 in [cylinder.N].",
+        "Cylinder without gas pressure (NAME.N: cylinder N of engine NAME in [[engine]]); repeat "
+        "for more cylinders. If a cylinder still compresses, give it heat = 0 in [cylinder.N].",
     ),
 ]
 GuideHeight = Annotated[
@@ -127,8 +127,8 @@ def read_orders(text: str, right: str, bounds: str, least: float, most: float) -
     ends with a half order includes half orders.
 
     Args:
-        right: Text about the right form, for messages.
-        bounds: Text about the bounds of ranges, which must rise, for messages.
+        right: Text for messages about a text of another form.
+        bounds: Text for messages about a range that does not rise or is out of bounds.
 
     Raises:
         BalcliError: The text has another form.

@@ -190,11 +190,11 @@ def _is_same_file(one: Path, other: Path) -> bool:
 
 
 def refuse_leaving_files(text: bytes, source: str, target: Path) -> None:
-    """Check that the files that an engine file names are in the folder into which it is written.
+    """Check that the files that an engine file names are also in the folder of its new copy.
 
     Args:
         text: Text of a valid engine or chain file.
-        source: Path of the file; `-` is standard input, in the working folder.
+        source: Path of this file; `-`: standard input, which names files in the working folder.
         target: Path of the new file.
 
     Raises:

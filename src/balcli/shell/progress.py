@@ -87,7 +87,7 @@ def reporting(what: str, total: float | None = None, shown: bool = True) -> Iter
 
     Args:
         what: Noun for the work, such as "samples".
-        total: Total number; None: the callback receives the share of the work, from 0 to 1.
+        total: Total amount of work; None: the callback receives the share of the work, from 0 to 1.
         shown: Whether to show a bar; false if results appear on the terminal meanwhile.
     """
     progress = Progress(what, total, shown)
@@ -109,7 +109,7 @@ def reporting_until_stopped(what: str, total: float | None = None) -> Iterator[P
 
     Args:
         what: Noun for the work.
-        total: Total number; None: the callback receives the share of the work, from 0 to 1.
+        total: Total amount of work; None: the callback receives the share of the work, from 0 to 1.
     """
     before = signal.getsignal(signal.SIGINT)
     with reporting(what, total) as progress:

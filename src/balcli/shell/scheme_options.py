@@ -31,7 +31,7 @@ Scheme = Annotated[
 Order = Annotated[int | None, optional("N", "Order to balance; default: lowest suitable order.")]
 At = Annotated[
     list[str] | None,
-    optional("X,Y", "Position of a shaft, mm; repeat for two, the shaft against the crank first."),
+    optional("X,Y", "Shaft position, mm; twice for two shafts, first the one against the crank."),
 ]
 Position = Annotated[
     str | None, optional("Z|Z,Z", "Axial position of new devices, mm; two values for compensators.")
@@ -102,7 +102,7 @@ def choose_scheme(asked: str | None, options: SchemeOptions, usual: str = "auto"
     Args:
         asked: Value of `--scheme`; None: not given.
         options: Options of the scheme.
-        usual: Scheme if nothing of this is given.
+        usual: Scheme if no scheme, factor or measured mass is given.
     """
     if asked is not None:
         return asked

@@ -20,8 +20,8 @@ from .figures import silent_entries
 from .sheet import Facts, get_digits, given, number, tell_assumed
 from .units import System
 
-AXES_SHOWN = 9  # largest number of axes of banks in a line
-THROWS_SHOWN = 12
+AXES_SHOWN = 9  # largest number of banks whose axes are listed
+THROWS_SHOWN = 12  # largest number of throws whose angles are listed
 EVEN_DEG = 0.05  # firing intervals that differ by less than this count as equal
 
 
@@ -41,7 +41,7 @@ def name_cylinders(numbers: Sequence[int]) -> str:
 
 
 def tell_pivot(engine: Engine) -> str:
-    """Return the name of the axis of couple and roll."""
+    """Return the name of the axis or point about which couple and roll are taken."""
     return "the point of reference" if any(engine.reference_m[:2]) else "the crank axis"
 
 
@@ -94,7 +94,7 @@ def _list_placed(engine: Engine, system: System) -> Iterator[tuple[str, str]]:
 
 
 def _tell_orders(engine: Engine) -> str:
-    """Return the highest order that is shown by default; empty if the engine has no higher ones."""
+    """Return the highest order that is shown by default; empty if no order is higher."""
     higher = find_relevant_orders(engine)[-1] > HIGHEST_ORDER_UNASKED
     return f"to {HIGHEST_ORDER_UNASKED}; for higher ones use --orders" if higher else ""
 
@@ -262,7 +262,7 @@ def _unequal(engine: Engine) -> str:
 
 def _firing(engine: Engine) -> str:
     """Return the firing order, the intervals between firings, and the strokes of a cycle; without a
-    firing order, only strokes that are not assumed.
+    firing order, only the strokes, and only if the file gives them or has gas.
     """
     if not engine.fires_deg:
         said = engine.model is not None and "strokes" in engine.model.layout.model_fields_set

@@ -22,7 +22,7 @@ from .units import ShownUnit, System
 
 
 class Component(NamedTuple):
-    """One order of a force or moment along an axis: amplitude * cos(order * angle - phase).
+    """One order of a force or moment along an axis: amplitude * cos(order * crank angle - phase).
 
     Attributes:
         amplitude: Amplitude.
@@ -35,8 +35,9 @@ class Component(NamedTuple):
 
 @dataclass(frozen=True)
 class Vector:
-    """One order of a force or moment, F = forward e^(i order angle) + backward e^(-i order angle);
-    its tip describes an ellipse.
+    """One order of a force or moment: forward * e^(i n theta) + backward * e^(-i n theta), with
+    order n and crank angle theta; real part along x, imaginary part along y. The vector's tip
+    describes an ellipse.
 
     Attributes:
         forward: Vector that turns with the crank: real and imaginary part.
@@ -46,7 +47,7 @@ class Vector:
         axis_deg: Direction of the major axis, from x; null for a circle and a point.
         x: Component along x.
         y: Component along y.
-        balanced: Whether the value is 0 except for rounding errors.
+        balanced: Whether the force or moment is 0 except for rounding errors.
     """
 
     forward: complex
@@ -88,7 +89,8 @@ class FreeMoment(Vector):
 
 
 class Harmonic(NamedTuple):
-    """One order of a couple, torque or roll: cos * cos(order * angle) + sin * sin(order * angle).
+    """One order of a couple, torque or roll: cos * cos(n theta) + sin * sin(n theta), with order n
+    and crank angle theta.
 
     Attributes:
         cos: Coefficient of the cosine, N·m.
@@ -107,7 +109,7 @@ class Harmonic(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True)
 class OrderFigures:
-    """Computed and known figures of one order.
+    """Figures of one order; those that are not computed or not known are left out.
 
     Attributes:
         order: Order, in multiples of the crank speed; four-stroke engines have half orders.
@@ -206,7 +208,7 @@ class OrdersAndPeaks:
 
 
 class FigureRow(NamedTuple):
-    """One figure of a result. Cylinder 0 is the engine; order None means all orders together."""
+    """One figure of a result. Cylinder 0 is the whole engine; order None: all orders together."""
 
     cylinder: CylinderNumber
     quantity: str
@@ -310,7 +312,7 @@ def list_harmonics(phasors: Phasors) -> list[Harmonic]:
 
 
 def list_coefficients(orders: Array, c: Complex, balanced: NDArray[np.bool_]) -> list[Harmonic]:
-    """Return a record for each order of `Re sum c_n e^{i n theta}`.
+    """Return a record for each order of `Re sum c_n e^{i n theta}`, with crank angle theta.
 
     Args:
         orders: Orders n, shape (orders,).
@@ -322,7 +324,8 @@ def list_coefficients(orders: Array, c: Complex, balanced: NDArray[np.bool_]) ->
 
 
 def size_or_mean(c: complex, order: float) -> float:
-    """Return the amplitude of `Re(c e^{i n theta})`; for order 0 the mean with its sign.
+    """Return the amplitude of `Re(c e^{i n theta})`, with crank angle theta; for order 0 the mean
+    with its sign.
 
     Args:
         c: Coefficient.
@@ -332,7 +335,7 @@ def size_or_mean(c: complex, order: float) -> float:
 
 
 def peak_deg(c: complex | Complex, orders: ArrayLike) -> Array:
-    """Return the first crank angle in [0, 360/order) at which `Re(c e^{i n theta})` is largest,
+    """Return the first crank angle theta in [0, 360/n) at which `Re(c e^{i n theta})` is largest,
     deg; nan for order 0 and for an amplitude of 0.
 
     Args:
@@ -346,7 +349,7 @@ def peak_deg(c: complex | Complex, orders: ArrayLike) -> Array:
 
 
 def phase_deg(c: complex | Complex) -> Array:
-    """Return the angle in (-180, 180] of `amplitude cos(n theta - angle)`."""
+    """Return the phase of `Re(c e^{i n theta}) = |c| cos(n theta - phase)`, in (-180, 180] deg."""
     angle = -np.degrees(np.angle(c))
     return np.where(angle <= -180, angle + 360, angle)
 

@@ -122,9 +122,10 @@ class Columnar(Generic[Shown]):
     """Conversion of one kind of result to documents and columns.
 
     Attributes:
-        document: Function that returns the JSON document, in SI units; default: the document of
-            the record.
-        columns: Function that returns the columns of DataFrames; None: the columns of CSV.
+        document: Function that returns the JSON document, in SI units; default: a key for each
+            attribute of the result.
+        columns: Function that returns the columns of DataFrames; None: DataFrames have the columns
+            of CSV.
     """
 
     document: Callable[[Shown], object] = to_document
@@ -136,7 +137,7 @@ class Renderer(Columnar[Shown]):
     """Conversion of one kind of result to documents, columns, sheets and CSV.
 
     Attributes:
-        sheet: Function that returns the sheet in given units.
+        sheet: Function that returns the sheet (readable tables and facts) in given units.
         rows: Function that returns the rows of CSV in given units.
     """
 

@@ -51,7 +51,7 @@ def draw_path(ax: Axes, path: Complex, crank_deg: Array, step: float, limit: flo
     second dot is written on the outer side of the path.
 
     Args:
-        path: Path in the unit of the axes, real upwards, shape (angles,).
+        path: Path in the unit of the axes, real part upwards, shape (angles,).
         crank_deg: Crank angles, deg, shape (angles,).
         step: Crank angle between dots, deg.
         limit: Half the side of the axes.
@@ -134,7 +134,7 @@ def draw_paths(
 
     Args:
         ax: Axes of the picture.
-        paths: Paths by label, in the unit of the axes, real upwards, each of shape (angles,).
+        paths: Paths by label, in the unit of the axes, real part upwards; each of shape (angles,).
         names: Names of the axes.
         unit: Unit of the axes.
         taper: Difference of line widths between a path and the path drawn over it.
@@ -283,7 +283,7 @@ def draw_polygon(ax: Axes, star: Star, quantity: str, turn_deg: float, unit: Sho
     places = []
     for (vector, name, bank), start in zip(rays, corners, strict=False):
         way = vector / abs(vector)
-        if abs(way + last) < _SAME:  # it runs back along the vector before
+        if abs(way + last) < _SAME:  # the vector runs back along the one before it
             shift += 1j * last * _GAP * limit
         last, place = way, complex(start) + shift
         _draw_arrow(ax, place, place + vector, **_look(bank, len(star.banks)))

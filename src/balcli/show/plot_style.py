@@ -58,7 +58,7 @@ def _find_figure_class() -> type[Figure]:
 
         def _repr_png_(self) -> bytes:
             buffer = BytesIO()
-            self.savefig(buffer, format="png", dpi=100)  # a column of a notebook
+            self.savefig(buffer, format="png", dpi=100)  # fits the column of a notebook
             return buffer.getvalue()
 
     return Picture

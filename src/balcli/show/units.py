@@ -39,7 +39,9 @@ class ShownUnit(NamedTuple):
 
 
 class System(NamedTuple):
-    """The units of a result in tables and pictures."""
+    """The units of a result in tables and pictures. `heat` is the unit of the heat flow in dampers,
+    `scales` that of small masses, as the scales of a balancing shop show them.
+    """
 
     force: ShownUnit
     moment: ShownUnit

@@ -41,7 +41,7 @@ class _Pin(NamedTuple):
     Attributes:
         cylinders: Numbers of its cylinders.
         unbalance: Unbalance to be balanced (throw included) at crank angle 0, kg m.
-        z: Centre of the masses on the pin along the crank, m.
+        z: Position along the crank of the centre of the masses on the pin, m.
     """
 
     cylinders: tuple[CylinderNumber, ...]
@@ -56,7 +56,7 @@ class _Planes(NamedTuple):
         z: Positions of the planes, m, shape (planes,).
         needs: Unbalance that each plane needs, has and lacks at crank angle 0, kg m, shape (3,
             planes).
-        sets: Pins of each plane; empty if planes are given.
+        sets: Pins that each plane balances; empty if planes are given.
     """
 
     z: Array
@@ -140,7 +140,7 @@ def _find_best_factors(
     omitted.
 
     At each crank angle, a load is linear in the factor; so its peak is a convex function of the
-    factor.
+    factor, and has one minimum.
     """
     first, last = (_list_curves(engine, factor, planes) for factor in (low, high))
     best: dict[str, dict[str, float]] = {}

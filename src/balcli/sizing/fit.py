@@ -66,7 +66,7 @@ def remove_to_fit(model: EngineFile) -> EngineFile:
 
 
 def size_fit(engine: Engine, model: EngineFile, targets: Sequence[str] | None = None) -> Remedy:
-    """Fit the unbalances of all devices of a file that are "fit".
+    """Fit all unbalances that a file gives as "fit".
 
     An angle that the file gives is kept. If the targets do not determine the unbalances, the
     smallest unbalances are used that cancel the targets best.
@@ -156,7 +156,7 @@ def _set_up(
 
 def _fill(table: DeviceTable, values: Array) -> DeviceTable:
     """Return the table with a fitted unbalance (kg m). `values`: the unbalance if its angle is
-    given, else real and imaginary part.
+    given, else its real and imaginary part.
     """
     angle = measure_direction(complex(*values)) if values.any() else 0.0
     if len(values) == 1:

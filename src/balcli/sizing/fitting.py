@@ -5,12 +5,13 @@ sentence: it names the part that a device cancels, and why a simpler device cann
 are not in the reasons but in the tables, which use the units of the reader.
 
 The effect of a device is linear in its complex unbalance (docs/theory.md), so all sizing is
-weighted linear least squares. A shaft that turns with the crank at order n, with unbalance u at z
-along the crank and at `p = x + iy`, adds (divided by `n^2 omega^2`) `u` to the free force, `(z -
-z_ref) u` to the moment divided by i, and `Im(conj(p) u e^{in theta})` to the roll. A slider adds to
-both rotating vectors: the one that turns with the crank and the one that turns against it. A *slot*
-is a place and kind for a device. A *part* is one rotating vector of force or moment, or the roll. A
-scheme chooses slots and the parts to cancel.
+weighted linear least squares. Take a shaft that turns with the crank at n times crank speed omega,
+with the unbalance u at z along the crank and at `p = x + iy` from the point of reference, whose z
+is z_ref. Divided by `n^2 omega^2`, the shaft adds `u` to the free force, `(z - z_ref) u` to the
+moment divided by i, and at the crank angle theta `Im(conj(p) u e^{in theta})` to the roll. A slider
+adds to both rotating vectors: the one that turns with the crank and the one that turns against it.
+A *slot* is a place and kind for a device. A *part* is one rotating vector of force or moment, or
+the roll. A scheme chooses slots and the parts to cancel.
 """
 
 from __future__ import annotations
@@ -141,7 +142,7 @@ class Fit(NamedTuple):
         unbalances: Unbalance for each slot, kg m.
         condition: Condition number of the weighted system; infinite if the slots cannot produce
             some combination of the parts.
-        left: Share of the parts that remains.
+        left: Share of the parts that the devices leave.
     """
 
     unbalances: tuple[complex, ...]

@@ -191,10 +191,10 @@ class Ladder(NamedTuple):
 
 # ------------------------------------------------------------------ devices
 def add_at_throws(fitting: Fitting) -> Fitting:
-    """Return the fitting with a counterweight at every throw. Each cancels, of the force of order 1
-    of the throw's cylinders, the part that turns with the crank. Each counterweight of the file is
-    subtracted at the nearest throw. If a force or moment remains (from stagger, or weights of the
-    file), the smallest additional unbalances cancel it.
+    """Return the fitting with a counterweight at every throw. The cylinders of a throw make a
+    force of order 1; the counterweight cancels the part of this force that turns with the crank.
+    Each counterweight of the file is subtracted at the nearest throw. If a force or moment remains
+    (from stagger, or weights of the file), the smallest additional unbalances cancel it.
     """
     engine, throws = fitting.engine, fitting.engine.joined_throws_m
     forward = compute_spectra(engine, [1], ("force",), each=True)["force"].forward[0]
@@ -235,7 +235,7 @@ def add_shafts(fitting: Fitting, residual: Residual, senses: Iterable[int]) -> F
 
 def ignore_compensators(engine: Engine) -> Engine:
     """Return the engine with the moments of its compensators but without their forces: for each, an
-    opposite force is added at the point of reference.
+    opposite force is added at the point of reference, where it makes no moment.
     """
     *_, z = engine.reference_m
     opposite = [

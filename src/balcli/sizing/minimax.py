@@ -2,11 +2,13 @@
 as possible; and the scheme `ellipse`: the counterweight that leaves the force of order 1 a wanted
 direction and shape.
 
-Seen from the turning crank, the force is the closed curve `f = F e^{-i theta}`, and a counterweight
-shifts it. So the best weight moves the centre of the smallest enclosing circle to the origin. The
-circle is found by exchange: take the smallest circle around a few points of the curve, which can
-only be too small; add the points of the curve that are farthest from its centre; repeat until no
-point is farther away than the radius. The remaining difference bounds the error.
+Seen from the turning crank, the force F (a complex number; theta: crank angle) is the closed curve
+`F e^{-i theta}`, and a counterweight shifts this curve. So the best weight moves the centre of the
+smallest enclosing circle to the origin. The circle is found by exchange: take the smallest circle
+around a few points of the curve, which can only be too small; add the points of the curve that are
+farthest from its centre; repeat until no point is farther away than the radius. The radius sought
+lies between that of the last circle and the distance of the farthest point; their difference bounds
+the error.
 """
 
 from __future__ import annotations
@@ -61,10 +63,10 @@ class Circle(NamedTuple):
 
 
 def enclose_curve(curve: Phasors) -> Circle:
-    """Return the smallest circle around `F e^{-i theta}`.
+    """Return the smallest circle around the curve `F e^{-i theta}` (see the module).
 
     Args:
-        curve: Phasors of whole orders (order 1 included) of one engine, not of variants.
+        curve: Phasors of the force F: whole orders, 1 included, of one engine, not of variants.
     """
     there = np.flatnonzero((curve.major != 0) | (curve.orders == 1))
     if not np.any(curve.major):
@@ -215,7 +217,8 @@ def _split(
     engine: Engine, options: SchemeOptions, fitting: Fitting, unbalance: complex
 ) -> tuple[Sequence[Slot], Sequence[complex]]:
     """Return slots and unbalances (kg m) that add up to this unbalance: in one plane, or in the
-    given planes such that they also cancel the forward moment of order 1.
+    given planes such that they also cancel the moment of order 1 that turns with the
+    crank.
     """
     if options.planes is None:
         middle = float(engine.throws_m.min() + engine.throws_m.max()) / 2

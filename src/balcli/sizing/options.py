@@ -77,8 +77,8 @@ class SchemeOptions(NamedTuple):
         position: Position z of new devices; compensators take one z, or two (fore and aft).
         planes: "ends", "throws", or positions z of new devices.
         factor: Shares of the reciprocating mass to try; the best share is fitted; default: 0.5.
-        measured: Mass on each bare pin that balances the crank, kg; its factor is fitted, unless
-            `factor` gives another one.
+        measured: Mass on each bare pin that balances the crank, kg; the factor that
+            follows from this mass is fitted, unless `factor` gives another one.
         roll: "zero" places two shafts such that they also cancel the inertia roll of their order.
         orders: Orders of the force whose largest value scheme minimax minimises; default: all.
         small: Share of one cylinder's first order below which a force or moment of an order is left

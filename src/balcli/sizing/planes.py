@@ -1,6 +1,7 @@
 """Choose positions of devices along the crank, and handle devices as tables of the engine file (g
 mm, degrees, mm). Analyses use the figures of these tables, so an engine file with the same tables
-gives the same results.
+gives the same results. `sense` is 1 for forces and moments that turn with the crank, -1 for those
+that turn against it.
 """
 
 from __future__ import annotations
@@ -68,7 +69,8 @@ def find_length(engine: Engine) -> tuple[float, float]:
 
 def locate_force(residual: Residual, sense: int) -> float:
     """Return the z (m) at which the force that turns in the direction `sense` would cause as much
-    of the moment as possible: `z_ref + Re(M / iV)`. The force must not be 0.
+    of the moment as possible: `z_ref + Re(M / iV)` (M: moment, V: force, both turning in this
+    direction; z_ref: z of the point of reference). The force must not be 0.
     """
     return residual.reference.z + (residual.moment(sense) / residual.force(sense)).real
 

@@ -61,8 +61,8 @@ class Residual(NamedTuple):
 
     Attributes:
         order: Order n.
-        parts: Complex amplitude of each part divided by `n^2 omega^2`: force in kg m, moment
-            (also divided by the imaginary unit i) and roll in kg m^2.
+        parts: Complex amplitude of each part divided by `n^2 omega^2` (omega: crank speed): force
+            in kg m, moment (also divided by the imaginary unit i) and roll in kg m^2.
         noise: Rounding error of each part, in the same units.
         reference: Point about which moments and roll are taken.
         newtons_per_kg_m: `n^2 omega^2`, in N/(kg m).
@@ -279,6 +279,6 @@ def _tell_size(residual: Residual, part: ResidualPart) -> str:
 def _tell_rest(residual: Residual) -> str:
     """Return in words the forces and moments of an order, and the schemes that cancel them."""
     parts = [part for part in (*FORWARD, *BACKWARD) if residual.parts[part]]
-    both = {"force": "two-shaft", "moment": "couple-shaft"}  # these cancel either sense
+    both = {"force": "two-shaft", "moment": "couple-shaft"}  # they cancel both directions
     has = (f"a {part.kind} turning {tell_sense(part.sense)} ({both[part.kind]})" for part in parts)
     return f"; it has {join_words(has)}" if parts else ""

@@ -2,10 +2,11 @@
 schemes `two-shaft` and `four-shaft` with pairs of shafts that turn in opposite directions. The
 scheme `compensator` has such pairs far from the engine, where their force makes a moment.
 
-In a pair, shaft A turns against the crank and shaft B with it. V- and V+ are the two rotating
-vectors of the force of their order, p_A and p_B the positions x + iy of the shafts from the crank
-axis. The shafts cause the roll `Re c e^{in theta}` with `c = i conj(p_B) V+ - i p_A
-conj(V-)`.
+A shaft at +N turns with the crank at N times crank speed, a shaft at -N turns against it. In a
+pair, shaft A turns against the crank and cancels V-, the vector of the force of order n that turns
+against the crank; shaft B turns with the crank and cancels V+, the vector that turns with it. p_A
+and p_B are the positions x + iy of the shafts from the crank axis, theta is the crank angle. The
+shafts cause the roll `Re c e^{in theta}` with `c = i conj(p_B) V+ - i p_A conj(V-)`.
 """
 
 from __future__ import annotations
@@ -136,8 +137,8 @@ def size_compensator(engine: Engine, options: SchemeOptions) -> Remedy:
     along x.
 
     If `m` is the amplitude of this moment, a single compensator at z makes the force `-m/(z -
-    z_ref)`. The first of two compensators, at z1, makes the force `-m/(z1 - z2)`, the second, at
-    z2, the opposite force.
+    z_ref)`, where z_ref is the z of the point of reference. The first of two compensators, at
+    z1, makes the force `-m/(z1 - z2)`, the second, at z2, the opposite force.
     """
     if options.position is None:
         raise BalcliError("--scheme compensator: give --position Z, or Z,Z for fore and aft")
@@ -172,8 +173,8 @@ def size_compensator(engine: Engine, options: SchemeOptions) -> Remedy:
 
 
 def _find_moment_about_y(residual: Residual) -> complex:
-    """Return the complex amplitude of the moment about y, divided by `n^2 omega^2`, kg m^2; 0 if
-    it is rounding.
+    """Return the complex amplitude of the moment about y, divided by `n^2 omega^2` (n: order,
+    omega: crank speed), kg m^2; 0 if it is within rounding errors.
     """
     moment = residual.moment(1) + residual.moment(-1).conjugate()
     noise = sum(residual.noise[part] for part in MOMENT)
@@ -181,7 +182,9 @@ def _find_moment_about_y(residual: Residual) -> complex:
 
 
 def _place_forces(moment: complex, places: Sequence[float], z_ref: float) -> dict[float, complex]:
-    """Return forces (kg m) that together make a moment (kg m^2), by their places (z, m)."""
+    """Return forces (kg m) that together make a moment (kg m^2), by their places (z, m).
+    With a single place, the moment is taken about `z_ref`.
+    """
     if len(places) > 2:
         raise BalcliError("--position takes one z, or two")
     first, other = places[0], places[1] if len(places) > 1 else z_ref
@@ -225,8 +228,8 @@ def _add_pair(fitting: Fitting, residual: Residual, options: SchemeOptions) -> F
 
 
 def _choose_places(residual: Residual, options: SchemeOptions) -> Places:
-    """Return the positions of the shafts that turn in each sense. Positions that are not given are
-    chosen such that the pair adds no roll, or (option `roll`) such that no roll remains.
+    """Return the positions of the shafts for each direction of rotation. Positions that are not
+    given are chosen such that the pair adds no roll, or (option `roll`) such that no roll remains.
 
     A pair cancels a roll (kg m^2) if `conj(p_B) V+ - p_A conj(V-) = i roll` (docs/theory.md). If no
     position is given, the positions nearest to the crank are chosen (least squares). A force that

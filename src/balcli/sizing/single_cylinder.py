@@ -4,12 +4,13 @@ variable speed, and Oldham couplings (Wang).
 Eccentric slider (Wang, section 2.4): a slider on an eccentric disc turns two balance shafts
 unevenly; the best eccentricity of the disc and mass of the shafts' weights are sought.
 
-The shafts, symmetric to the cylinder axis, turn by phi(theta); each has a weight m_b at the radius
-r_b. Their force along the axis is `2 m_b r_b omega^2 (phi'^2 cos phi + phi'' sin phi) = -2 m_b r_b
-omega^2 (cos phi)''` (the sign of the second term is misprinted in the source). Forces are in units
-of m r omega^2 (m: reciprocating mass, r: crank radius). The remaining force is then the even
-function `P = f(theta) - 2 mu g(theta; k)`, with the engine's force f and the force mu g of each
-shaft; k and mu are the unknowns (`Optimum`).
+The shafts, symmetric to the cylinder axis, have the angle phi(theta) at the crank angle theta;
+omega is the crank speed, primes are derivatives by theta. Each shaft has a weight of mass m_b at
+radius r_b. The force of both along the axis is `2 m_b r_b omega^2 (phi'^2 cos phi + phi'' sin phi)
+= -2 m_b r_b omega^2 (cos phi)''` (the sign of the second term is misprinted in the source). Forces
+are in units of m r omega^2 (m: reciprocating mass, r: crank radius). The remaining force is then
+the even function `P = f(theta) - 2 mu g(theta; k)`, with the engine's force f and the force mu g
+that each shaft makes along the axis; k and mu are the unknowns (`Optimum`).
 
 Below, `c` holds cosine coefficients of an even function, shape (orders,), and `x` the two unknowns
 k and mu, shape (2,).
@@ -41,11 +42,11 @@ _COUNT = 512  # number of samples of a revolution, enough for k above _LEAST_K
 _GRID = np.linspace(0, np.pi, 1025)
 _ORDERS = np.arange(_COUNT // 4)
 _ROUNDS = 60
-_NOISE = 5e-16  # rounding of the transform; factors of order squared would enlarge it
+_NOISE = 5e-16  # smaller coefficients count as 0: rounding, which order^2 would enlarge
 _SETTLED = 1e-10  # a relative step below this ends the search
 _FARTHEST_TO_PEAK, _FARTHEST_TO_MEAN = 0.25, 0.1  # largest change of k in one step, as a share of k
 _SINGULAR = 1e-14  # matrices with smaller determinants are singular
-_NEWTON_STEPS = 8  # number of steps from the middle of a grid cell to a root, up to rounding
+_NEWTON_STEPS = 8  # steps from the middle of an interval of _GRID to a root, up to rounding
 
 
 class Optimum(NamedTuple):
@@ -119,7 +120,7 @@ def find_optima(lam: float) -> tuple[Optimum, ...]:
 
 def expand_shaft_wave(design: str, k: float) -> tuple[Array, Array]:
     """Return the cosine coefficients of cos phi over the crank angle, where phi is the angle of the
-    shafts, and their derivatives by k.
+    shafts, and the derivatives of these coefficients by k.
     """
     theta = np.arange(_COUNT) * np.float64(2 * np.pi / _COUNT)
     cosine, step = np.cos(theta), 1e-30
@@ -174,7 +175,7 @@ def _evaluate(c: Array, theta: Array, derivative: int = 0) -> Array:
 
 def _find_zeros(c: Array, derivative: int = 0) -> Array:
     """Return 0, the zeros of the n-th derivative (n = `derivative`) of a series between 0 and pi,
-    and pi. Newton's method finds each zero within a grid cell.
+    and pi. Newton's method finds each zero within an interval of `_GRID`.
     """
     values = _evaluate(c, _GRID, derivative)
     if derivative == 1:  # the function is even about 0 and pi
@@ -203,9 +204,10 @@ def _iterate(step: Callable[[Array], Array], x: Array, farthest: float) -> Array
 
 
 def _step_to_peak(design: str, engine: Array, x: Array) -> Array:
-    """Return the step d that minimises the largest of `|values + slopes d|` over the extremes of P.
-    This step gives three extremes the same size. So the step for each three extremes is computed,
-    and the best of these steps is returned.
+    """Return the step d of k and mu that minimises the largest of `|values + slopes d|` over the
+    extremes of P (values: P at the extremes; slopes: its derivatives by k and mu, so that the sum
+    is P after the step). This step gives three extremes the same size. So the step for each three
+    extremes is computed, and the best of these steps is returned.
     """
     remaining, by_x = _linearize(design, engine, x)
     theta = _find_zeros(remaining, 1)

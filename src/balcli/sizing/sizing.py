@@ -135,8 +135,9 @@ def _compromise(fitting: Fitting, slots: list[Slot], residual: Residual) -> Fitt
 
 
 def size_sliders(engine: Engine, options: SchemeOptions) -> Remedy:
-    """Fit two reciprocating masses along the axes of the ellipse of order N: `m r = (|V+| +- |V-|)
-    / (n^2 omega^2)`.
+    """Fit two reciprocating masses along the axes of the ellipse that the force of order n runs on.
+    Their unbalances are `(|V+| + |V-|)/(n^2 omega^2)` and `||V+| - |V-||/(n^2 omega^2)`; V+ and V-
+    are the rotating vectors of this force, with and against the crank, omega is the crank speed.
 
     By default, the sliders are where the larger of the two rotating forces acts.
     """
@@ -179,8 +180,8 @@ SIZE: dict[str, Callable[[Engine, SchemeOptions], Remedy]] = {
 
 
 def size(engine: Engine, scheme: str = "auto", options: SchemeOptions | None = None) -> Remedy:
-    """Return the devices that a scheme fits to an engine. If there is nothing to balance, return no
-    devices but a note.
+    """Return the devices that a scheme fits to an engine. If there is nothing to balance, the
+    remedy has no devices, and a note gives the reason.
 
     Args:
         engine: One engine, not an array of variants.

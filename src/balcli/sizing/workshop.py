@@ -21,7 +21,7 @@ from ..file.read import T, TableReader
 from .planes import DeviceTable, as_millimetres, find_order, find_unbalance
 from .remedy import Remedy
 
-ROUNDING = 1e-12  # relative excess over the unbalance of whole holes that needs no further hole
+ROUNDING = 1e-12  # share by which n holes may fall short before a hole is added
 THICKNESS = 0.020  # m, default thickness of a semicircular disc
 
 

@@ -16,7 +16,7 @@ from ..file.table import label_table
 from ..file.torsion_tables import Part, find_stiffness
 from .quantity_names import ENGINE, MOUNTS, TORSION
 
-# Keys of the masses of a rod, with the number of file units in one SI unit.
+# Keys of the masses and inertia of a rod, with the number of file units in one SI unit.
 _ROD_UNITS = {"mass": 1.0, "small_end": 1.0, "big_end": 1.0, "inertia": 1e6}
 OF_MOUNTS, OF_SHAFTS = 0.15, 0.05  # default tolerances of stiffness
 

@@ -62,7 +62,7 @@ class Place(NamedTuple):
     value: object
 
 
-# Keys without effect on any quantity: they name directions, or only `--only parts` uses them.
+# Keys without effect on any quantity: directions, and keys that only `--only parts` uses.
 _SHOWN_ALONE = {(Frame, "up"), (Piston, "skirt"), (Shaft, "bearings"), (Shaft, "drag")}
 _SHOWN_ALONE |= {(Gear, key) for key in Gear.model_fields}
 
@@ -99,12 +99,12 @@ def find_places(model: EngineFile) -> dict[str, Place]:
 
 
 def _find_places_of_several(model: EngineFile) -> dict[str, Place]:
-    """Return the numbers with an effect, of a file with [[engine]] and of its engines' files."""
+    """Return the numbers that have an effect, of a file with [[engine]] and its engines' files."""
     numbers: dict[str, Place] = {}
     for path, table in model.tables():
         if path.partition(".")[0] in BESIDE_ENGINES:
             numbers |= _numbers_of(path, table)
-    for path in ("frame.up", "engine.1.phase"):  # phases count from engine 1
+    for path in ("frame.up", "engine.1.phase"):  # phases are relative to engine 1
         numbers.pop(path, None)
     of_whole = set(BESIDE_ENGINES).difference(DEVICES, ("flywheel",))
     for k, crank in enumerate(model.cranks, 1):
@@ -157,7 +157,7 @@ def _numbers_of(start: str, table: FileTable) -> Iterator[tuple[str, Place]]:
                 elif reader is not None:
                     alike = any(getattr(mark, "copies", 0) > 1 for mark in field.metadata)
                     if k == 1 and alike and len(set(value)) == 1:
-                        yield path, Place(reader, kind, key, item)  # all members together
+                        yield path, Place(reader, kind, key, item)  # one name for all members
                     yield f"{path}.{k}", Place(reader, kind, key, item)
         elif reader is not None and (value is not None or "tuple" not in str(field.annotation)):
             yield path, Place(reader, kind, key, value)
@@ -319,8 +319,8 @@ def ladder(first: Fraction, step: Fraction, count: int) -> NDArray[np.float64]:
 
 
 def _read_exactly(text: str, number: Number) -> Fraction:
-    """Return the exact figure in the unit of its field. With rounded figures, a range might miss
-    its end.
+    """Return a figure as an exact fraction in the unit of `number`. With rounded figures, a range
+    might miss its last value.
     """
     figure = re.sub(FORTRAN, r"e\1", text.strip())
     try:

@@ -139,13 +139,14 @@ def refuse_unknown(model: EngineFile, engine: Engine, wanted: Iterable[AnyQuanti
     refuse_unknown_of_engine(engine, choose_of_engine(wanted))
 
 
-# Tables whose default values affect the quantities of a chapter, besides those for every chapter.
+# Tables whose default values affect the quantities of a chapter, besides tables that affect all.
 _TABLES = {MOUNTS: {"gas", "body", "mount"}, TORSION: {"gas", "torsion"}, PISTON: set[str]()}
 # Beginnings of the names of quantities that do not depend on the inertia of rods.
 _WITHOUT_RODS = ("force.", "moment.", "peak.", "gas.", "mode.", "torque.mean", "piston.")
-# Beginnings of the names of quantities that depend on the masses of throws.
+# Beginnings of the names of quantities that depend on the masses of throws: in every engine, and
+# only if frame.reference is off the axis of the crankshaft.
 _OF_THROWS = ("force.1.", "moment.1.", "peak.", "mount.", "point.")
-_OF_THROWS_OFF_AXIS = ("couple.1.", "roll.1.", "roll_total.1.")  # if frame.reference is off axis
+_OF_THROWS_OFF_AXIS = ("couple.1.", "roll.1.", "roll_total.1.")
 
 
 def list_assumed(
@@ -204,8 +205,8 @@ def _list_variants(
 
 
 class _VariedGas:
-    """Gas torque of variants by order, shape (orders, *trailing). Axes of parameters without effect
-    on the gas have length 1.
+    """Gas torque of variants by order, shape (orders, *parameters): each parameter has an axis,
+    which has length 1 if the parameter has no effect on the gas.
     """
 
     def __init__(self, model: EngineFile, figures: Mapping[str, Figure], rank: int) -> None:

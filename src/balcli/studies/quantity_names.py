@@ -1,8 +1,9 @@
 """Define the table of all quantities of `numbers`, `sweep`, `search`, `scatter` and `check`: names,
-units, meanings, and the chapter that computes each. Help, errors and completion use it.
+units, meanings, and the chapter (a subject, such as mounts) whose module computes each. Help,
+errors and completion use the table.
 
-`N` stands for an order or a number, `NAME` for the name of a part in the file, `MOTION` for one of
-x, y, z, rx, ry, rz and roll, `PART` for one of the words in the meaning.
+`N` stands for an order or a number, `NAME` for the name of a mount, point or shaft, `MOTION` for
+one of x, y, z, rx, ry, rz and roll, `PART` for one of the words in the meaning.
 """
 
 from __future__ import annotations
@@ -128,8 +129,8 @@ def join_patterns(forms: Iterable[Form]) -> Iterator[str]:
 
 
 def tell_speeds(names: Iterable[str], varied: Iterable[str] = ()) -> str:
-    """Return a note on the ranges of speed over which quantities of these names are the largest
-    values; empty if the speed itself varies.
+    """Return a note on those of the named quantities that are the largest value over a range of
+    speeds: it states the range. The note is empty if `varied` contains the speed of the engine.
     """
     if "operation.speed" in varied:
         return ""

@@ -40,12 +40,12 @@ from .quantity_names import ENGINE, MOUNTS, TORSION
 
 # Default numbers of samples if engines are computed together as arrays, and if one by one.
 RANDOM_ENGINES, RANDOM_SINGLES = 100_000, 500
-CHUNK, AT_ONCE = 8_192, 400_000  # most samples, and most samples times parts, computed at once
+CHUNK, AT_ONCE = 8_192, 400_000  # most samples, and most (samples x parts), at once
 _EQUAL = 1e-8  # effects that differ by less than this share of the largest are equal
 _ROUNDING = 1e-12  # changes below this share of the nominal value are rounding errors
 _LEAST = -0.99  # least relative deviation, so that no mass or spring becomes negative
 _DEGREES = Number(ANGLE, least=0, most=90)
-# By chapter: name of the variants in tables, and an example of an option with a tolerance.
+# For each kind of quantities: name of the variants in tables, and an option with a tolerance.
 _VARIED = {
     ENGINE: ("engines", "--mass-scatter 0.5%"),
     MOUNTS: ("sets of mounts", "--stiffness-scatter 15%"),
@@ -92,7 +92,7 @@ class Scatter(Result):
         quantities: Spread of each quantity, by its name.
         model: The engine file.
         units: SI unit of each quantity, by its name.
-        varied: Name of the variants in tables, such as engines.
+        varied: Word for the variants in tables, such as "engines".
         parts: Parts that deviate, with their tolerances.
     """
 
@@ -305,7 +305,7 @@ class Variants:
 def _find_changes(nominal: Array, above: Array, below: Array) -> Array:
     """Return the change of each quantity by each tolerance, shape (sources, quantities). It is half
     the difference between the values at both ends of the tolerance. If both ends change a quantity
-    in the same direction, such as an amplitude that is nominally 0, it is the larger change.
+    in the same direction, such as an amplitude that is nominally 0, the larger change counts.
     """
     up, down = above - nominal, below - nominal
     larger = np.where(np.abs(up) >= np.abs(down), up, down)

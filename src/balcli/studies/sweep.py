@@ -96,7 +96,7 @@ class Sweep:
 
     @property
     def doubts(self) -> list[str]:
-        """Warnings of unlikely figures of the file, except figures that vary."""
+        """Warnings of unlikely figures of the file. Figures that vary cause no warning."""
         with naming_file(self.name):
             all_of_file = [
                 doubt
@@ -174,11 +174,12 @@ def read_sweep(file: str, vary: Sequence[str], quantities: str | None = None) ->
 def plan_sweep(
     model: EngineFile, parameters: tuple[Parameter, ...], quantities: str | None, name: str
 ) -> Sweep:
-    """Return the sweep of an engine file, after a check of the grid's corners.
+    """Return the sweep of an engine file, after a check of the grid's corners: the variants whose
+    parameters all have their smallest or largest value.
 
     A mechanism that locks anywhere in the grid also locks at a corner. An uneven speed may be
-    impossible only between the corners, which is found when these variants are computed. `name` is
-    the file's name in messages; see `read_sweep` for the other arguments.
+    impossible only between the corners; the error is then raised when these variants are computed.
+    `name` is the file's name in messages; see `read_sweep` for the other arguments.
     """
     paths = [p.path for p in parameters]
     if twice := [path for path in paths if paths.count(path) > 1]:
@@ -210,7 +211,7 @@ def evaluate_sweep(sweep: Sweep) -> list[Array]:
     """Return each quantity for all variants, in SI units or degrees, shape (variants,).
 
     Raises:
-        InputError, BalcliError: A variant is impossible; the error has its figures.
+        InputError, BalcliError: A variant is impossible; the error states the variant's figures.
     """
     engine = sweep.engine() if sweep.evaluator.of_engine else None
     with naming_variant(sweep.name):
@@ -367,7 +368,7 @@ def sweep(
             `layout.bank_angle`): a one-dimensional array or list in the unit of the file (mm, kg,
             deg, rpm), texts with units, or a range from:to:step ("0:180:1"). Several
             names span a grid.
-        quantities: Names such as `force.2.major` (minor, forward, backward, axis, x, y),
+        quantities: Names such as `force.2.major` (or minor, forward, backward, axis, x, y),
             `moment.1.backward`, `couple.4.amplitude`, `peak.force`; for engines with mounts,
             torsion or gas also `mode.3.Hz`, `mount.left.force`, `torsion.1.Hz`, `torque.mean`.
             Default: force and moment of orders 1 and 2, or only force if positions of throws are
@@ -382,7 +383,7 @@ def sweep(
     Raises:
         BalcliError: A name is unknown (the message suggests the nearest), or values are out of
             bounds or too many.
-        InputError: A variant is impossible; the error has the reason.
+        InputError: A variant is impossible; the error states the reason.
         TypeError: An argument has the wrong type.
 
     Example:

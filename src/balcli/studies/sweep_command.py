@@ -42,8 +42,8 @@ _OF_CYLINDER = re.compile(r"cylinder\.\d+\.")
 
 
 def sheet(result: NamedNumbers, _system: System) -> Sheet:
-    """Return tables of the numbers and the quantities with one row for each name. Keys of single
-    cylinders that the file does not give have one row for all cylinders.
+    """Return tables of the numbers and the quantities with one row for each name. A key of
+    single cylinders that the file does not give has one row for all cylinders.
     """
     note = "–: not in the file; N stands for the number of a cylinder."
     heads = ("name", "value", "unit", "meaning")
@@ -100,7 +100,7 @@ VARY = (
     "A number of the engine file and its values: rod.ratio=0.24:0.32:0.01 (from:to:step) or "
     "crank.throws.2=90,180. Several numbers span a grid, in which the last varies fastest."
 )
-USUAL = DEFAULT_QUANTITIES.replace(",", ", ")  # help may fold it
+USUAL = DEFAULT_QUANTITIES.replace(",", ", ")  # help may fold lines at spaces
 QUANTITY = f"Quantities by name: {describe_names()}"
 FORM = (
     "Default: by the ending of -o; without -o, a table in a terminal and csv in a pipe. Tables "

@@ -1,5 +1,6 @@
-"""Show the variants of a sweep: CSV and JSON in full precision, written chunk by chunk; a table of
-the first variants; data frames; and pictures over one or two parameters.
+"""Show the variants of a sweep: CSV and JSON in full precision, written chunk by chunk (as the
+variants are computed); a table of the first variants; data frames; and pictures over one or two
+parameters.
 """
 
 from __future__ import annotations
@@ -35,7 +36,7 @@ if TYPE_CHECKING:
 class SweepDocument:
     """Variants of an engine. A row has the varied figures, in the units of the file, then the
     quantities, in the units of `balcli numbers`. Null marks a quantity without a value, such as the
-    axis of a circle.
+    direction of the long axis of a vector that turns in a circle.
 
     Attributes:
         engine: The engine file.
@@ -71,7 +72,7 @@ def _describe(sweep: Sweep, rows: Array) -> SweepDocument:
 
 def sweep_csv(sweep: Sweep, chunks: Iterable[Chunk]) -> Iterator[str]:
     """Yield CSV: a header, and one line for each variant. Quantities without a value, such as the
-    axis of a circle, are empty cells.
+    direction of the long axis of a vector that turns in a circle, are empty cells.
     """
     yield ",".join(sweep.columns) + "\n"
     for chunk in chunks:
@@ -195,5 +196,5 @@ def make_sweep(sweep: Sweep, values: Sequence[Array]) -> Figure:
 
 
 def _fit(name: str, value: Array) -> ShownUnit:
-    """Return the unit that fits the largest of these values; `name` is their SI unit."""
+    """Return the unit that fits the largest magnitude in `value`; `name` is the SI unit."""
     return unit_of_name(name).fit(float(np.nan_to_num(abs(value)).max(initial=0)))

@@ -47,11 +47,12 @@ from .sweep import (
 )
 from .sweep_show import make_sheet, sweep_csv, sweep_json
 
-# Largest numbers of rows and boxes in a block; a box takes about a tenth of a second.
+# Largest number of rows in a block, and of boxes. A box is a set of variants that is evaluated as
+# arrays, in about a tenth of a second.
 ROWS_A_BLOCK, BOXES_A_BLOCK = 1 << 20, 8
 MANIFEST = "_balcli_sweep.json"  # Parquet readers skip names that begin with _
 _BLOCK = re.compile(r"part-\d{6,}\.parquet")
-# The hidden name of an unfinished block is that of `files.name_hidden`.
+# Names of blocks, of unfinished blocks (hidden, from `files.name_hidden`) and of the manifest.
 _OURS = re.compile(rf"{_BLOCK.pattern}|\.{_BLOCK.pattern}\.[0-9a-f]+|{re.escape(MANIFEST)}")
 RETRIES = 3  # number of retries of a task that a worker has not finished
 AHEAD = 4  # number of pending tasks for each thread
@@ -59,7 +60,7 @@ AHEAD = 4  # number of pending tasks for each thread
 
 # ------------------------------------------------------------------ one file
 def _describe(sweep: Sweep) -> dict[str, Any]:
-    """Return the metadata of a file or folder."""
+    """Return the metadata that are written into a file or folder."""
     return {"format": "balcli.sweep/1", "version": __version__, "engine": sweep.file.name}
 
 
@@ -203,7 +204,7 @@ def _claim(folder: Path, manifest: str, force: bool) -> None:
         raise BalcliError(
             f"{folder}/: holds another sweep; choose another folder, or --force to replace it"
         )
-    for name in sorted(names, key=MANIFEST.__eq__):  # the manifest last: the run may be interrupted
+    for name in sorted(names, key=MANIFEST.__eq__):  # manifest last: it shows that blocks are ours
         (folder / name).unlink()
     (folder / MANIFEST).write_bytes(manifest.encode())
 
@@ -232,7 +233,7 @@ def connect_cluster(address: str) -> Iterator[Share]:
     dask: Any = distributed
     options: dict[str, Any] = {"address": address, "timeout": 10}
     if address == "local":
-        # When the cluster ends, its workers log the loss of their scheduler.
+        # Otherwise, workers log the loss of their scheduler when the cluster ends.
         quiet = {"dashboard_address": None, "silence_logs": logging.CRITICAL}
         options = {"threads_per_worker": 1, **quiet}
     try:

@@ -56,7 +56,8 @@ def analyze_torque_of_engine(
         engine: One engine with gas, not an array of variants. An uneven speed in its file is
             ignored.
         orders: Orders to show; default: all multiples of 1/2 (two-stroke engine: of 1) up to 12. If
-            the number of firings per turn is above 12, this order and its double are added.
+            the engine fires more than 12 times per turn, the order equal to this number and twice
+            this order are added.
         cylinder: Cylinder whose torque is shown next to the engine's torque, such as 3, or
             "upper.3" in geared engines; default: 1, or the first to fire if cylinder 1 is a dummy.
         fluctuation: Allowed fluctuation of speed, (highest - lowest)/mean; the result has the

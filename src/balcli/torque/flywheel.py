@@ -21,7 +21,7 @@ from ..errors import BalcliError
 from ..file.fields import order_number
 from ..limits import FLUCTUATION, HIGHEST_RIPPLE_ORDER, MOST_RIPPLES, SMALLEST_FLUCTUATION
 
-_WORTH = 1e-4  # smallest amplitude of a listed order of the speed, as a share of the largest
+_WORTH = 1e-4  # orders of the speed below this share of the largest amplitude are not listed
 
 
 class Flywheel(NamedTuple):
@@ -31,7 +31,8 @@ class Flywheel(NamedTuple):
         inertia_kg_m2: Mean inertia of all moving parts; left out if the file gives no inertia.
         moving_parts_kg_m2: Part of `inertia_kg_m2` that belongs to pistons, rods and throw masses.
         fluctuation: Fluctuation of speed, (highest - lowest)/mean.
-        fluctuation_small: Fluctuation by the approximation for small values, surplus/(I omega^2).
+        fluctuation_small: Fluctuation by the approximation for small values, surplus/(I omega^2),
+            with the mean inertia I and the mean speed omega.
         needed_kg_m2: Mean inertia of all moving parts that yields the requested fluctuation.
         speed_max_rpm: Highest speed.
         speed_min_rpm: Lowest speed.
@@ -75,8 +76,8 @@ def find_flywheel(
         fluctuation: Largest allowed fluctuation; None: not requested.
 
     Raises:
-        BalcliError: A requested fluctuation is not between 1e-9 and 2, or one is requested and the
-            mean speed is not known.
+        BalcliError: A requested fluctuation is not between 1e-9 and 2, or a fluctuation is
+            requested and the mean speed is not known.
     """
     if constant is None and fluctuation is None:
         return None

@@ -35,7 +35,7 @@ from .records import (
 
 SAME_MEAN = 1e-6  # means closer than this share of the largest torque count as equal
 _NOISE = 1e-14  # rounding error of a harmonic, as a share of the largest torque
-_SAME = 1e-9  # periods (turns) or harmonics that differ by less count as equal
+_SAME = 1e-9  # periods (rad) or orders times turns that differ by less count as equal
 _WHOLE = 1e-4  # relative rounding of a period in a file, such as 102.86 deg for 720/7
 
 
@@ -84,7 +84,8 @@ def analyze_curve(
     Args:
         name: Name of the result.
         torque: Torque, N m.
-        load: Torque of the load, N m, over the same period; None: constant, the mean torque.
+        load: Torque of the load, N m, over the same period; None: a constant load, equal to the
+            mean torque.
         speed_rpm: Mean speed of the shaft, rpm; None: not known.
         inertia: Inertia of all that turns, kg m2; None: not known.
         fluctuation: Allowed fluctuation of speed, (highest - lowest)/mean; the result has the
@@ -128,8 +129,9 @@ def analyze_curve(
 
 
 def _choose_harmonics(turns: float, orders: list[float] | None) -> NDArray[np.intp]:
-    """Return the numbers of the harmonics of the period that these orders are; for None, those of
-    the orders that are shown by default. `turns` is the period in turns.
+    """Return which harmonics of the period these orders are: 1 for one oscillation in a period, 2
+    for two oscillations and so on. For None, return the harmonics of the orders that are shown by
+    default. `turns` is the period in turns.
     """
     if orders is None:
         usual = max(int(HIGHEST_GAS_ORDER_UNASKED * turns + _SAME), 2)

@@ -53,10 +53,11 @@ class CycleLoads(NamedTuple):
 
     Attributes:
         pin: Loads of crank pins, by the cylinders whose rods turn on them.
-        knuckle: Loads of the knuckle pins in master rods, by articulated cylinder.
+        knuckle: Loads of the knuckle pins in master rods, by the cylinders whose articulated rods
+            turn on them.
         main: Loads of main bearings.
-        obstacle: Reason why requested loads of main bearings are unknown. It is given if loads of
-            pins were requested as well; otherwise the reason is an error.
+        obstacle: Reason why requested loads of main bearings are unknown. It is given only if
+            loads of pins were requested as well; otherwise an error states the reason.
     """
 
     pin: tuple[CycleLoad, ...] | None = None

@@ -21,7 +21,7 @@ NO_INERTIA = "fluctuation: the file gives no inertia; give inertia in [crank] or
 
 
 def list_names(model: EngineFile) -> Iterator[str]:
-    """Yield the names of the quantities of an engine with gas; a fluctuation needs an inertia."""
+    """Yield the names of the quantities of an engine with gas; `fluctuation` needs an inertia."""
     known = find_constant_inertia(build(model)) is not None
     yield from (name for name in _NAMES if known or name != "fluctuation")
 

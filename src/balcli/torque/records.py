@@ -66,7 +66,7 @@ class Extremes(NamedTuple):
 
 
 class Energy(NamedTuple):
-    """Surplus energy: work of the torque minus its mean, between two crank angles.
+    """Surplus energy: work of the torque minus work of the mean torque, between two crank angles.
 
     Attributes:
         surplus_J: Largest surplus energy.
@@ -108,7 +108,8 @@ class TorqueAnalysis(Result):
         engine: Analyzed engine; None for a given curve.
         spectra: Gas, inertia and total torque of the engine by order.
         cylinder: Number of the cylinder whose torques `orders` contains.
-        load_Nm: Mean of the given load, and mean torque minus this mean load, N m.
+        load_Nm: Mean of the given load, and the constant load that is added to it, N m. Both
+            together equal the mean torque.
     """
 
     format: Literal["balcli.torque/1"] = "balcli.torque/1"

@@ -129,7 +129,7 @@ def _list_work(result: TorqueAnalysis, system: System) -> Iterator[tuple[str, st
         ("power", result.power_W, system.power),
     ):
         if value is not None:
-            unit = of.fit(value)  # the same unit for all kinds
+            unit = of.fit(value)  # the same unit for indicated and brake value
             sizes = (f"{number(unit.of(value * k))} {unit.name}{kind}" for kind, k in kinds.items())
             yield name, ", ".join(sizes)
     if result.load_Nm is not None:

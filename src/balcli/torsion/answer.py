@@ -37,14 +37,16 @@ from .modes import Critical, NaturalMode, find_criticals, find_natural_modes, ta
 from .response import TorsionResponse, find_barred, find_response
 from .system import TorsionalSystem
 
-BEYOND = 1.5  # highest listed critical speed over the file's own speed, since engines overspeed
+BEYOND = 1.5  # criticals up to this multiple of the file's speed are listed: engines overspeed
 BREAKING = 1000e6  # vibratory stress above which a warning is given, Pa: no steel bears it
 ASTOUNDING = 45.0  # half swing above which a warning is given, deg; a few degrees are usual
 _ASTRAY = 1e-3  # a Holzer table whose angles differ more from the mode's is mostly rounding error
 
 
 class HolzerAsked(NamedTuple):
-    """Request for a Holzer table: at the frequency of a mode, or at `omega` (rad/s) without one."""
+    """Request for a Holzer table: at the frequency of a mode or, if `mode` is None, at `omega`
+    (rad/s).
+    """
 
     mode: int | None
     omega: float = 0.0
@@ -101,7 +103,7 @@ class HolzerRow(NamedTuple):
         sum_Nm: Torque of all inertias up to this node, carried by the shaft to the next node.
         stiffness_Nm_per_rad: Stiffness of the shaft to the next node; null if this shaft is rigid,
             0 at the last node.
-        twist: Twist of the shaft to the next node.
+        twist: Twist of the shaft to the next node divided by the angle of the first node.
     """
 
     node: str
@@ -394,19 +396,21 @@ def analyze_torsion(
             or of a chain file.
         speeds_rpm: Speeds of the forced vibration; default: only modes and criticals are computed.
         orders: Orders of the excitation to use, multiples of 1/2. Default for a chain: all orders.
-            Default for an engine: all orders up to 32; if the number of firings per turn is above
-            12, also this order and its double.
+            Default for an engine: all orders up to 32; if the engine fires more than 12 times per
+            turn, also the order equal to this number and twice this order.
         damper: Kind of damper to size. The sized damper minimises the largest stress over
             `speeds_rpm`, which must be given; the other results include the damper.
         damper_at: Name of the node that carries the damper; default: the foremost part, or for
             pendulums the throw with the largest amplitude.
         damper_inertia: Inertia of the damper's ring, or of its pendulums about the axis, kg m2;
-            default: the inertia in the file, or a usual share of the mode's equivalent inertia.
+            default: the inertia in the file, or a usual share of the equivalent inertia of the
+            damped mode at the node.
 
     Returns:
         `modes` (`frequency_Hz`, `shape`), `criticals` (`speed_rpm`, `order`, `mode`), `response`
         (`shafts`, each with `half_peak_to_peak_Nm` and `stress_Pa` by speed, and `worst`, the
-        largest of the range), and `barred_rpm`. The attributes have the names of the JSON keys.
+        largest value over the range), and `barred_rpm`. The attributes have the names of the JSON
+        keys.
 
     Raises:
         BalcliError: The file has no [torsion]; orders or inertia are impossible; a response lacks
@@ -434,7 +438,7 @@ def _read_source(source: object, orders: Array | None) -> Source:
     wanted = "give an Engine, or the path, text or dict of a chain of inertias and shafts"
     tables, name = take_tables("analyze_torsion", source, wanted)
     if describes_chain(tables):
-        name = name or "chain file"  # name in messages of a text or dict
+        name = name or "chain file"  # name, in messages, of a chain without a path
         return make_chain_source(read_chain_tables(tables, name), name, orders)
     engine = build_tables(tables, name)
     return make_source(take_model(engine), engine, name or engine.name, orders)

@@ -455,9 +455,9 @@ def _find_end(led: Sequence[_Joint], gears: Mapping[str, float], start: str) -> 
 # ------------------------------------------------------------------ inertia and excitation
 def weigh_running_gear(engine: Engine) -> Real:
     """Return the mean moment of inertia of each cylinder's running gear without the throw, kg m2,
-    shape (cylinders,): `m_rot r^2 + mean(m_rec s'^2 - H beta'^2)`, where s' and beta' are the
-    derivatives of piston position and rod angle by the crank angle, and r is the crank radius; see
-    docs/theory.md for H.
+    shape (cylinders,): `m_rot r^2 + mean(m_rec s'^2 - H beta'^2)`. Here m_rot and m_rec are the
+    rotating and reciprocating masses, r is the crank radius, s' and beta' are the derivatives of
+    piston position and rod angle by the crank angle, and docs/theory.md defines H.
     """
     c = engine.cylinders
     mean_only = np.zeros(1)

@@ -7,8 +7,8 @@ alone is a rigid shaft (stiffness inf). Nodes and shafts usually form a tree; lo
 are allowed.
 
 A damper adds a complex moment of inertia J (kg m2) to its node: when the node vibrates with the
-angle x, the damper takes the torque `-w^2 J x`. It absorbs energy if the imaginary part of J is
-negative.
+angle x at the frequency w (rad/s), the damper takes the torque `-w^2 J x`. The damper absorbs
+energy if the imaginary part of J is negative.
 """
 
 from __future__ import annotations
@@ -72,7 +72,8 @@ class Damping(NamedTuple):
     """Losses of shafts and nodes; dampers, which are complex inertias, are not included.
 
     Attributes:
-        loss: (shafts,) loss factors; the complex stiffness is k (1 + i loss).
+        loss: (shafts,) loss factors; a shaft of stiffness k has the complex stiffness
+            k (1 + i loss).
         dashpots: (shafts,) dashpot parallel to each shaft, N m s/rad.
         nodes: (nodes,) damping of each node against ground, N m s/rad.
     """
@@ -149,8 +150,8 @@ def incidence(chain: Chain) -> Real:
 
 def follow_gears(chain: Chain) -> tuple[Real, Indices]:
     """Return the angle of every node for a unit angle of each independent node, shape (nodes, dof),
-    and the independent nodes (dof,). Of nodes that mesh, the first is independent; nodes that
-    cannot move are left out.
+    and the indices of the independent nodes, shape (dof,). Of nodes that mesh, the first is
+    independent; nodes that cannot move are not among the independent nodes.
     """
     meshes = find_pieces(chain, np.isinf(chain.stiffness))
     independent = np.unique(meshes.first[~find_still(chain)])

@@ -1,10 +1,10 @@
 """Size a damper so that the largest stress of the whole system over a range of speeds is least.
 
 The search begins at the optimum of a system with one degree of freedom: Houdaille's damping for a
-viscous ring, Den Hartog's stiffness for rubber, the length tuned to the order for pendulums. It
-varies this damping, stiffness or length.
+viscous ring, Den Hartog's stiffness for rubber, or for pendulums the length that is tuned to the
+order with the largest torque. The search varies this damping, stiffness or length.
 
-`insert_damper` writes a damper into the text of a file and keeps its comments.
+`insert_damper` writes a damper into the text of a file and keeps the comments of the file.
 """
 
 from __future__ import annotations
@@ -50,15 +50,15 @@ DAMPER_KEYS = {
 RUBBER_LOSS = 0.15  # usual loss factor of damper rubber
 # Figure that is sized, by kind of damper.
 FIGURES = {"viscous": "damping", "rubber": "stiffness", "pendulum": "length"}
-# The search runs from start/width to start*width, with a width by kind of damper.
+# The search runs from start/width to start*width; each kind of damper has its own width.
 _WIDTH = {"viscous": 30.0, "rubber": 4.0, "pendulum": 1.2}
-# default inertia of a damper, relative to the mode's inertia at the node
+# default inertia of a damper, as a share of the equivalent inertia of the mode at the node
 _SHARE = {"viscous": 0.3, "rubber": 0.15, "pendulum": 0.05}
 # Largest half swing of pendulums, deg. At this swing the frequency of a pendulum on a circle is
 # swing^2/16 = 0.8 % lower than at small swings.
 WIDE_SWING = 20.0
 _MASSES = 16  # largest number of masses that are tried to bring the swing below WIDE_SWING
-_HEAVIER = 1.1  # margin on the mass that suffices if the swing is inversely proportional to it
+_HEAVIER = 1.1  # margin on the next mass: swing is only about inversely proportional to mass
 _MOST_AT_ONCE = 3.0  # largest factor from one tried mass to the next, without the margin
 _MOST_PENDULUM = 0.5  # largest inertia of pendulums, as a share of the inertia of their node
 _PLACES = 13  # number of grid points of the search, which then refines each valley
@@ -68,8 +68,8 @@ _END = 0.99  # an optimum beyond this share of the (logarithmic) range counts as
 _HARDLY = 0.99  # a damper that leaves more than this share of the largest stress is useless
 _HEAVY = 10.0  # a damper with more than this multiple of the inertia of its node is too large
 _LOSS = 0.01  # least loss factor assumed for shafts if nothing damps a resonance
-# If the equivalent inertia of a mode at a node is above this multiple of the whole inertia, the
-# node hardly moves.
+# If the equivalent inertia of a mode at a node is above this multiple of the inertia of the whole
+# system, the node hardly moves.
 _MOVES = 2.0
 
 
@@ -80,7 +80,7 @@ class DamperAsked(NamedTuple):
         kind: Kind of damper: viscous, rubber or pendulum; None: no damper.
         node: Name of the node that carries the damper; None: the default of `_find_carrier`.
         inertia: Inertia of ring or pendulums, kg m2; None: the inertia of the file's damper on that
-            node, or a usual share of the mode's inertia.
+            node, or a usual share of the equivalent inertia of the damped mode at the node.
     """
 
     kind: str | None = None
@@ -237,9 +237,9 @@ def _find_carrier(source: Source, asked: DamperAsked, speeds: Real) -> str:
 def _limit_swing(
     source: Source, speeds: Real, node: str, proposed: Damper, inertia: float
 ) -> Damper:
-    """Return the proposed pendulums with a mass and a length, within the searched range of lengths,
-    with which they swing by at most WIDE_SWING. The swing is about inversely proportional to the
-    mass. `inertia` (kg m2) is the inertia of the node that carries the pendulums.
+    """Return the proposed pendulums with a mass and a length at which they swing by at most
+    WIDE_SWING; the length is within the searched range. The swing is about inversely proportional
+    to the mass. `inertia` (kg m2) is the inertia of the node that carries the pendulums.
 
     Raises:
         BalcliError: The pendulums would need more than half of the inertia of their node, and more
@@ -314,10 +314,10 @@ def _find_mode_to_damp(
 ) -> tuple[NaturalMode, float]:
     """Return the mode that a damper on a node should damp, and the order that drives it.
 
-    The order is that with the largest amplitude in the largest stress of the range. Its frequency
-    at the speed of this stress is compared with the modes in which the node moves; the nearest mode
-    is returned. Selection by work would pick the mode of a soft coupling, which hardly twists the
-    crankshaft.
+    The largest stress of the range occurs in one shaft at one speed. The order with the largest
+    torque in this shaft at this speed is returned. Of the modes in which the node moves, the mode
+    whose frequency is nearest to the frequency of this order at this speed is returned. Selection
+    by work would pick the mode of a soft coupling, which hardly twists the crankshaft.
     """
     modes = find_natural_modes(system)
     if not modes:

@@ -31,7 +31,8 @@ from .build import (
 from .chain_file import ChainFile, describes_chain, read_chain_tables
 from .system import TorsionalSystem
 
-# kg mm2 or mm; smaller figures are unlikely (a steel disc of 10 x 10 mm has 0.08 kg mm2).
+# kg mm2 or mm; smaller figures are unlikely: they belong to tiny parts, such as a steel disc of
+# 10 mm diameter and 10 mm width, which has 0.08 kg mm2.
 _SMALL = 1.0
 
 
@@ -44,7 +45,8 @@ class Source(NamedTuple):
         system: Function that returns the system of the file. Its argument is a dict of dampers by
             node name, which replace those of the file. It raises InputError if the file
             contradicts itself.
-        dampers: First damper, or None, of each node that may carry one, by the node's name.
+        dampers: For each node that may carry a damper, by its name: its first damper in the file;
+            None: it has no damper.
         engine: Engine of the file; None: the file describes a chain.
         throws: Names of the nodes of the engine's throws.
     """

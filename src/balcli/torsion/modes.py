@@ -33,7 +33,7 @@ from .system import Excitation, TorsionalSystem
 _AT_REST = 1e-9  # a node whose angle is below this share of the largest counts as at rest
 # Shift of the eigenvalues; a pole here would be a vibration that grows, which no chain has.
 _SIGMA = np.exp(0.25j * np.pi)
-_INFINITE = 1e-6  # eigenvalues below this share of the largest are (double) zeros
+_INFINITE = 1e-6  # eigenvalues mu below this share of the largest count as 0: they have no pole
 
 
 def find_chain_modes(chain: Chain) -> Modes:
@@ -127,9 +127,10 @@ def find_chain_poles(chain: Chain, damping: Damping) -> Complex:
     pole s is a resonance at the frequency `Im s` with a half-power width of `-2 Re s`. With loss
     factors of shafts, only poles with `Im s > 0` have a meaning.
 
-    The equations of motion are `A z = s B z`, with the angles and speeds z. With the eigenvalues mu
-    of `(A - sigma B)^-1 B`, the poles are `s = sigma + 1/mu`. Massless nodes have mu = 0 and no
-    pole.
+    The equations of motion are `A z = s B z`, where the vector z has all angles and speeds, and A
+    and B are constant matrices. With the eigenvalues mu of `(A - sigma B)^-1 B`, where sigma is
+    any number that is not a pole, the poles are `s = sigma + 1/mu`. Massless nodes have mu = 0
+    and no pole.
     """
     follow, _ = follow_gears(chain)
     bends = np.isfinite(chain.stiffness)
@@ -150,7 +151,8 @@ def find_chain_poles(chain: Chain, damping: Damping) -> Complex:
     return np.asarray(unit * (_SIGMA + 1 / mu[finite]), complex)
 
 
-_UNDRIVEN = 1e-10  # work below this share of the work of all torques in phase is rounding
+# Work below this share of the work that all torques would do in phase is a rounding error.
+_UNDRIVEN = 1e-10
 
 
 class NaturalMode(NamedTuple):
@@ -187,8 +189,9 @@ class Critical(NamedTuple):
         mode: Number of the mode, from 1.
         order: Order of the excitation.
         speed_rpm: Critical speed.
-        phase_sum: Magnitude of the sum of all cylinders' torques, each a phasor times the angle of
-            its throw in the mode, divided by the largest amplitude of these torques.
+        phase_sum: Magnitude of a sum over all torques of this order, divided by the largest of
+            their amplitudes. Each term is the phasor of a torque times the angle, in the mode, of
+            the node on which this torque acts.
         work_share: Work at this critical speed divided by the sum of the works at all critical
             speeds of the mode.
         work: Work (J) of all torques in one cycle of vibration with an amplitude of 1 rad where the
@@ -286,7 +289,8 @@ class Holzer(NamedTuple):
 
     Attributes:
         angle: (nodes,) angle of each node, rad.
-        torque: (nodes,) torque of its inertia, `J w^2 angle`, N m.
+        torque: (nodes,) torque `J w^2 angle` of each node with the inertia J at the frequency w,
+            N m.
         total: (nodes,) torque of all inertias up to this node, carried by the shaft to the next.
         stiffness: (nodes,) stiffness of the shaft to the next node, reduced to the speed of this
             node; 0 at the last node.
@@ -307,8 +311,9 @@ def tabulate_holzer(chain: Chain, frequency: float, first: int = 0, last: int = 
     """Return Holzer's table at a frequency w (rad/s). The angle of the first node is 1.
 
     Angles x and torques T of shafts solve `near x_child + far x_parent = T/k` for each shaft
-    (`chain.Branch` defines the gear factors near and far, and the parent), and `w^2 J x = sum of T`
-    for each node except the last, where the difference is the residual. Branches off the line from
+    of stiffness k (`chain.Branch` defines the gear factors near and far, and the parent), and
+    `w^2 J x = sum of T` for each node of inertia J except the last, where the difference of the two
+    sides is the residual. Branches off the line from
     the first node to the last are allowed. Dampers and losses are ignored, as in textbooks.
 
     Args:

@@ -36,7 +36,7 @@ from .modes import chain_loss, find_chain_modes, find_poles
 from .system import TorsionalSystem
 
 _WEAK_PIVOT = 1e-3  # sums that cancel to less than this share of their terms need pivoting
-_RESONANT = 1e-9  # at resonance, the sum of the whole chain is below this share of its terms
+_RESONANT = 1e-9  # resonance: the chain's dynamic stiffness is below this share of its terms
 
 
 class Twist(NamedTuple):

@@ -50,8 +50,8 @@ _MOST_MODES = 4  # largest number of drawn shapes; more would hide each other
 _MOST_SHAFTS = 8  # largest number of shafts whose torque is drawn
 _WIDEST = 0.9  # largest width of an order in a waterfall, as a share of the gap between orders
 _MOST_ORDERS = 15  # largest number of orders in a Campbell diagram or waterfall
-_LEAST_ORDER = 0.01  # orders below this share of the largest are left out
-_WORTH = 1e-3  # smallest share of work of a drawn critical
+_LEAST_ORDER = 0.01  # orders below this share of the largest order's work or torque are left out
+_WORTH = 1e-3  # criticals with a smaller share of the work on their mode are not drawn
 
 
 class _Curves(NamedTuple):
@@ -121,7 +121,9 @@ def make_torsion(
 def _choose_parts(
     result: TorsionAnalysis, what: str, system: System
 ) -> Iterator[Callable[[Axes], None]]:
-    """Yield a function that draws each picture of a page; without a response, some are left out."""
+    """Yield one drawing function for each picture of a page. Some need a response; without a
+    response, they are left out.
+    """
     if what in ("all", "modes"):
         yield lambda ax: _draw_modes(ax, result)
     if what in ("all", "campbell"):
@@ -157,7 +159,7 @@ def _draw_modes(ax: Axes, result: TorsionAnalysis) -> None:
 
 
 def _find_span(result: TorsionAnalysis, first: float) -> float:
-    """Return the highest speed of a Campbell diagram, rpm; `first` (Hz) is the first mode."""
+    """Return the highest speed of a Campbell diagram, rpm, given the frequency of mode 1, Hz."""
     if result.response is not None:
         return float(result.response.speeds_rpm[-1])
     worth = [each.speed_rpm for each in result.criticals or () if each.work_share > 0.02]
@@ -253,7 +255,9 @@ def _finish(
 
 
 def _draw_waterfall(ax: Axes, result: TorsionAnalysis, curves: _Curves, system: System) -> None:
-    """Draw a waterfall of the shaft with the largest torque: an order's width is its amplitude."""
+    """Draw a waterfall of the shaft with the largest torque: one band for each order, whose width
+    is proportional to the amplitude of the order at each speed.
+    """
     shaft = int(curves.swings[:, : len(result.shafts)].max(axis=0).argmax())
     every = np.abs(curves.phasors[:, :, shaft])
     shown = _find_largest(every.max(axis=1))

@@ -24,11 +24,12 @@ from .modes import find_poles
 from .motion import compute_curves, compute_in_parts, refuse_unbounded
 from .system import TorsionalSystem
 
-_ABOUT = np.array([[-0.5], [0], [0.5]])  # offsets of added speeds / width of a resonance
-# Resonances wider than this number of steps of the speeds need no added speeds: some step has at
-# least 95 % of the peak.
+_ABOUT = np.array([[-0.5], [0], [0.5]])  # offsets of added speeds, divided by the resonance's width
+# Resonances wider than this number of steps between given speeds need no added speeds: one of the
+# given speeds has at least 95 % of the peak.
 _WIDE = 3.0
-# Next to a speed with this share of the largest value, a higher value may lie between two speeds.
+# Beside a speed with at least this share of the largest value, a higher value may lie between two
+# speeds.
 _NEAR = 0.9
 
 
@@ -86,7 +87,7 @@ def _add_resonances(system: TorsionalSystem, rpm: Real) -> Real:
     """
     if len(rpm) == 1:
         return rpm
-    of_all = None if system.pendulums else find_poles(system)  # None: they vary by order
+    of_all = None if system.pendulums else find_poles(system)  # None: poles depend on the order
     found = []
     for order in system.require_excitation().orders.tolist():
         poles = find_poles(system, order) if of_all is None else of_all

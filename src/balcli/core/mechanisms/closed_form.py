@@ -16,7 +16,7 @@ and every other coefficient is a combination of these (docs/theory.md):
     (beta'/lam)^2 = (cos psi/cos beta)^2 = sum S_n cos n psi, a geometric series
 
 Signs of c_m alternate from m = 1 on, and all terms of F after the first have the same sign, so
-there is no cancellation. The relative error of order n is about n roundings, as that of x^n.
+there is no cancellation. The relative error of order n is about n roundings, like that of x^n.
 
 `Series` are Fourier series of a mechanism over a revolution of its crank, with bounds of their
 errors. Every function of the crank angle psi is written `Re sum c_n e^{i n psi}`, so a cosine
@@ -44,8 +44,8 @@ class Series:
     Attributes:
         c: Coefficients, shape (orders, cylinders, *trailing) or (orders, *any axes); real for a
             series of cosines.
-        noise: Bound of the error of the coefficients, which broadcasts to `c`; 0 if the error is a
-            few ulp of each coefficient.
+        noise: Bound of the absolute error of the coefficients; it broadcasts to `c`. 0 means that
+            the error is a few ulp of each coefficient.
     """
 
     c: Array | Complex

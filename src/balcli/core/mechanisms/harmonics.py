@@ -21,7 +21,7 @@ from .closed_form import SERIES, Harmonics, Rows, Series, select_cylinders
 from .motion import Motion, Move
 from .slidercrank import SliderCrank
 
-HARDEST = 1 << 16  # number of samples of a revolution for lam + |eps| = 1 - 1e-6 (1: it locks)
+HARDEST = 1 << 16  # number of samples of a revolution if lam + |eps| = 1 - 1e-6 (at 1, it locks)
 CLOSED_FORM = 4096  # highest order in closed form; higher orders matter only close to locking
 
 
@@ -229,8 +229,8 @@ def _is_enough(spectrum: Complex, rounding: Array, highest: float) -> NDArray[np
 
     Order n of N samples is mixed with order N - n, whose size is extrapolated from the upper half
     of the spectrum. From the third to the fourth eighth of the N orders, the largest coefficient
-    falls by some factor; it is assumed to fall by the same factor in every further eighth, less
-    half an eighth as a margin.
+    falls by some factor. It is assumed to fall by the same factor in every further eighth up to
+    order N - n; half an eighth is subtracted from this distance as a margin.
 
     Args:
         spectrum: `rfft` of the samples with norm "forward", shape (N/2 + 1, mechanisms).

@@ -38,7 +38,7 @@ from .harmonics import count_samples, find_distinct, sample_mechanisms
 from .motion import Motion, PointMass
 from .slidercrank import SliderCrank, on_circle
 
-STEPS = 1440  # number of samples of a revolution that do not miss a locking position
+STEPS = 1440  # with this number of samples of a revolution, no locking position is missed
 _FEWEST_SAMPLES = 32
 _AT_ONCE = 1 << 16  # largest number of cylinders x angles that are computed at once
 _SHARPEST = frozenset({"piston", "rod", "along", "across"})  # series whose orders decay slowest

@@ -2,8 +2,10 @@
 figure is computed when it is first used.
 
 All figures have the shape (*mechanisms, samples). Lengths are in crank radii; rates are derivatives
-by the crank angle. If the rod's lower end is at z (complex, x along the cylinder's axis), `sin beta
-= lam Im z - eps`, and
+by the crank angle. Let z be the place of the rod's lower end (complex, x along the cylinder's
+axis), s the distance of the piston pin from the crank's axis along the cylinder, and beta the rod's
+angle to the cylinder's axis. `lam` is crank radius / rod length, `eps` offset / rod length. Then
+`sin beta = lam Im z - eps`, and
 
     s = Re z + cos beta/lam
     s' = Re z' - tan beta Im z'
@@ -50,8 +52,8 @@ class Motion:
         lean: Sine of the rods' angle beta to the cylinders' axes.
         cosine: Cosine of the rods' angle beta.
         points: Masses on curves; empty for plain slider-cranks.
-        condition: Relative error of the motion of piston and rod, as a multiple of one rounding; it
-            is large close to locking.
+        condition: Relative error of the motion of piston and rod, as a multiple of one rounding
+            error; large close to locking.
     """
 
     def __init__(
@@ -89,7 +91,9 @@ class Motion:
 
     @property
     def spin(self) -> Array:
-        """Angular velocity of the rod, positive in the direction in which the crank turns."""
+        """Angular velocity of the rod at crank speed 1, positive in the direction in which the
+        crank turns.
+        """
         return -self._rate
 
     @property

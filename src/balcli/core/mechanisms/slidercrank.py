@@ -4,7 +4,7 @@ All figures are dimensionless. Lengths are in crank radii r. The crank angle psi
 when the crank pin lies along the cylinder's axis; derivatives are by psi. `lam` = r/l and `eps` =
 e/l, where e is the offset of the piston pin's path towards the side to which the crank pin moves
 after psi = 0. The mechanism can turn if lam + |eps| < 1. Arguments broadcast against each other.
-Every function but `displacement` also accepts the complex e^{i psi} instead of psi.
+All functions of psi except `displacement` also accept the complex e^{i psi} instead of psi.
 
 The closed forms are those of every textbook (Lu Jiqing, Meng Sizong, Automobile Engine Design,
 1990, (1-2), (1-7), (1-10)). Errors are a few roundings of the largest value over a revolution, even
@@ -23,9 +23,9 @@ from .motion import Motion, PointMass
 class SliderCrank(Motion):
     """Motion of slider-cranks; arguments as in the functions of this module.
 
-    Let h = |sin psi|, and q = eps if sin psi is positive, else -eps. Then cos^2 beta = (1 - lam + q
-    + lam (1 - h))(1 - q + lam h), and 1 - h = cos^2 psi/(1 + h). In this form, there is no
-    cancellation close to locking.
+    Let beta be the rod's angle, h = |sin psi|, and q = eps if sin psi >= 0, else -eps. Then
+    cos^2 beta = (1 - lam + q + lam (1 - h))(1 - q + lam h), and 1 - h = cos^2 psi/(1 + h). In this
+    form, there is no cancellation close to locking.
     """
 
     def __init__(self, psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> None:

@@ -46,7 +46,7 @@ from .throws import search_throws
 ARRANGED = ("throws", "firing_order")
 _ARRANGED = {"crank.throws", "layout.firing_intervals"}  # numbers that searches over ARRANGED vary
 ANGLES = {"bank_angle": (0.0, 180.0), "splay": (-180.0, 180.0)}  # searched ranges, deg
-NEAR_AN_END = 1e-4  # share of a range; a value within it from an end counts as the end
+NEAR_AN_END = 1e-4  # a value closer to an end than this share of the range counts as the end
 _ROUNDING = 1e-13  # objectives that differ by less than this ratio are equal
 _GRID, _SPREAD = 720, 2048  # number of candidates for one number, and for several
 _SLOW = 32  # number of candidates for each number if they are computed one by one
@@ -254,7 +254,7 @@ def _search_numbers(
     turns = [number.unit == "deg" and np.ptp(number.values) == TURN for number in numbers]
     box = Box(low, high, np.array(turns))
     effort = _choose_effort(box, objective)
-    if even_firing:  # within 1e-9 deg; a rounder angle may fire exactly evenly
+    if even_firing:  # a slightly worse but rounder angle may fire exactly evenly
         effort = replace(effort, as_good=1e-9)
     total = effort.count_evaluations(box.size)
     paths = [number.path for number in numbers]

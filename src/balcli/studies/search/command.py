@@ -53,7 +53,7 @@ def rows(result: Search, _system: System) -> Rows:
 
 def sheet(result: Search, _system: System) -> Sheet:
     """Return a table of the best arrangements, with each figure in a fitting unit. The objective
-    has no column if it is a single quantity.
+    has no column if it is a single quantity with weight 1, which has a column of its own.
     """
     design, found = result.results[0].design, columns(result)
     shown: list[tuple[str, list[str]]] = []  # heading and cells of each column
@@ -88,7 +88,7 @@ def _notes(result: Search) -> Iterator[str]:
     ends = [
         f"{_in_words(key)} {number.values[0]:g} to {number.values[1]:g} deg"
         for key, number in result.ranges.items()
-        if "." not in key  # the user gave no range
+        if "." not in key  # the user gave no range, so the note tells it
     ]
     if ends:
         yield f"Searched: {', '.join(ends)}."
@@ -131,7 +131,7 @@ LIMIT = (
     "Upper limit of a quantity, SI or with its unit, such as 'moment.2.major<100' or "
     "'shaft.flywheel.stress<60 N/mm^2'."
 )
-MAXIMISE = "Maximise this sum instead."
+MAXIMISE = "Maximise a sum of quantities instead."
 REQUIRE = "Allow only arrangements with even firing intervals."
 WRITE = "Write the engine file with the best result."
 goal = partial(optional, "WHAT[=WEIGHT],...")

@@ -208,8 +208,8 @@ def parse_objective(
         with_gas: Whether the engine has gas.
 
     Raises:
-        BalcliError: A quantity is unknown, a weight or limit wrong, or quantities have different
-            units and one of them has no weight.
+        BalcliError: A quantity is unknown, a weight or limit is wrong, or quantities have different
+            units and one of these quantities has no weight.
     """
     if (minimise is None) == (maximise is None):
         raise BalcliError("give exactly one of --minimise and --maximise")
@@ -349,7 +349,8 @@ def find_unevenness(engine: Engine, model: EngineFile) -> Array:
     (candidates,).
     """
     c = engine.cylinders
-    # shift of top dead centre of plain slider-cranks; see `Pins.tops_deg` for articulated rods
+    # shift of top dead centre by an offset (eps: offset, lam: crank radius, both over rod length);
+    # for articulated rods, `Pins.tops_deg` contains the shift
     late = 0.0 if model.articulation else np.degrees(np.arcsin(c.eps / (1 + c.lam)))
     own = {} if model.gas is not None else model.cylinder  # without [gas], gas = 0 marks a dummy
     firing = [row for row, n in enumerate(engine.numbers) if n not in own or own[n].gas != 0]

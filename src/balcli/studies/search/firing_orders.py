@@ -46,12 +46,12 @@ class Slots:
 
     @property
     def first(self) -> Cell:
-        """Cylinder with which firing orders begin: the lowest that fires, 1 unless 1 is a dummy."""
+        """Cylinder with which firing orders begin: the one with the lowest number that fires."""
         return min(self.cells, key=lambda cell: cell.number)
 
     def find_cranks(self) -> list[tuple[float, ...]]:
-        """Return the throw angles of every crank that allows an even firing order; cylinder 1's
-        throw is at 0.
+        """Return the throw angles of every crank that allows an even firing order; the throw of
+        cylinder `first` is at 0.
 
         Raises:
             BalcliError: There are more than MOST_EVEN_CRANKS cranks.
@@ -70,8 +70,9 @@ class Slots:
     def _place_throws(
         self, throws: dict[int, float], free: Sequence[int], left: Counter[int]
     ) -> Iterator[tuple[float, ...]]:
-        """Yield all cranks in which some throws have these angles. Every throw in `free` is
-        tried at each angle at which enough slots are unused (`left`) for all its cylinders.
+        """Yield the throw angles of all cranks that agree with the angles in `throws`. Every throw
+        in `free` is tried at each angle at which enough slots are left for all its cylinders.
+        `left` counts the unused slots at each crank position.
         """
         if not free:
             yield tuple(throws[t] for t in sorted(throws))
@@ -123,7 +124,7 @@ class Slots:
 
 def find_slots(model: EngineFile) -> tuple[Slots, Array]:
     """Return the firings of a cycle, and the throw angles (deg, shape (cranks, throws)) of the
-    cranks with even firing orders; cylinder 1's throw is at 0.
+    cranks with even firing orders; the first throw is at 0.
 
     Raises:
         BalcliError: A cylinder has its own throw angle, there are too many cylinders, or there is

@@ -1,4 +1,4 @@
-"""Find local optima of a function of one or several numbers in a box.
+"""Find local optima of a function of one or several numbers in a box: a range for each number.
 
 Candidates are spread over the box: on a grid for one number, in a quasi-random sequence for
 several. A local search starts from each candidate that is better than its neighbours. For one
@@ -88,7 +88,7 @@ class Effort:
     points: int
     starts: int
     exact: float
-    as_good: float = 1e-13  # next to a smooth minimum, costs differ less
+    as_good: float = 1e-13  # changes next to a smooth minimum are smaller
     same: float = 1e-5
     steps: int = 31
 
@@ -135,8 +135,9 @@ def find_local_optima(judge: Judge, box: Box, effort: Effort) -> LocalOptima:
 def _separate(judge: Judge, box: Box, found: list[Array], effort: Effort, noise: float) -> Array:
     """Return the optima that are separated from all better ones by higher costs.
 
-    If a search stopped on a line, such as the edge of a limit, a better point of the line can be
-    reached without higher costs.
+    A search may stop on a line, such as the edge of a limit, of which another point is better. If
+    costs do not rise on the way from one optimum to a better one, the worse optimum is dropped and
+    the better one is replaced by the best point of the line through both.
     """
     best: list[Array] = []
     points = np.reshape(found, (-1, box.size))

@@ -1,8 +1,8 @@
 """Search for the best sequence of the throw angles along a crank.
 
-Forces and moments are sums of contributions, which are tabulated by throw and angle. Branch and
-bound fixes the angles of the first throws and drops this branch if no sequence of the remaining
-angles can be better than the best known cranks.
+Forces and moments are sums of contributions, which are tabulated by throw and angle. A branch is
+the set of all cranks whose first throws have the same angles. Branch and bound drops a branch if no
+sequence of the remaining angles can be better than the best known cranks.
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ def search_throws(
     are fewer.
 
     Raises:
-        BalcliError: There is nothing to arrange, or a peak is requested.
+        BalcliError: There is nothing to arrange, or `peak.force` or `peak.moment` is requested.
     """
     model = drop_firing_order(give_throws(model))
 
@@ -102,7 +102,7 @@ def list_throws(model: EngineFile) -> Array:
 
 
 def give_throws(model: EngineFile) -> EngineFile:
-    """Return the file with explicit throws, which follow from its firing order if it gives none.
+    """Return the file with explicit throws; if it gives none, they follow from its firing order.
 
     Raises:
         BalcliError: The crank has one throw, or a cylinder has its own throw angle.
@@ -194,7 +194,7 @@ class AngleSet(NamedTuple):
 
     Attributes:
         levels: Different angles, deg, ascending from 0.
-        left: How often each level remains to be assigned; cylinder 1's throw has the first level.
+        left: How often each level remains to be assigned; cylinder 1's throw already has the first.
     """
 
     levels: Array
