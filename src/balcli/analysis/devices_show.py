@@ -112,7 +112,7 @@ def ladder_grid(
             if scale.moment_Nm is not None:
                 first += f", {size_text(scale.moment_Nm, system.moment)}"
             least = f"{100 * WORTH_A_SHAFT:.0f} % of one cylinder's first order ({first})"
-            notes.append(f"Each later step would cancel less than {least}.")
+            notes.append(f"Each shaft of later steps would cancel less than {least}.")
     notes += [_tell_left_out(one, ladder, system) for one in ladder.left_out]
     at = "mean " * bool(engine.ripple) + f"{given(float(engine.speed_rpm))} rpm"
     title = f"What balances it, step by step ({at})"

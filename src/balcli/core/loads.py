@@ -219,8 +219,9 @@ def find_inertia(cylinders: Cylinders, harmonics: Harmonics, square: Figure) -> 
 # ------------------------------------------------------------------ loads along a shaft
 def share_by_lever(places: Array, planes: Array) -> Array:
     """Return the share of each load that each plane carries, by the lever rule, shape (planes,
-    loads). The two planes next to a load share it. A load beyond the outermost plane is shared by
-    the two outermost planes, with shares below 0 and above 1. A single plane carries every load.
+    loads). The two planes next to a load share it. A load beyond the first or last plane is
+    shared by the two planes nearest to it, with shares below 0 and above 1. A single plane carries
+    every load.
 
     Args:
         places: Positions of the loads, m, shape (loads,).

@@ -64,8 +64,9 @@ class Influence(NamedTuple):
         found: Readings of the rotor without weights, shape (readings,).
         latest: Readings of the last correction run, shape (readings,); equal to `found` at speeds
             without such a run.
-        start: Readings to be corrected, shape (readings,): those with the weights `weights_on`
-            on the rotor, computed from `latest` if the rotor then had other weights.
+        start: Readings to be corrected, shape (readings,): those of the rotor with the weights
+            `weights_on`. At speeds where `latest` was read with other weights, they are computed
+            from `latest`.
         factors: Weight of each reading in the sum or maximum that is minimised, shape (readings,).
         trimmed: Name of the last correction run at any speed; empty if there is none.
         weights_on: Weights on the rotor in the last correction run, shape (planes,); 0 if there is
@@ -165,8 +166,8 @@ def fit_coefficients(series: Series) -> tuple[Complex, Complex]:
 
 
 def find_scatter(file: RunsFile, runs: Influence, used: list[int], step: Complex) -> Array | None:
-    """Return the distance from its estimate within which the unbalance of each plane lies with
-    95 % probability.
+    """Return a distance for each plane: with 95 % probability, the unbalance of the plane is no
+    farther than this from its estimate.
 
     Args:
         file: File of runs.

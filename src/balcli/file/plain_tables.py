@@ -184,8 +184,8 @@ def choose_assumed(
 
     Args:
         inferred: Lines such as `rod.cg = 0`, from `engine.numbering.list_inferred`.
-        chapters: Tables on which the results depend, of those that not every result needs (gas,
-            torsion, body, mount, flywheel).
+        chapters: Which of the tables gas, torsion, body, mount and flywheel the results depend on;
+            each is needed by some results only.
         without: Keys to omit.
     """
     idle = _OF_CHAPTERS.difference(chapters).union(without)

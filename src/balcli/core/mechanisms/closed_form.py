@@ -12,7 +12,8 @@ and every other coefficient is a combination of these (docs/theory.md):
     -beta'' = sum D_n sin n psi
     D_n = n lam (1 + w)/2 [(n+2) c_{(n+1)/2} - (n-2) c_{(n-1)/2}]
     (s'/r)^2 = sum K_n cos n psi
-    K_n = [(n+1) c_{(n+1)/2} - (n-1) c_{(n-1)/2}] / x for odd n; for even n S_n, less 1 if n = 2
+    K_n = [(n+1) c_{(n+1)/2} - (n-1) c_{(n-1)/2}] / x for odd n
+    K_n = S_n for even n, but K_2 = S_2 - 1
     (beta'/lam)^2 = (cos psi/cos beta)^2 = sum S_n cos n psi, a geometric series
 
 Signs of c_m alternate from m = 1 on, and all terms of F after the first have the same sign, so
