@@ -237,3 +237,13 @@ def test_no_label_is_cut_off_by_the_edge_of_a_page(what):
         box = label.get_window_extent(canvas.get_renderer())
         inside = box.x0 >= 0 and box.y0 >= 0 and box.x1 <= page.bbox.x1 and box.y1 <= page.bbox.y1
         assert inside or not label.get_text(), label.get_text()
+
+
+@pytest.mark.parametrize(
+    ("frame", "names"),
+    [("", {"force along x", "force along y"}), ("[frame]\nup = 0\n", {"vertical force", "horizontal force"})],
+)
+def test_pictures_name_components_by_up(frame, names):
+    subject = PageSubject(Study(analyze(build_text(GOOD + frame))))
+    shown = re.findall(r">([^<>]*)</text>", draw_panel(subject, "curves", "force"))
+    assert names <= set(shown), shown

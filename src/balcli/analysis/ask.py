@@ -116,7 +116,8 @@ def _choose_result(
     def find_series(engine: Engine) -> object:
         each = [engine.at_speed(speed) for speed in asked.speeds_rpm]
         found = analyze_alike(each, asked.orders, _ask(asked, engine, for_people))
-        return speeds.SpeedSeries(engine=engine, analyses=found, every_order=bool(asked.orders))
+        every = asked.orders is not None
+        return speeds.SpeedSeries(engine=engine, analyses=found, every_order=every)
 
     return find_series, speeds.RENDERER
 
