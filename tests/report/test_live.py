@@ -13,7 +13,7 @@ import pytest
 from docs_site import make_play_page
 from support.browser import live
 from support.commands import ask, ask_json
-from support.engines import GOOD, RADIAL, build_text, changed
+from support.engines import GOOD, RADIAL, build_text, changed, engine_text
 from support.paths import write
 
 from balcli import load_example
@@ -326,6 +326,18 @@ def test_the_verdict_heeds_devices_and_what_is_small(show, name, small):
     page = show(text, "", "--small", small)
     told = ask("-q", "analyze", "-", "--small", small, stdin=text).partition("Verdict")[2]
     assert page.read("live-verdict") == _cut_causes(" ".join(told.partition("Largest by order")[0].split()))
+
+
+@live
+def test_the_verdict_names_the_direction_of_a_force_of_nearly_constant_size(show):
+    """A 90-degree twin with one piston 5 g heavier: the part against the crank is 0.2 % of the other."""
+    text = engine_text(
+        piston="mass = 0.5", crank="stroke = 90\nthrows = [0]\nthrow_mass = 0.8", layout="bank_angle = 90"
+    )
+    text += "[cylinder.2]\npiston_mass = 0.505\n"
+    told = " ".join(ask("-q", "analyze", "-", stdin=text).partition("Verdict")[2].split())
+    assert "turning with the crank; counterweights cancel" in told
+    assert show(text).read("live-verdict") in told
 
 
 def _cut_causes(verdict: str) -> str:

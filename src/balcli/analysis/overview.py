@@ -148,7 +148,7 @@ _MOST_NAMED = 5  # largest number of orders that a sentence names
 _AXES = {"0.0": "x", "90.0": "y"}
 _NAMED = {"moment": "longitudinal moment"}  # distinguishes it from the couple, another moment
 _SENSES = {1: "with the crank", -1: "against the crank"}
-_ROUND = 0.01  # smaller part / larger part up to which a vector turns with nearly constant size
+NEARLY_ROUND = 0.01  # smaller / larger part up to which a vector turns at nearly constant size
 _UNEVEN = (
     "Uneven speed mixes the orders. Devices are sized at steady speed; a device that cancels an "
     "order at steady speed also cancels what this order adds to other orders at uneven speed."
@@ -183,7 +183,7 @@ class _Vector(NamedTuple):
         if not directed:
             return told
         for sense, turning in _SENSES.items():
-            if self.part(k, -sense) <= _ROUND * self.part(k, sense):
+            if self.part(k, -sense) <= NEARLY_ROUND * self.part(k, sense):
                 return f"{told} turning {turning}"
         axis_deg = float(self.phasors.axis_deg[k])
         angle = degrees(axis_deg, 180)

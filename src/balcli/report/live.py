@@ -18,6 +18,7 @@ from operator import itemgetter
 from pathlib import Path
 from typing import Any
 
+from ..analysis.overview import NEARLY_ROUND
 from ..core.mechanisms.linkage import Rotary
 from ..core.records import Node
 from ..engine.engine import Engine, take_model
@@ -195,6 +196,7 @@ def make_book(
         "small": small,
         "options": "" if small == SMALL else f" --small {100 * small:g}%",
         "negligible": NEGLIGIBLE,
+        "nearlyRound": NEARLY_ROUND,
         "shown": SHOWN,
         "unknown": sentence(MOMENTS_UNKNOWN),
         "devices": _NEW,

@@ -239,7 +239,8 @@
   }
   // Size and direction of a force or moment of an order: "force of 4 N along x".
   function describeVector({ type, size, parts, axis }, directed) {
-    const told = `${NAMED[type]} of ${sizeText(type, size)}`, turning = parts.findIndex((_, k) => !parts[1 - k]);
+    const told = `${NAMED[type]} of ${sizeText(type, size)}`;
+    const turning = parts.findIndex((part, k) => parts[1 - k] <= book.nearlyRound * part);
     if (!directed) return told;
     if (turning >= 0) return `${told} turning ${SENSES[turning]}`;
     const names = { "0.0": "x", "90.0": "y" }, angle = lineDegrees(axis);
