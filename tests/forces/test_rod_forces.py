@@ -1,7 +1,8 @@
 """Gas on each piston of an engine whose cylinders are in part equal."""
 
 import numpy as np
-from support.engines import build_text
+import pytest
+from support.engines import GOOD, build_text
 from support.gas_engines import WIEBE
 from support.paths import ENGINES
 
@@ -21,3 +22,20 @@ def test_each_cylinder_has_its_own_pressure_at_its_own_time():
         np.testing.assert_allclose(forces.pressure[row], cylinder.torque.pressure.at(at), rtol=1e-14)
         gas = cylinder.share * cylinder.torque.force_under(cylinder.torque.pressure.at(at))
         np.testing.assert_allclose(forces.gas[row], gas, rtol=1e-13, atol=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("apart", "whole"),
+    [
+        ("[crosshead]\nmass = 2\n", "[cylinder.2]\npiston_mass = 2.5\n"),
+        ("[cylinder.2]\ncrosshead_mass = 2\n", "[cylinder.2]\npiston_mass = 2.5\n"),
+        ("[crosshead]\nmass = 5\n[cylinder.2]\ncrosshead_mass = 2\n", "[cylinder.2]\npiston_mass = 2.5\n"),
+        ("[cylinder.2]\npiston_mass = 0.7\ncrosshead_mass = 2\n", "[cylinder.2]\npiston_mass = 2.7\n"),
+    ],
+)
+def test_a_crosshead_presses_on_the_rod_as_part_of_the_piston(apart, whole):
+    """Piston and crosshead weighed apart load the rod of cylinder 2 as one piston with both masses."""
+    forces = [compute_rod_forces(build_text(f"{GOOD}\n{WIEBE}\n{tables}"), DEGREES) for tables in (apart, whole)]
+    for name in ("thrust", "rod", "pin"):
+        with_crosshead, in_one_piece = (getattr(each, name)[1] for each in forces)
+        np.testing.assert_allclose(with_crosshead, in_one_piece, rtol=1e-12, atol=1e-8)

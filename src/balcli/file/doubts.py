@@ -207,6 +207,8 @@ def _list_pistons(model: EngineFile) -> Iterator[Figure]:
     unit = f" kg at a stroke of {stroke:g} mm" if bore is None else f" kg in a bore of {bore:g} mm"
     units = "are the units right? Bare numbers are kg and mm"
     name = "the parts of [piston] weigh" if model.piston.mass is None else "piston.mass is"
+    if model.crosshead.mass:
+        name = "piston and crosshead weigh"
     if mass := _weigh_piston(model):
         yield Figure(name, mass, least, most, unit, units)
     if bore is not None:
@@ -289,14 +291,17 @@ def _list_cranks(model: EngineFile) -> Iterator[Figure]:
 
 
 def _has_crosshead(model: EngineFile) -> bool:
-    """Return whether the stroke is so long that the engine must have a crosshead."""
+    """Return whether the file gives a crosshead, or a stroke so long that there must be one."""
     bore = model.piston.bore
-    return bore is not None and max(model.crank.strokes) > LONG_STROKE * bore
+    return model.crosshead.mass > 0 or (
+        bore is not None and max(model.crank.strokes) > LONG_STROKE * bore
+    )
 
 
 def _weigh_piston(model: EngineFile) -> float:
-    """Return the mass of a whole piston, kg."""
-    return sum(getattr(model.piston, key) or 0.0 for key in ("mass", *PISTON_PARTS))
+    """Return the mass of a whole piston with its crosshead, kg."""
+    parts = sum(getattr(model.piston, key) or 0.0 for key in ("mass", *PISTON_PARTS))
+    return parts + model.crosshead.mass
 
 
 def _weigh_rod(model: EngineFile) -> float:

@@ -5,8 +5,8 @@ In the cylinder's frame, u points along the axis away from the crank, and v is 9
 the direction of rotation. The piston pin is at p, the lower pin of the rod (crank pin, or knuckle
 pin of an articulated rod) at f, and `d = p - f`. A rod is equivalent to two masses at its ends (a
 at the small end, b at the big end) and a massless body with the moment of inertia -H
-(docs/theory.md). With the gas force P towards the crank, the piston mass M and the rod's angular
-acceleration alpha,
+(docs/theory.md). With the gas force P towards the crank, the mass M of piston and crosshead, and
+the rod's angular acceleration alpha,
 
     W = W_x + i W_y                                       rod on piston
     W_x = M Re p'' + P
@@ -78,7 +78,9 @@ def compute_rod_forces(engine: Engine, crank_deg: Array) -> RodForces:
         pressure[rows] = torque.pressure.at(angles[rows])
         gas[rows] = torque.force_under(pressure[rows])
     gas *= as_rows(source.shares)
-    masses = np.array([(w.piston, w.small_end, w.rotating) for w in engine.weighed], float)
+    masses = np.array(
+        [(w.piston + w.crosshead, w.small_end, w.rotating) for w in engine.weighed], float
+    )
     heads, small, big = masses.T[..., None]
     # In a rotary engine, psi is the angle of a cylinder ahead of the crank pin (`linkage.Rotary`).
     turned = unit(np.degrees(motion.psi))

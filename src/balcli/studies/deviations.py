@@ -144,7 +144,7 @@ def _list_parts(model: EngineFile, within: Tolerances) -> Iterator[Source]:
 
 
 def _list_masses(model: EngineFile, parts: Parts, mass: float) -> Iterator[Source]:
-    """Yield the masses of pistons, rods and throws that are not 0."""
+    """Yield the masses of pistons, crossheads, rods and throws that are not 0."""
     yield from _list_pistons(model, mass)
     for n in sorted(parts.numbers):
         rod = parts.find_rod(n, n in parts.masters).rod
@@ -161,11 +161,15 @@ def _list_masses(model: EngineFile, parts: Parts, mass: float) -> Iterator[Sourc
 
 
 def _list_pistons(model: EngineFile, mass: float) -> Iterator[Source]:
+    """Yield the masses of pistons and crossheads that are not 0."""
     engine = build(model)
     for n, weighed in sorted(zip(engine.numbers, engine.weighed, strict=True)):
         if weighed.piston:
             figures = {f"cylinder.{n}.piston_mass": float(weighed.piston)}
             yield _relative(f"piston mass {n}", mass, figures)
+        if weighed.crosshead:
+            figures = {f"cylinder.{n}.crosshead_mass": float(weighed.crosshead)}
+            yield _relative(f"crosshead mass {n}", mass, figures)
 
 
 def _hold_devices(model: EngineFile) -> dict[str, Line]:
