@@ -22,16 +22,18 @@ if TYPE_CHECKING:
     from .balancing.answer import Balance as Balance, balance as balance
     from .books.answer import tables as tables
     from .books.recomputed import Table as Table
+    from .crank_torque.answer import analyze_torque as analyze_torque
+    from .crank_torque.records import TorqueAnalysis as TorqueAnalysis
     from .engine.engine import Engine as Engine
     from .engine.load import load as load, load_example as load_example
     from .errors import BalcliError as BalcliError, InputError as InputError
-    from .field.answer import FieldBalance as FieldBalance, balance_rotor as balance_rotor
-    from .locomotive.answer import (
+    from .field_balancing.answer import FieldBalance as FieldBalance, balance_rotor as balance_rotor
+    from .locomotives.answer import (
         LocomotiveBalance as LocomotiveBalance,
         analyze_locomotive as analyze_locomotive,
     )
-    from .mounts.answer import analyze_mounts as analyze_mounts
-    from .mounts.records import MountReport as MountReport
+    from .mounting.answer import analyze_mounts as analyze_mounts
+    from .mounting.records import MountReport as MountReport
     from .report.plot import plot as plot
     from .show.result import Result as Result
     from .sizing.options import SchemeOptions as SchemeOptions
@@ -39,9 +41,7 @@ if TYPE_CHECKING:
     from .studies.scatter import Scatter as Scatter, scatter as scatter
     from .studies.search.answer import Search as Search, search as search
     from .studies.sweep import Swept as Swept, sweep as sweep
-    from .torque.answer import analyze_torque as analyze_torque
-    from .torque.records import TorqueAnalysis as TorqueAnalysis
-    from .torsion.answer import (
+    from .torsional_vibration.answer import (
         TorsionAnalysis as TorsionAnalysis,
         analyze_torsion as analyze_torsion,
     )

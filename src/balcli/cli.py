@@ -72,15 +72,15 @@ _COMMANDS_OF = {
     "balancing.command": ("balance",),
     "books.command": ("layouts", "tables"),
     "commands": ("new", "engines", "schema", "check", "bench"),
-    "field.command": ("field",),
-    "locomotive.command": ("locomotive",),
-    "mounts.command": ("mounts",),
+    "field_balancing.command": ("field",),
+    "locomotives.command": ("locomotive",),
+    "mounting.command": ("mounts",),
     "report.command": ("plot", "report"),
     "studies.scatter_command": ("scatter",),
     "studies.search.command": ("search",),
     "studies.sweep_command": ("numbers", "sweep"),
-    "torque.command": ("torque",),
-    "torsion.command": ("torsion",),
+    "crank_torque.command": ("torque",),
+    "torsional_vibration.command": ("torsion",),
 }
 MODULES = {name: module for module, names in _COMMANDS_OF.items() for name in names}
 

@@ -150,10 +150,10 @@ def schema(
 
 
 def _describe_file(kind: File) -> Node:
-    from .field import runs_file as runs
+    from .field_balancing import runs_file as runs
     from .file import schema as files  # pydantic
     from .file.torsion_tables import Damper
-    from .torsion import chain_file as chain
+    from .torsional_vibration import chain_file as chain
 
     if kind is File.FIELD:
         return files.describe_file(runs.RunsFile, [runs.Run], "runs-file", "balcli file of runs")

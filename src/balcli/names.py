@@ -23,10 +23,10 @@ _EXPORTS = {
     "engine.engine": "Engine",
     "engine.load": "load load_example",
     "errors": "BalcliError InputError",
-    "field.answer": "FieldBalance balance_rotor",
-    "locomotive.answer": "LocomotiveBalance analyze_locomotive",
-    "mounts.answer": "analyze_mounts",
-    "mounts.records": "MountReport",
+    "field_balancing.answer": "FieldBalance balance_rotor",
+    "locomotives.answer": "LocomotiveBalance analyze_locomotive",
+    "mounting.answer": "analyze_mounts",
+    "mounting.records": "MountReport",
     "report.plot": "plot",
     "show.result": "Result",
     "sizing.options": "SchemeOptions",
@@ -34,9 +34,9 @@ _EXPORTS = {
     "studies.scatter": "Scatter scatter",
     "studies.search.answer": "Search search",
     "studies.sweep": "Swept sweep",
-    "torque.answer": "analyze_torque",
-    "torque.records": "TorqueAnalysis",
-    "torsion.answer": "TorsionAnalysis analyze_torsion",
+    "crank_torque.answer": "analyze_torque",
+    "crank_torque.records": "TorqueAnalysis",
+    "torsional_vibration.answer": "TorsionAnalysis analyze_torsion",
 }
 PUBLIC = {name: module for module, names in _EXPORTS.items() for name in names.split()}
 
@@ -47,16 +47,16 @@ RENDERERS = {
     "Combined": "analysis.two_engines",
     "Comparison": "analysis.comparison",
     "Curves": "analysis.curves",
-    "FieldBalance": "field.show",
-    "LocomotiveBalance": "locomotive.show",
-    "MountReport": "mounts.show",
+    "FieldBalance": "field_balancing.show",
+    "LocomotiveBalance": "locomotives.show",
+    "MountReport": "mounting.show",
     "Pistons": "analysis.piston",
     "Scatter": "studies.scatter_command",
     "Search": "studies.search.command",
     "Swept": "studies.sweep_show",
     "Table": "books.show",
-    "TorqueAnalysis": "torque.show",
-    "TorsionAnalysis": "torsion.show",
+    "TorqueAnalysis": "crank_torque.show",
+    "TorsionAnalysis": "torsional_vibration.show",
 }
 
 # The class that declares a JSON document, by the name in the document's `format`.
@@ -67,10 +67,10 @@ DOCUMENTS = {
     "check": "regression:Check",
     "compare": "analysis.comparison:Comparison",
     "curves": "analysis.curves:Curves",
-    "field": "field.answer:FieldBalance",
-    "locomotive": "locomotive.answer:LocomotiveBalance",
+    "field": "field_balancing.answer:FieldBalance",
+    "locomotive": "locomotives.answer:LocomotiveBalance",
     "marine": "analysis.speeds:MarineSheet",
-    "mounts": "mounts.records:MountReport",
+    "mounts": "mounting.records:MountReport",
     "numbers": "studies.quantities:NamedNumbers",
     "piston": "analysis.piston:Pistons",
     "scatter": "studies.scatter:Scatter",
@@ -79,8 +79,8 @@ DOCUMENTS = {
     "sum": "analysis.two_engines:Combined",
     "sweep": "studies.sweep_show:SweepDocument",
     "table": "books.recomputed:Table",
-    "torque": "torque.records:TorqueAnalysis",
-    "torsion": "torsion.answer:TorsionAnalysis",
+    "torque": "crank_torque.records:TorqueAnalysis",
+    "torsion": "torsional_vibration.answer:TorsionAnalysis",
 }
 
 # The module of each optional table of an engine file; the capitalized key is its class (Gas).
@@ -103,11 +103,11 @@ CHAPTER_LISTS = {
 # The module that computes each group of further quantities for sweep, search and scatter.
 QUANTITIES = {
     "guide": "forces.guide",
-    "cycle": "torque.quantity",
+    "cycle": "crank_torque.quantity",
     "piston": "analysis.piston",
     "journals": "analysis.crank_drive",
-    "mounts": "mounts.quantity",
-    "torsion": "torsion.quantity",
+    "mounts": "mounting.quantity",
+    "torsion": "torsional_vibration.quantity",
 }
 # Functions whose modules are imported only when the function is called.
 NOTEBOOK = "show.notebook:show_engine"

@@ -22,15 +22,15 @@ import numpy as np
 
 from .analysis.answer import Analysis, analyze
 from .core.records import Node, to_document
+from .crank_torque.answer import analyze_torque
 from .engine.engine import Engine
 from .errors import BalcliError
 from .file.model import EngineFile
 from .forces.kinds import GAS, GAS_KINDS, KINDS
 from .forces.spectrum import Spectra, compute_spectra, find_relevant_orders
 from .limits import LARGEST_FILE_BYTES
-from .mounts.answer import analyze_mounts
-from .torque.answer import analyze_torque
-from .torsion.answer import analyze_torsion
+from .mounting.answer import analyze_mounts
+from .torsional_vibration.answer import analyze_torsion
 
 TOLERANCE = 1e-9  # share of the largest figure of a quantity; rounding is allowed in addition
 PEAK_ANGLE_DEG = 1e-3  # allowed change of a peak's angle; rounding changes it more than the value

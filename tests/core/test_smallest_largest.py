@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from balcli.core.least_squares import Region, minimise, solve
-from balcli.field.places import find_region
+from balcli.field_balancing.places import find_region
 
 
 def problem(seed: int, readings: int, unknowns: int):

@@ -252,7 +252,7 @@ def test_json_names_engines_and_cylinders(geared, tmp_path):
 
 def test_mounts_bear_the_torque_in_the_sense_of_the_load(geared):
     """The roll on the mounts is the roll of the frame, gas included."""
-    from balcli.mounts.loads import find_loads
+    from balcli.mounting.loads import find_loads
 
     both = geared([TWO[0] | {"load": False}, TWO[1] | {"load": True}])
     loads = find_loads(both, np.zeros(3), np.array([1.0, 2.0]), np.array([1.0, 2.0]))

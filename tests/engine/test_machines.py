@@ -8,7 +8,7 @@ from support.engines import engine
 from balcli import InputError, analyze_torque, curves, load, search
 from balcli.core.cylinders import find_travel
 from balcli.forces.spectrum import compute_spectra
-from balcli.torsion.build import weigh_running_gear
+from balcli.torsional_vibration.build import weigh_running_gear
 
 KINDS = ("force", "moment", "couple", "torque")
 ORDERS = [1, 2, 3, 4, 6]

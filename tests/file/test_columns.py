@@ -12,9 +12,9 @@ from support.gas_engines import PETROL_FOUR
 from support.paths import write
 
 from balcli import load
+from balcli.crank_torque.given_curve import read_curve
 from balcli.errors import BalcliError
 from balcli.file.toml import parse_toml
-from balcli.torque.given_curve import read_curve
 
 ANGLES = np.arange(0.0, 720.0, 5)
 BAR = 1 + 60 * np.exp(-(((ANGLES - 370) / 40) ** 2))

@@ -10,7 +10,7 @@ from support.mounts import ENGINE
 
 from balcli.errors import BalcliError
 from balcli.forces.spectrum import compute_spectra
-from balcli.mounts.loads import compute_spectra_in_time
+from balcli.mounting.loads import compute_spectra_in_time
 
 FIRED = f"""{ENGINE}
 [layout]

@@ -11,15 +11,15 @@ from balcli.analysis.answer import analyze
 from balcli.analysis.order_tables import tell_rocking
 from balcli.analysis.two_engines import Arrangement, combine_engines
 from balcli.core.phasors import Phasors
+from balcli.crank_torque.answer import analyze_torque_of_engine as analyze_torque
 from balcli.engine.engine import take_model
 from balcli.engine.load import load
 from balcli.errors import BalcliError
 from balcli.forces.guide import compute_guide_moments
 from balcli.forces.spectrum import Spectra, choose_orders, is_order, mark_considerable, parse_order
-from balcli.mounts.loads import find_loads
+from balcli.mounting.loads import find_loads
 from balcli.show.units import SI
-from balcli.torque.answer import analyze_torque_of_engine as analyze_torque
-from balcli.torsion.build import excite_engine
+from balcli.torsional_vibration.build import excite_engine
 
 
 @cases("forces/orders", "the_order_that_a_text_names")

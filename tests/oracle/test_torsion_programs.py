@@ -36,8 +36,8 @@ from support.chains import chain_text, random_chain, random_damping
 from support.paths import ENGINES
 
 import balcli
-from balcli.torsion.chain import Chain, Damping
-from balcli.torsion.modes import find_chain_modes, find_chain_poles, find_poles
+from balcli.torsional_vibration.chain import Chain, Damping
+from balcli.torsional_vibration.modes import find_chain_modes, find_chain_poles, find_poles
 
 opentorsion = pytest.importorskip("opentorsion")
 

@@ -12,7 +12,7 @@ from support.paths import ENGINES
 
 from balcli.shell.options import parse_orders
 from balcli.show.sheet import order_name, set_digits
-from balcli.torsion.answer import parse_half_orders
+from balcli.torsional_vibration.answer import parse_half_orders
 
 
 @cases("shell/options", "a_range_that_begins_or_ends_with_a_half_goes_in_halves")

@@ -8,7 +8,7 @@ import tomli_w
 from numpy.typing import NDArray
 from support import high_precision
 
-from balcli.torsion.chain import Chain, ChainShaft, Damping, follow_gears, incidence, join_chain
+from balcli.torsional_vibration.chain import Chain, ChainShaft, Damping, follow_gears, incidence, join_chain
 
 KINDS = ("plain", "geared", "branched", "clamped", "clamped at both ends", "massless", "looped")
 

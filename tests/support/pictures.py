@@ -17,6 +17,6 @@ def without_pictures() -> ExitStack:
     stack = ExitStack()
     for name in ("draw_panel", "inline_svg"):
         stack.enter_context(patch(f"balcli.report.page.{name}", lambda *_: "<svg></svg>"))
-    for name in ("balcli.report.page.save_figure", "balcli.torsion.plot.make_torsion"):
+    for name in ("balcli.report.page.save_figure", "balcli.torsional_vibration.plot.make_torsion"):
         stack.enter_context(patch(name, lambda *_, **__: b""))
     return stack

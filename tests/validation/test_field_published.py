@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from balcli.core.unbalance import find_permitted_unbalance
-from balcli.field.answer import find_corrections
-from balcli.field.runs_file import parse_runs
+from balcli.field_balancing.answer import find_corrections
+from balcli.field_balancing.runs_file import parse_runs
 
 GOODMAN = """
 planes = ["1", "2"]

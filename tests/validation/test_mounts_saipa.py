@@ -8,7 +8,7 @@ stored figures are right; `tests/published` has the natural frequencies.
 import numpy as np
 import pytest
 
-from balcli.mounts.rigid_body import Body, Mounts, find_body_modes, roll_axis, share_energy, turn_axes
+from balcli.mounting.rigid_body import Body, Mounts, find_body_modes, roll_axis, share_energy, turn_axes
 
 BODY = Body(163.9, np.zeros(3), np.array([[9.91, -0.813, -0.472], [-0.813, 4.12, 1.34], [-0.472, 1.34, 9.09]]))
 NONE = np.zeros((3, 3))

@@ -6,7 +6,7 @@ and Crede, Shock and Vibration Handbook).
 import numpy as np
 import pytest
 
-from balcli.mounts.rigid_body import Body, Mounts, elastic_centre, find_body_modes, stiffness_matrix
+from balcli.mounting.rigid_body import Body, Mounts, elastic_centre, find_body_modes, stiffness_matrix
 
 MASS, INERTIA, STIFFNESS = 200.0, np.array([8.0, 12.0, 14.0]), np.array([2e5, 1.5e5, 4e5])
 X, Y, DROP = 0.4, 0.3, 0.2

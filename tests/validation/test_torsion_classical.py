@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from balcli.core.vibration import scale_shapes
-from balcli.torsion.chain import ChainShaft, join_chain
-from balcli.torsion.modes import find_chain_modes
+from balcli.torsional_vibration.chain import ChainShaft, join_chain
+from balcli.torsional_vibration.modes import find_chain_modes
 
 
 @pytest.mark.parametrize(("count", "inertia", "stiffness"), [(5, 20, 125), (1, 2, 8), (40, 3, 7e9)])

@@ -13,9 +13,9 @@ from support.diesel import DIAGRAM, INERTIAS, NATURAL_HZ, STIFFNESSES
 from support.paths import ROOT
 
 from balcli.core.peaks import find_swing, sum_amplitudes
-from balcli.torsion.chain import ChainShaft, Damping, join_chain
-from balcli.torsion.modes import find_chain_modes, locate_nodes
-from balcli.torsion.motion import respond_chain
+from balcli.torsional_vibration.chain import ChainShaft, Damping, join_chain
+from balcli.torsional_vibration.modes import find_chain_modes, locate_nodes
+from balcli.torsional_vibration.motion import respond_chain
 
 DOCUMENT = ROOT / "docs" / "torsion.md"
 LOSS = 0.035

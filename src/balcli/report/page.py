@@ -24,6 +24,7 @@ from ..core.cylinders import Device, DeviceKind
 from ..core.mechanisms.linkage import Articulated, Rotary
 from ..core.phasors import Array, Phasors, unit
 from ..core.records import Node
+from ..crank_torque.answer import choose_firing_cylinder
 from ..engine.engine import Engine, take_model
 from ..errors import BalcliError, warn
 from ..file.fields import order_number
@@ -31,21 +32,20 @@ from ..file.model import EngineFile
 from ..forces.curves import find_torque_curves
 from ..forces.kinds import FORCE, MOMENT, VECTORS
 from ..forces.spectrum import take_gas
-from ..mounts import show as mounts
-from ..mounts.answer import report_mounts
-from ..mounts.records import MountReport
-from ..mounts.rigid_body import PROJECTION, find_corners
+from ..mounting import show as mounts
+from ..mounting.answer import report_mounts
+from ..mounting.records import MountReport
+from ..mounting.rigid_body import PROJECTION, find_corners
 from ..process import Tell, tell_nobody
 from ..show.figures import clean
 from ..show.plot_style import inline_svg, save_figure
 from ..show.sheet import NEGLIGIBLE, ON_A_PAGE
 from ..show.units import SI, ShownUnit, System
 from ..sizing.options import SchemeOptions
-from ..torque.answer import choose_firing_cylinder
-from ..torsion import plot as twisting, show as torsion
-from ..torsion.answer import TorsionAnalysis, TorsionQuestion, answer_question
-from ..torsion.load import make_source
-from ..torsion.quantity import choose_torsion_speeds
+from ..torsional_vibration import plot as twisting, show as torsion
+from ..torsional_vibration.answer import TorsionAnalysis, TorsionQuestion, answer_question
+from ..torsional_vibration.load import make_source
+from ..torsional_vibration.quantity import choose_torsion_speeds
 from ..version import __version__
 from .live import describe_one, explain_still, name_unit
 from .names import OF_TORSION

@@ -29,6 +29,7 @@ from ..analysis.plot import (
 )
 from ..balancing.scheme_show import percent
 from ..core.phasors import Array, Phasors
+from ..crank_torque.plot import draw_gas
 from ..forces.crankshaft import AlongCrank
 from ..forces.kinds import EVERY_KIND, FORCE, GAS, KINDS, ROLL, ROLL_TOTAL, SCALARS, TORQUE, VECTORS
 from ..forces.stars import find_stars
@@ -56,7 +57,6 @@ from ..show.plot_style import (
 )
 from ..show.sheet import NAMELESS, NEGLIGIBLE, order_name, size_text, small_text
 from ..show.units import SI, ShownUnit, System
-from ..torque.plot import draw_gas
 from .study import Banks, Study
 
 if TYPE_CHECKING:

@@ -12,14 +12,15 @@ from numpy.typing import ArrayLike
 
 from ..analysis.answer import Analysis
 from ..balancing.answer import Balance
+from ..crank_torque.records import TorqueAnalysis
 from ..engine.engine import Engine, take_model
 from ..errors import check_number, check_type, warn, wrong_type
-from ..field.answer import FieldBalance
-from ..field.show import make_field
+from ..field_balancing.answer import FieldBalance
+from ..field_balancing.show import make_field
 from ..forces.spectrum import check_orders
 from ..limits import SMALL
-from ..mounts.plot import make_mounts
-from ..mounts.records import MountReport
+from ..mounting.plot import make_mounts
+from ..mounting.records import MountReport
 from ..shell.arguments import check_count, check_speeds, check_torsion_orders, tell_arguments
 from ..shell.inputs import read_engine, require_gas
 from ..shell.options import parse_orders, parse_speed
@@ -31,11 +32,10 @@ from ..show.units import SI, SYSTEMS
 from ..sizing.options import SchemeOptions, check_small
 from ..studies.sweep import Swept
 from ..studies.sweep_show import check_drawable, make_sweep
-from ..torque.records import TorqueAnalysis
-from ..torsion.answer import TorsionAnalysis, TorsionQuestion, answer_question
-from ..torsion.load import make_source
-from ..torsion.plot import make_figures_of_torsion, make_torsion
-from ..torsion.quantity import choose_torsion_speeds
+from ..torsional_vibration.answer import TorsionAnalysis, TorsionQuestion, answer_question
+from ..torsional_vibration.load import make_source
+from ..torsional_vibration.plot import make_figures_of_torsion, make_torsion
+from ..torsional_vibration.quantity import choose_torsion_speeds
 from .names import OF_GAS, OF_TORSION, PAGES, check_page
 from .pages import PageSubject, make_page
 from .study import Study, compute_study, refuse_scheme

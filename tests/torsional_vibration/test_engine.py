@@ -212,7 +212,7 @@ def test_a_rigid_part_adds_to_its_neighbour():
     assert frequencies(apart + rest) == pytest.approx(NATURAL_HZ, rel=1e-7)
 
 
-@cases("torsion/engine", "mistakes_of_torsion_say_what_would_be_right")
+@cases("torsional_vibration/engine", "mistakes_of_torsion_say_what_would_be_right")
 def test_mistakes_of_torsion_say_what_would_be_right(torsion, message):
     head = write_diesel().partition("[torsion]")[0]
     assert refusal("torsion", "-", stdin=head + torsion) == f"standard input: {message}"

@@ -10,6 +10,7 @@ from support.engines import build_text
 from support.gas_engines import FOUR, WIEBE, draw_engine
 
 from balcli.core.speed_ripple import speed_variation
+from balcli.crank_torque.answer import analyze_torque_of_engine as analyze_torque
 from balcli.engine.load import load
 from balcli.errors import BalcliError
 from balcli.forces.curves import (
@@ -20,7 +21,6 @@ from balcli.forces.curves import (
     silence,
 )
 from balcli.forces.spectrum import compute_spectra
-from balcli.torque.answer import analyze_torque_of_engine as analyze_torque
 
 HALVES = np.arange(25)
 FLYWHEEL = "[flywheel]\ninertia = {}\n"

@@ -15,8 +15,8 @@ from support.paths import ENGINES, write
 
 from balcli import analyze_torsion
 from balcli.file.examples import template
-from balcli.torsion.motion import compute_curves
-from balcli.torsion.plot import make_torsion
+from balcli.torsional_vibration.motion import compute_curves
+from balcli.torsional_vibration.plot import make_torsion
 
 pytestmark = pytest.mark.slow
 
@@ -208,7 +208,7 @@ def test_heat_of_a_narrow_resonance_is_the_highest_of_it():
     assert coarse["worst"]["heat_W"] == pytest.approx(max(fine["heat_W"]), rel=1e-6)
 
 
-@cases("torsion/dampers", "dampers_of_unlikely_size")
+@cases("torsional_vibration/dampers", "dampers_of_unlikely_size")
 def test_dampers_of_unlikely_size(options, told):
     speeds = () if "--speeds" in options else RANGE
     status, out, err = run_here("torsion", "-", *speeds, "--damper", "viscous", *options, "-f", "json", stdin=NOSE)
@@ -270,7 +270,7 @@ def test_a_file_in_inline_tables_is_written_anew(tmp_path):
     assert tomllib.loads(fitted.read_text())["node"][0]["damper"]["kind"] == "viscous"
 
 
-@cases("torsion/dampers", "options_that_miss_others", RANGE=RANGE)
+@cases("torsional_vibration/dampers", "options_that_miss_others", RANGE=RANGE)
 def test_options_that_miss_others(options, message):
     assert refusal("torsion", "-", *options, stdin=SINGLE) == message
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from support.chains import no_damping
 
-from balcli.torsion.chain import (
+from balcli.torsional_vibration.chain import (
     ChainShaft,
     Damping,
     best_viscous_damping,
@@ -17,7 +17,7 @@ from balcli.torsion.chain import (
     rigid_motions,
     viscous_inertia,
 )
-from balcli.torsion.motion import respond_chain
+from balcli.torsional_vibration.motion import respond_chain
 
 
 def test_pieces_that_hang_together():

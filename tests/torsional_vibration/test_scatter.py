@@ -73,6 +73,6 @@ def test_stress_of_a_shaft_scatters(tmp_path):
     assert 0 < found["p05"] < found["p95"]
 
 
-@cases("torsion/quantity", "what_does_not_scatter")
+@cases("torsional_vibration/quantity", "what_does_not_scatter")
 def test_what_does_not_scatter(tmp_path, quantity, options, told):
     assert refusal("scatter", write(tmp_path / "two.toml", TWO), "-q", quantity, *options) == told

@@ -11,9 +11,9 @@ from support.paths import write
 
 from balcli.errors import BalcliError
 from balcli.forces.spectrum import compute_spectra
-from balcli.mounts.answer import report_mounts
-from balcli.mounts.build import read_mounted
-from balcli.mounts.rigid_body import describe_free_motion
+from balcli.mounting.answer import report_mounts
+from balcli.mounting.build import read_mounted
+from balcli.mounting.rigid_body import describe_free_motion
 
 SPEEDS = np.array([700.0, 1100, 1900, 3000, 5200])
 COMPONENTS = (*(f"force_{axis}_N" for axis in "xyz"), *(f"moment_{axis}_Nm" for axis in "xyz"))

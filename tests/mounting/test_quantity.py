@@ -51,7 +51,7 @@ def test_each_variant_is_the_file_that_says_so(four, tmp_path):
         assert row["force.2.major"] > 1000
 
 
-@cases("mounts/quantity", "what_is_no_quantity")
+@cases("mounting/quantity", "what_is_no_quantity")
 def test_what_is_no_quantity(four, quantity, message):
     told = refusal("sweep", four, "--vary", "mount.left.loss=0.1,0.2", "-q", quantity)
     assert told.removeprefix(f"{four}: ").startswith(message)
@@ -98,7 +98,7 @@ LAYOUT = "[layout]\nfiring_order = [1, 3, 4, 2]\n"
 GAS = '[gas]\ncycle = "wiebe"\ncompression_ratio = 10\nimep = 9\n'
 
 
-@cases("mounts/quantity", "with_gas_every_figure_varies")
+@cases("mounting/quantity", "with_gas_every_figure_varies")
 def test_with_gas_every_figure_varies(path, old, new, tmp_path):
     text = NAMED + LAYOUT + GAS
     assert old in text

@@ -9,8 +9,8 @@ from support.chains import chain_text
 from support.commands import ask_torsion, refusal, run_here
 
 from balcli.file.toml import parse_toml
-from balcli.torsion.build import build_chain
-from balcli.torsion.chain_file import read_chain_tables
+from balcli.torsional_vibration.build import build_chain
+from balcli.torsional_vibration.chain_file import read_chain_tables
 
 TWO = """
 [[node]]
@@ -91,7 +91,7 @@ def test_torques_of_one_node_and_order_add_up():
     assert excitation.steady.ravel() == pytest.approx([-1j * foot_pound, 0, 0, 4 - 5j])
 
 
-@cases("torsion/read_chain", "a_mistake_says_what_would_be_right", TWO=TWO)
+@cases("torsional_vibration/read_chain", "a_mistake_says_what_would_be_right", TWO=TWO)
 def test_a_mistake_says_what_would_be_right(text, message):
     assert mistakes(text) == [message]
 

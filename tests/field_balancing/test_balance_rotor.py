@@ -11,8 +11,8 @@ from support.rotors import head, names, random_rotor, run, table, three_runs
 
 from balcli.core.unbalance import STEEL
 from balcli.errors import BalcliError
-from balcli.field.answer import find_corrections
-from balcli.field.runs_file import parse_runs
+from balcli.field_balancing.answer import find_corrections
+from balcli.field_balancing.runs_file import parse_runs
 
 RELATIVE = 1e-12
 
@@ -142,7 +142,7 @@ def put_on(planes, drilled=False):
 
 
 @pytest.mark.parametrize(("sense", "minimise"), [("with", "squares"), ("against", "max")])
-@cases("field/balance_rotor", "limits")
+@cases("field_balancing/balance_rotor", "limits")
 def test_what_does_not_fit_leaves_what_it_says(limits, sense, minimise):
     """The readings after are those of the pieces, and pieces a little otherwise leave more."""
     last = run([60, 70j], [("front", 0.3), ("rear", 0.2j)]) if "drill" in limits else ""
@@ -316,7 +316,7 @@ RUNS = {"RUNS": three_runs("# head"), "SPEEDS": at_speeds(), "OFF": OFF + run([9
 SENSES = {name: in_other_sense(known, 'weights = "with"\n') for name, known in (("FITTED", False), ("KNOWN", True))}
 
 
-@cases("field/balance_rotor", "doubts", **RUNS, **SENSES, HEAD=head(1))
+@cases("field_balancing/balance_rotor", "doubts", **RUNS, **SENSES, HEAD=head(1))
 def test_doubts(text, doubt):
     assert doubt in balance(text).doubts
 
@@ -340,7 +340,7 @@ def refused(text: str, **options) -> str:
     return str(caught.value)
 
 
-@cases("field/balance_rotor", "runs_that_do_not_tell_are_refused")
+@cases("field_balancing/balance_rotor", "runs_that_do_not_tell_are_refused")
 def test_runs_that_do_not_tell_are_refused(text, message):
     assert refused(text) == message
 

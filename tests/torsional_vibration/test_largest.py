@@ -15,9 +15,9 @@ from balcli.core.peaks import find_swing
 from balcli.engine.build import build
 from balcli.engine.parse import parse
 from balcli.forces.quantity import TargetQuantity
-from balcli.torsion.build import build_engine_system, excite_engine
-from balcli.torsion.motion import compute_curves
-from balcli.torsion.quantity import Variants
+from balcli.torsional_vibration.build import build_engine_system, excite_engine
+from balcli.torsional_vibration.motion import compute_curves
+from balcli.torsional_vibration.quantity import Variants
 
 GAS = '[gas]\ncycle = "wiebe"\ncompression_ratio = 16\nimep = 15\n'
 
@@ -54,7 +54,7 @@ def search_finely(text, shaft):
 
 
 @pytest.mark.slow
-@cases("torsion/largest", "no_resonance_is_too_narrow_to_be_found")
+@cases("torsional_vibration/largest", "no_resonance_is_too_narrow_to_be_found")
 def test_no_resonance_is_too_narrow_to_be_found(loss, damper):
     """A ring in thick oil and pendulums shift resonances, away from the modes without them."""
     text = write_engine(loss, damper)
@@ -113,7 +113,7 @@ def test_between_two_barred_resonances_runs_are_allowed():
 
 def test_beside_a_single_speed_nothing_is_looked_for(monkeypatch):
     """A chain of two hundred took eight seconds."""
-    monkeypatch.delattr("balcli.torsion.response.find_poles")
+    monkeypatch.delattr("balcli.torsional_vibration.response.find_poles")
     text = write_engine(0.005)
     for shaft in ask_torsion(text, "--speeds", "1790")["response"]["shafts"]:
         assert shaft["worst"]["speed_rpm"] == 1790

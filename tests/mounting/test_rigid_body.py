@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from support import high_precision
 
-from balcli.mounts.rigid_body import (
+from balcli.mounting.rigid_body import (
     Body,
     Mounts,
     carry_points,

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from support.chains import KINDS, chain_of, no_damping, random_chain
 
-from balcli.torsion.chain import ChainShaft, join_chain
-from balcli.torsion.modes import find_chain_modes, tabulate_holzer
-from balcli.torsion.motion import respond_chain
+from balcli.torsional_vibration.chain import ChainShaft, join_chain
+from balcli.torsional_vibration.modes import find_chain_modes, tabulate_holzer
+from balcli.torsional_vibration.motion import respond_chain
 
 
 @pytest.mark.parametrize("kind", [k for k in KINDS if k not in ("looped", "clamped at both ends")])

@@ -160,7 +160,7 @@ def test_a_tuned_pendulum_holds_its_node_still():
     assert ask_torsion(detuned, "--speeds", "1500")["response"]["free_end_deg"][0] > 1e-4
 
 
-@cases("torsion/command", "options_that_cannot_be")
+@cases("torsional_vibration/command", "options_that_cannot_be")
 def test_options_that_cannot_be(options, message):
     assert refusal("torsion", "-", *options, stdin=CHAIN) == message
 
@@ -284,7 +284,7 @@ def test_imperial_figures_are_the_metric_ones_in_other_units(kind):
 
 
 def test_more_torques_than_are_kept_are_refused_with_the_number(monkeypatch):
-    monkeypatch.setattr("balcli.torsion.motion.MOST_TORSION_TORQUES", 800)
+    monkeypatch.setattr("balcli.torsional_vibration.motion.MOST_TORSION_TORQUES", 800)
     assert refusal("torsion", "-", "--speeds", "1000:2000", stdin=CHAIN) == (
         "808 torques (orders x speeds x shafts), but at most 800 can be kept: take fewer speeds or orders"
     )

@@ -44,7 +44,7 @@ def test_figures_of_lists_and_dampers_vary(tmp_path):
     assert one < two
 
 
-@cases("torsion/quantity", "a_figure_that_contradicts_its_table_is_refused")
+@cases("torsional_vibration/quantity", "a_figure_that_contradicts_its_table_is_refused")
 def test_a_figure_that_contradicts_its_table_is_refused(figure, told, tmp_path):
     """A bore wider than its shaft had a stress below 0."""
     own = 'damper = { kind = "viscous", inertia = 20000, damping = 4 }\n'
@@ -61,7 +61,7 @@ def test_without_gas_figures_of_the_engine_vary_too(tmp_path):
     assert 1.3 < heavy / light < 1.7, "inertia torque grows with the mass"
 
 
-@cases("torsion/quantity", "what_is_no_quantity")
+@cases("torsional_vibration/quantity", "what_is_no_quantity")
 def test_what_is_no_quantity(diesel, quantity, message):
     told = refusal("sweep", diesel, "--vary", "torsion.loss=0.01,0.02", "-q", quantity)
     assert told == message.replace("FILE", str(diesel))

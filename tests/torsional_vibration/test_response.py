@@ -5,9 +5,9 @@ import pytest
 from support.chains import KINDS, balance_power, chain_of, exact_response, no_damping, random_chain, random_damping
 
 from balcli.core.vibration import UndampedResonanceError, find_resonances
-from balcli.torsion.chain import ChainShaft, Damping, join_chain
-from balcli.torsion.modes import chain_loss, find_chain_modes
-from balcli.torsion.motion import respond_chain
+from balcli.torsional_vibration.chain import ChainShaft, Damping, join_chain
+from balcli.torsional_vibration.modes import chain_loss, find_chain_modes
+from balcli.torsional_vibration.motion import respond_chain
 
 RESPONSE = 1e-11  # relative error of every angle, and of torques against the largest; contract: 1e-10
 

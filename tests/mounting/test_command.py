@@ -178,7 +178,7 @@ def test_the_page_rocks_the_body(four):
     assert largest == pytest.approx(said["points"][0]["peak_mm"][place], rel=1e-3)
 
 
-@cases("mounts/command", "speeds_that_are_none")
+@cases("mounting/command", "speeds_that_are_none")
 def test_speeds_that_are_none(four, text, message):
     assert refusal("mounts", four, "--speeds", text).startswith(message)
 

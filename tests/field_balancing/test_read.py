@@ -5,7 +5,7 @@ from support.cases import cases
 from support.rotors import three_runs
 
 from balcli.errors import InputError
-from balcli.field.runs_file import make_polar, parse_runs
+from balcli.field_balancing.runs_file import make_polar, parse_runs
 
 
 def mistakes(text: str) -> list[str]:
@@ -14,7 +14,7 @@ def mistakes(text: str) -> list[str]:
     return [str(problem) for problem in caught.value.problems]
 
 
-@cases("field/read", "every_mistake_of_a_file_of_runs_is_told", RUNS=three_runs("# head"))
+@cases("field_balancing/read", "every_mistake_of_a_file_of_runs_is_told", RUNS=three_runs("# head"))
 def test_every_mistake_of_a_file_of_runs_is_told(text, message):
     assert message in mistakes(text)
 

@@ -5,7 +5,7 @@ from itertools import combinations
 import numpy as np
 import pytest
 
-from balcli.field.places import find_region, split_weight
+from balcli.field_balancing.places import find_region, split_weight
 
 
 def total(placed):

@@ -9,13 +9,13 @@ from support.engines import build_text
 from support.gas_engines import FOUR, WIEBE, draw_engine
 
 from balcli.core.phasors import unit
+from balcli.crank_torque import answer
+from balcli.crank_torque.loads import analyze_loads
 from balcli.engine import build_gas
 from balcli.errors import BalcliError
 from balcli.forces import crankshaft
 from balcli.forces.curves import find_torque_curves
 from balcli.forces.rod_forces import compute_rod_forces, list_hung_rows
-from balcli.torque import answer
-from balcli.torque.loads import analyze_loads
 
 ANGLES = np.arange(0.0, 720.0, 7.0)
 

@@ -14,10 +14,10 @@ from balcli.engine.parse import parse
 from balcli.file.model import EngineFile
 from balcli.forces.quantity import TargetQuantity
 from balcli.studies.parameters import find_numbers
-from balcli.torsion.build import build_engine_system, excite_engine
-from balcli.torsion.modes import find_natural_modes
-from balcli.torsion.quantity import Variants, choose_torsion_speeds
-from balcli.torsion.response import find_response
+from balcli.torsional_vibration.build import build_engine_system, excite_engine
+from balcli.torsional_vibration.modes import find_natural_modes
+from balcli.torsional_vibration.quantity import Variants, choose_torsion_speeds
+from balcli.torsional_vibration.response import find_response
 
 FILE = """
 name = "three with everything"

@@ -10,7 +10,7 @@ from support.commands import ask, ask_csv, ask_json, refusal, run_here
 from support.paths import write
 from support.rotors import run, three_runs
 
-from balcli.field.runs_file import parse_runs
+from balcli.field_balancing.runs_file import parse_runs
 from balcli.file.examples import template
 
 SHOP = """

@@ -6,7 +6,7 @@ from support.mounts import ENGINE, block
 from support.paths import write
 
 from balcli.errors import InputError
-from balcli.mounts.build import read_mounted
+from balcli.mounting.build import read_mounted
 
 
 def mistakes(tmp_path, text):
@@ -15,12 +15,12 @@ def mistakes(tmp_path, text):
     return [str(problem) for problem in caught.value.problems]
 
 
-@cases("mounts/read", "mistakes_are_told", ENGINE=ENGINE, BLOCK=block("# more"))
+@cases("mounting/read", "mistakes_are_told", ENGINE=ENGINE, BLOCK=block("# more"))
 def test_mistakes_are_told(tmp_path, text, message):
     assert message in mistakes(tmp_path, text)
 
 
-@cases("mounts/read", "doubts", BLOCK=block())
+@cases("mounting/read", "doubts", BLOCK=block())
 def test_doubts(tmp_path, text, doubt):
     assert read_mounted(write(tmp_path / "x.toml", text))[2] == ((doubt,) if doubt else ())
 
