@@ -35,18 +35,18 @@ ANSWERS: dict[str, tuple[Callable[[], Result], str]] = {
     "Analysis": (lambda: balcli.analyze(load("i3"), only=QUANTITIES), "analyze i3"),
     "Balance": (lambda: balcli.balance(load("i3"), "counterweights"), "balance i3 --scheme counterweights"),
     "Combined": (
-        lambda: balcli.combine(load("i3"), load("i4"), phase_deg=90, at_m=(0.3, 0, 0)),
+        lambda: balcli.sum(load("i3"), load("i4"), phase_deg=90, at_m=(0.3, 0, 0)),
         "sum i3 i4 --phase 90 --at 300,0,0",
     ),
     "Comparison": (lambda: balcli.compare(load("i3"), load("i4")), "compare i3 i4"),
     "Curves": (lambda: balcli.curves(load("i3"), 30), "curves i3 --step 30"),
-    "FieldBalance": (lambda: balcli.balance_rotor(three_runs()), "field -"),
+    "FieldBalance": (lambda: balcli.field(three_runs()), "field -"),
     "LocomotiveBalance": (
-        lambda: balcli.analyze_locomotive(load("historic/locomotive4"), "1/2", speed="60 mph"),
+        lambda: balcli.locomotive(load("historic/locomotive4"), "1/2", speed="60 mph"),
         "locomotive historic/locomotive4 --factor 1/2 --speed 60mph",
     ),
     "MountReport": (
-        lambda: balcli.analyze_mounts(load("i4_mounts"), SPEEDS, orders=[2]),
+        lambda: balcli.mounts(load("i4_mounts"), SPEEDS, orders=[2]),
         "mounts i4_mounts --speeds 1500,2000 --orders 2",
     ),
     "Scatter": (
@@ -54,18 +54,18 @@ ANSWERS: dict[str, tuple[Callable[[], Result], str]] = {
         f"scatter i4 -q {SPREAD} --mass-scatter 1% --samples 100 --seed 1",
     ),
     "Search": (lambda: balcli.search(load("i4"), "throws", SPREAD), f"search i4 --over throws --minimise {SPREAD}"),
-    "Pistons": (lambda: balcli.analyze_pistons(load("i4")), "piston i4"),
+    "Pistons": (lambda: balcli.piston(load("i4")), "piston i4"),
     "Swept": (
         lambda: balcli.sweep(load("i4"), {"rod.ratio": [0.25, 0.3], "piston.mass": "0.4:0.5:0.05"}, ROUND),
         f"sweep i4 --vary rod.ratio=0.25,0.3 --vary piston.mass=0.4:0.5:0.05 -q {','.join(ROUND)}",
     ),
     "Table": (lambda: balcli.tables("liu-3"), "tables liu-3"),
     "TorqueAnalysis": (
-        lambda: balcli.analyze_torque(load("i4_wiebe"), [2, 4], fluctuation=1 / 200),
+        lambda: balcli.torque(load("i4_wiebe"), [2, 4], fluctuation=1 / 200),
         "torque i4_wiebe --orders 2,4 --fluctuation 1/200",
     ),
     "TorsionAnalysis": (
-        lambda: balcli.analyze_torsion(load("i6_diesel"), SPEEDS),
+        lambda: balcli.torsion(load("i6_diesel"), SPEEDS),
         "torsion i6_diesel --speeds 1500,2000",
     ),
 }

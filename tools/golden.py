@@ -277,11 +277,11 @@ PYTHON = [
     line.format(e=e) for e in ("v8_crossplane", "i3", "radial7_articulated") for line in PYTHON
 ]
 PYTHON += """
-print(json.dumps(balcli.analyze_torque(balcli.load_example("v8_wiebe")).to_dict()))
-print(json.dumps(balcli.analyze_torsion(balcli.load_example("i6_diesel")).to_dict()))
-print(json.dumps(pickle.loads(pickle.dumps(balcli.analyze_torsion(balcli.load_example("i6_diesel"), [1000, 2000]))).to_dict()))
-print(json.dumps(balcli.analyze_mounts(balcli.load_example("i4_mounts")).to_dict()))
-print(balcli.analyze_mounts(balcli.load_example("i4_mounts")).to_pandas().to_csv())
+print(json.dumps(balcli.torque(balcli.load_example("v8_wiebe")).to_dict()))
+print(json.dumps(balcli.torsion(balcli.load_example("i6_diesel")).to_dict()))
+print(json.dumps(pickle.loads(pickle.dumps(balcli.torsion(balcli.load_example("i6_diesel"), [1000, 2000]))).to_dict()))
+print(json.dumps(balcli.mounts(balcli.load_example("i4_mounts")).to_dict()))
+print(balcli.mounts(balcli.load_example("i4_mounts")).to_pandas().to_csv())
 print(balcli.analyze(balcli.load_example("i4")).to_pandas().to_csv())
 print(json.dumps(balcli.tables("tsinghua-1-2").to_dict()))
 print(json.dumps(balcli.search(balcli.load_example("i5"), over="throws", minimise="moment.1.major").to_dict()))
@@ -291,7 +291,7 @@ print(json.dumps(balcli.curves(balcli.load_example("i4"), 10).to_dict()))
 balcli.analyze(balcli.load_example("i4"), [1, -3])
 balcli.load("nosuch.toml")
 balcli.balance(balcli.load_example("i4"), "nosuch")
-balcli.analyze_mounts(balcli.load_example("i4"))
+balcli.mounts(balcli.load_example("i4"))
 """.strip().splitlines()
 
 

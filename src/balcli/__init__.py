@@ -17,22 +17,22 @@ if TYPE_CHECKING:
     from .analysis.answer import Analysis as Analysis, analyze as analyze
     from .analysis.comparison import Comparison as Comparison, compare as compare
     from .analysis.curves import Curves as Curves, curves as curves
-    from .analysis.piston import Pistons as Pistons, analyze_pistons as analyze_pistons
-    from .analysis.two_engines import Combined as Combined, combine as combine
+    from .analysis.piston import Pistons as Pistons, piston as piston
+    from .analysis.two_engines import Combined as Combined, sum as sum  # noqa: A004
     from .balancing.answer import Balance as Balance, balance as balance
     from .books.answer import tables as tables
     from .books.recomputed import Table as Table
-    from .crank_torque.answer import analyze_torque as analyze_torque
+    from .crank_torque.answer import torque as torque
     from .crank_torque.records import TorqueAnalysis as TorqueAnalysis
     from .engine.engine import Engine as Engine
     from .engine.load import load as load, load_example as load_example
     from .errors import BalcliError as BalcliError, InputError as InputError
-    from .field_balancing.answer import FieldBalance as FieldBalance, balance_rotor as balance_rotor
+    from .field_balancing.answer import FieldBalance as FieldBalance, field as field
     from .locomotives.answer import (
         LocomotiveBalance as LocomotiveBalance,
-        analyze_locomotive as analyze_locomotive,
+        locomotive as locomotive,
     )
-    from .mounting.answer import analyze_mounts as analyze_mounts
+    from .mounting.answer import mounts as mounts
     from .mounting.records import MountReport as MountReport
     from .report.plot import plot as plot
     from .show.result import Result as Result
@@ -43,7 +43,7 @@ if TYPE_CHECKING:
     from .studies.sweep import Swept as Swept, sweep as sweep
     from .torsional_vibration.answer import (
         TorsionAnalysis as TorsionAnalysis,
-        analyze_torsion as analyze_torsion,
+        torsion as torsion,
     )
 
 __all__ = sorted(["__version__", *PUBLIC])

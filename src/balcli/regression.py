@@ -22,15 +22,15 @@ import numpy as np
 
 from .analysis.answer import Analysis, analyze
 from .core.records import Node, to_document
-from .crank_torque.answer import analyze_torque
+from .crank_torque.answer import torque
 from .engine.engine import Engine
 from .errors import BalcliError
 from .file.model import EngineFile
 from .forces.kinds import GAS, GAS_KINDS, KINDS
 from .forces.spectrum import Spectra, compute_spectra, find_relevant_orders
 from .limits import LARGEST_FILE_BYTES
-from .mounting.answer import analyze_mounts
-from .torsional_vibration.answer import analyze_torsion
+from .mounting.answer import mounts
+from .torsional_vibration.answer import torsion
 
 TOLERANCE = 1e-9  # share of the largest figure of a quantity; rounding is allowed in addition
 PEAK_ANGLE_DEG = 1e-3  # allowed change of a peak's angle; rounding changes it more than the value
@@ -197,16 +197,16 @@ def _describe_chapters(engine: Engine) -> Node:
     found: Node = {}
     if engine.gas is not None:
         left_out = {"orders", "format", "version", "speed_rpm"}
-        torque = analyze_torque(engine).to_dict().items()
-        found["torque"] = {key: value for key, value in torque if key not in left_out}
+        on_crank = torque(engine).to_dict().items()
+        found["torque"] = {key: value for key, value in on_crank if key not in left_out}
     if model is not None and model.body is not None and model.mount:
-        mounts = analyze_mounts(engine).to_dict()
-        largest = [{"name": m["name"], **m["worst"]} for m in mounts["response"]["mounts"]]
-        found["mounts"] = {"modes": _number_modes(mounts), "largest": largest}
+        mounted = mounts(engine).to_dict()
+        largest = [{"name": m["name"], **m["worst"]} for m in mounted["response"]["mounts"]]
+        found["mounts"] = {"modes": _number_modes(mounted), "largest": largest}
     if model is not None and model.torsion is not None:
-        torsion = analyze_torsion(engine).to_dict()
-        criticals = torsion.get("criticals", [])
-        found["torsion"] = {"modes": _number_modes(torsion), "criticals": criticals}
+        twisted = torsion(engine).to_dict()
+        criticals = twisted.get("criticals", [])
+        found["torsion"] = {"modes": _number_modes(twisted), "criticals": criticals}
     return found
 
 

@@ -8,7 +8,7 @@ from support.engines import build_text, engine_text
 from support.paths import ENGINES
 from support.rotors import three_runs
 
-from balcli import analyze, analyze_mounts, analyze_torque, analyze_torsion, balance, balance_rotor, curves, load
+from balcli import analyze, balance, curves, field, load, mounts, torque, torsion
 from balcli.balancing.answer import balance_knuckles
 from balcli.engine.parse import parse
 from balcli.sizing.options import SCHEMES, SchemeOptions
@@ -32,10 +32,10 @@ RESULTS = {
     "curves": lambda: curves(load(ENGINES / "i4_wiebe.toml"), 30, cylinder=2),
     "fired": lambda: analyze(pickle.loads(pickle.dumps(load(FIRED)))),
     "knuckles": lambda: balance_knuckles(parse((ENGINES / "radial7_articulated.toml").read_bytes())),
-    "mounts": lambda: analyze_mounts(ENGINES / "i4_mounts.toml", [700, 3000]),
-    "rotor": lambda: balance_rotor(three_runs()),
-    "torque": lambda: analyze_torque(load(ENGINES / "i4_wiebe.toml")),
-    "torsion": lambda: analyze_torsion(load(ENGINES / "i6_diesel.toml"), [1500, 2000]),
+    "mounts": lambda: mounts(ENGINES / "i4_mounts.toml", [700, 3000]),
+    "rotor": lambda: field(three_runs()),
+    "torque": lambda: torque(load(ENGINES / "i4_wiebe.toml")),
+    "torsion": lambda: torsion(load(ENGINES / "i6_diesel.toml"), [1500, 2000]),
     **{scheme: lambda scheme=scheme: fit(scheme) for scheme in SCHEMES},
 }
 

@@ -9,7 +9,7 @@ from support.commands import ask, ask_csv, ask_json, refusal, run_here
 from support.engines import GOOD, build_text, changed
 from support.paths import ENGINES
 
-from balcli import analyze, analyze_torque, curves, load_example
+from balcli import analyze, curves, load_example, torque
 from balcli.analysis.crank_drive import find_journals, list_masses
 
 BEARING = "[bearing]\nmain_diameter = 60\nmain_width = 20\npin_diameter = 50\npin_width = 20\npin_bore = 30\n"
@@ -28,14 +28,14 @@ def test_journals_carry_the_torque_of_the_throws_before_them(name):
     found = {journal.place: journal.total for journal in find_journals(engine)}
     for k, own in enumerate(by_throw, 1):
         for place, curve in ((f"main {k}", before), (f"pin {k}", before + own / 2)):
-            torque = found[place]
-            assert torque.max_Nm >= curve.max() - 1e-9
-            assert (torque.max_Nm, torque.min_Nm) == pytest.approx(
+            total = found[place]
+            assert total.max_Nm >= curve.max() - 1e-9
+            assert (total.max_Nm, total.min_Nm) == pytest.approx(
                 (curve.max(), curve.min()), abs=2e-3 * np.ptp(curve) + 1e-9
             )
-            assert torque.mean_Nm == pytest.approx(curve.mean(), abs=1e-3 * np.ptp(curve) + 1e-9)
+            assert total.mean_Nm == pytest.approx(curve.mean(), abs=1e-3 * np.ptp(curve) + 1e-9)
         before = before + own
-    last, whole = found[f"main {len(by_throw) + 1}"], analyze_torque(engine)
+    last, whole = found[f"main {len(by_throw) + 1}"], torque(engine)
     assert last.mean_Nm == pytest.approx(whole.mean_torque_Nm, rel=1e-9)
     assert (last.max_Nm, last.min_Nm) == pytest.approx((whole.torque.max_Nm, whole.torque.min_Nm), rel=1e-7)
     assert found["main 1"].range_Nm == 0

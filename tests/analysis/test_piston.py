@@ -8,7 +8,7 @@ from support.commands import ask, ask_csv, ask_json, refusal
 from support.engines import GOOD, RADIAL, build_text, changed
 from support.paths import ENGINES
 
-from balcli import BalcliError, analyze_pistons, load_example
+from balcli import BalcliError, load_example, piston
 from balcli.analysis.piston import TYPE_LIMIT, choose_cylinder
 
 N = 1 << 14
@@ -28,7 +28,7 @@ def place_of(radius: float, length: float, offset: float = 0.0) -> np.ndarray:
 @pytest.mark.parametrize(("ratio", "offset"), [(0.2, 0), (0.3, 0), (0.28, 12), (0.45, -9), (0.7, 6)])
 def test_extremes_are_those_of_the_curve(ratio, offset):
     text = changed(("length = 160", f"ratio = {ratio}"), ("mass = 0.5", f"mass = 0.5\noffset = {offset}"))
-    found = analyze_pistons(build_text(text)).mechanisms[0]
+    found = piston(build_text(text)).mechanisms[0]
     omega, radius = 3000 * math.pi / 30, 0.045
     place = place_of(radius, radius / ratio, offset / 1e3)
     speed, rate = -omega * differentiate(place), -(omega**2) * differentiate(differentiate(place))
@@ -55,14 +55,14 @@ def test_the_acceleration_has_two_minima_above_the_limit(share, type_):
     """At the limit the fourth derivative of the path at 180 deg is 0."""
     lam = TYPE_LIMIT
     assert 3 * lam**3 - 4 * lam + 1 == pytest.approx(0, abs=1e-15)
-    found = analyze_pistons(build_text(changed(("length = 160", f"ratio = {share * lam!r}")))).mechanisms[0]
+    found = piston(build_text(changed(("length = 160", f"ratio = {share * lam!r}")))).mechanisms[0]
     assert found.acceleration.type == type_
     assert found.two_term.type == 2
 
 
 def test_two_terms():
     """v = r w (sin psi + lam/2 sin 2 psi), a = r w^2 (cos psi + lam cos 2 psi), by a fine grid."""
-    two = analyze_pistons(load_example("i4")).mechanisms[0].two_term
+    two = piston(load_example("i4")).mechanisms[0].two_term
     lam, scale = 43 / 139, 0.043 * (7000 * math.pi / 30)
     psi = np.radians(np.arange(0, 360, 0.001))
     speed = scale * (np.sin(psi) + lam / 2 * np.sin(2 * psi))
@@ -77,7 +77,7 @@ def test_two_terms():
 def test_an_offset_of_ten_millimetres():
     """Tsinghua, section 1.1.2: stroke 90.22 mm, dead centres at 2.94 and 185.47 degrees."""
     text = "[crank]\nstroke = 90\n[rod]\nlength = 150\n[piston]\nmass = 0.5\nbore = 90\noffset = 10\n"
-    found = analyze_pistons(build_text(text))
+    found = piston(build_text(text))
     one = found.mechanisms[0]
     assert round(1e3 * one.stroke_m, 2) == 90.22
     assert (round(one.outer_dead_center_own_deg, 2), round(one.inner_dead_center_own_deg, 2)) == (2.94, 185.47)
@@ -85,7 +85,7 @@ def test_an_offset_of_ten_millimetres():
 
 
 def test_articulated_pistons_have_strokes_of_their_own():
-    found = analyze_pistons(build_text(RADIAL)).mechanisms
+    found = piston(build_text(RADIAL)).mechanisms
     assert [each.cylinders for each in found] == [(n,) for n in range(1, 8)]
     assert [each.rod_ratio is None for each in found] == [False] + [True] * 6
     assert len({round(each.stroke_m, 9) for each in found}) == 4  # mirrored in pairs
@@ -105,7 +105,7 @@ def test_the_command_in_all_formats(tmp_path):
     several = refusal("piston", tmp_path / "four.toml", "--speed", "1000,2000")
     assert several == '--speed "1000,2000": give one speed here, such as --speed 3000'
     with pytest.raises(BalcliError):
-        choose_cylinder(analyze_pistons(build_text(GOOD)), 9)
+        choose_cylinder(piston(build_text(GOOD)), 9)
 
 
 def test_quantities_are_those_of_the_command(tmp_path):
@@ -113,7 +113,7 @@ def test_quantities_are_those_of_the_command(tmp_path):
     names = [f"piston.{stem}{part}" for stem in ("", "2.") for part in ("mean_speed", "max_speed", "stroke")]
     rows = ask_csv("sweep", ENGINES / "vr6.toml", "--vary", "rod.length=150,164", "-q", ",".join(names))
     for row in rows:
-        found = analyze_pistons(load_example("vr6").vary({"rod.length": float(row["rod.length"])})).mechanisms
+        found = piston(load_example("vr6").vary({"rod.length": float(row["rod.length"])})).mechanisms
         for stem, one in zip(("piston", "piston.2"), found, strict=True):
             fastest = max(one.velocity.max_m_per_s, -one.velocity.min_m_per_s)
             read = [float(row[f"{stem}.{part}"]) for part in ("mean_speed", "max_speed", "stroke")]

@@ -10,7 +10,7 @@ from support.engines import build_text
 from support.gas_engines import FOUR, WIEBE, draw_engine
 
 from balcli.core.speed_ripple import speed_variation
-from balcli.crank_torque.answer import analyze_torque_of_engine as analyze_torque
+from balcli.crank_torque.answer import analyze_torque_of_engine as torque
 from balcli.engine.load import load
 from balcli.errors import BalcliError
 from balcli.forces.curves import (
@@ -43,7 +43,7 @@ def test_the_curve_has_the_harmonics_of_the_orders(seed):
 
 @pytest.mark.parametrize("seed", range(3))
 def test_mean_torque_and_pressure(seed):
-    found = analyze_torque(draw_engine(seed), [0.5, 1], cylinder=1)
+    found = torque(draw_engine(seed), [0.5, 1], cylinder=1)
     gas = found.engine.gas
     one = gas.cylinders[found.engine.numbers.index(1)]
     shown = [order.one_cylinder.gas_torque_Nm.amplitude for order in found.orders]
@@ -60,16 +60,16 @@ def test_gas_without_work_has_no_mean_torque(tmp_path):
     """A table without order 0: what the panels leave of the mean is rounding."""
     (tmp_path / "h.csv").write_text("order,cos,sin\n1,3,9\n2,5,6\n3.5,5,3\n")
     (tmp_path / "four.toml").write_text(FOUR + '[gas]\nharmonics = "h.csv"\n')
-    found = analyze_torque(silence(load(tmp_path / "four.toml"), 3))
+    found = torque(silence(load(tmp_path / "four.toml"), 3))
     assert found.torque.max_Nm > 100
     assert (found.mean_torque_Nm, found.power_W, found.energy.work_J) == (0, 0, 0)
 
 
 def test_a_misfire_takes_a_quarter_of_the_work():
     four = build_text(FOUR + WIEBE)
-    missing = analyze_torque(silence(four, 3))
-    assert missing.imep_Pa == pytest.approx(0.75 * analyze_torque(four).imep_Pa, rel=1e-13)
-    written = analyze_torque(build_text(FOUR + WIEBE + "[cylinder.3]\ngas = 0\n"))
+    missing = torque(silence(four, 3))
+    assert missing.imep_Pa == pytest.approx(0.75 * torque(four).imep_Pa, rel=1e-13)
+    written = torque(build_text(FOUR + WIEBE + "[cylinder.3]\ngas = 0\n"))
     assert written.torque == missing.torque
     with pytest.raises(BalcliError, match=r"^there is no cylinder 5: the engine has cylinders 1 to 4"):
         silence(four, 5)
@@ -85,7 +85,7 @@ def test_inertia_that_cancels_makes_no_torque(strokes):
     engine = build_text(text.replace("[layout]", f"[layout]\nstrokes = {strokes}") + WIEBE)
     for number in engine.numbers:
         engine = silence(engine, number)
-    found = analyze_torque(engine)
+    found = torque(engine)
     lowest, highest = found.torque.min_Nm, found.torque.max_Nm
     assert found.energy.work_J == 0
     if strokes == 2:
@@ -141,24 +141,24 @@ def test_the_speed_against_steps_in_time(seed):
     breaks, speeds = speed_by_steps(found, float(exact.speed.at(gas.breaks[0])))
     assert speeds == pytest.approx(exact.speed.at(breaks), rel=2e-9)
     assert exact.speed.mean == pytest.approx(found.omega, rel=1e-12)
-    told = analyze_torque(found).flywheel
+    told = torque(found).flywheel
     assert told.fluctuation == pytest.approx(exact.fluctuation, rel=1e-9)
 
 
 def test_fluctuation_and_needed_inertia():
     """With a heavy flywheel the rule for small fluctuations is exact; the needed inertia keeps the fluctuation."""
     for seed, (inertia, agreement) in product(range(3), ((1e8, 1e-2), (1e11, 1e-5))):
-        speed = analyze_torque(on_crank(inertia, seed)).flywheel
+        speed = torque(on_crank(inertia, seed)).flywheel
         assert speed.fluctuation == pytest.approx(speed.fluctuation_small, rel=agreement)
-    found = analyze_torque(on_crank(3e5, 2), fluctuation=0.01).flywheel
+    found = torque(on_crank(3e5, 2), fluctuation=0.01).flywheel
     needed = (found.needed_kg_m2 - found.moving_parts_kg_m2) * 1e6
-    again = analyze_torque(on_crank(needed, 2)).flywheel
+    again = torque(on_crank(needed, 2)).flywheel
     assert again.fluctuation == pytest.approx(0.01, rel=1e-9)
     assert again.inertia_kg_m2 == pytest.approx(found.needed_kg_m2, rel=1e-12)
 
 
 def test_lines_of_the_speed_add_up_to_it():
-    found = analyze_torque(on_crank(2e5, 4))
+    found = torque(on_crank(2e5, 4))
     speed, theta = found.flywheel, np.radians(found.flywheel.speed_max_deg)
     lines = sum(line.amplitude * np.cos(line.order * theta - np.radians(line.angle_deg)) for line in speed.lines)
     share = speed.speed_max_rpm / found.speed_rpm - 1

@@ -182,7 +182,7 @@ def test_too_much_is_refused_before_anything_is_computed(monkeypatch):
     monkeypatch.setattr(crankshaft, "MOST_FORCES_OVER_CYCLE", 1000)
     monkeypatch.setattr(answer, "find_torque_curves", lambda engine: pytest.fail("computed"))
     with pytest.raises(BalcliError, match=r"8 forces of 4 cylinders at \d+ angles .* at most 1000"):
-        answer.analyze_torque(build_text(FOUR + WIEBE), loads="pin")
+        answer.torque(build_text(FOUR + WIEBE), loads="pin")
     monkeypatch.setattr(build_gas, "MOST_DIFFERENT_GAS", 3)
     heats = "".join(f"[cylinder.{k}]\nheat = {500 + k}\n" for k in range(1, 5))
     with pytest.raises(BalcliError, match="4 cylinders differ in mechanism, heat or diagram; at most 3"):

@@ -3,7 +3,7 @@
 import pytest
 from support.engines import engine, refused
 
-from balcli import analyze_torque
+from balcli import torque
 from balcli.forces.spectrum import compute_spectra
 
 GUIDE = {
@@ -28,7 +28,7 @@ def test_a_dummy_does_not_count_in_the_mean_pressure(order, dummy):
     """Two cylinders of the given mean pressure have it together, wherever the dummy stands."""
     crank, own = GUIDE["crank"] | {"throws": [0, 0, 0]}, {dummy: GUIDE["cylinder"]["2"]}
     made = engine(**GUIDE | {"crank": crank, "cylinder": own, "gas": WIEBE, "layout": {"firing_order": order}})
-    assert analyze_torque(made).imep_Pa == pytest.approx(1e6, rel=1e-9)
+    assert torque(made).imep_Pa == pytest.approx(1e6, rel=1e-9)
 
 
 def test_a_cylinder_left_out_that_has_gas_is_refused():

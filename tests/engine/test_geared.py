@@ -79,7 +79,7 @@ def test_two_engines_are_their_sum(geared, tmp_path, loads, load):
     both = geared([one | {"load": own} for one, own in zip(TWO, loads, strict=True)])
     parts = [replace(balcli.load(tmp_path / one["file"]), speed_rpm=3000.0) for one in TWO]
     place = {"phase_deg": 75, "at_m": (0.2, -0.3, 0.4), "turn_deg": 35, "reverse": True, "load": load}
-    agree(balcli.analyze(both, ORDERS).spectra, balcli.combine(*parts, **place, orders=ORDERS).spectra)
+    agree(balcli.analyze(both, ORDERS).spectra, balcli.sum(*parts, **place, orders=ORDERS).spectra)
     options = ["--phase", 75, "--at", "200,-300,400", "--turn", 35, "--reverse", "--load", load, "--speed", 3000]
     files = [str(tmp_path / one["file"]) for one in TWO]
     target = tmp_path / "written.toml"
@@ -107,7 +107,7 @@ def test_engines_on_one_axis_are_one_crank_with_all_their_throws(geared, ripple)
         agree(*(compute_spectra(each, orders, [*EVERY_KIND]) for each in (several, one)))
     assert three.displacement_m3 == pytest.approx(whole.displacement_m3)
     if not ripple:
-        first, second = balcli.analyze_torque(three), balcli.analyze_torque(whole)
+        first, second = balcli.torque(three), balcli.torque(whole)
         assert first.imep_Pa == pytest.approx(second.imep_Pa)
         assert first.flywheel.fluctuation == pytest.approx(second.flywheel.fluctuation)
 

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, strategies as st
 from support.engines import engine
 
-from balcli import InputError, analyze_torque, curves, load, search
+from balcli import InputError, curves, load, search, torque
 from balcli.core.cylinders import find_travel
 from balcli.forces.spectrum import compute_spectra
 from balcli.torsional_vibration.build import weigh_running_gear
@@ -94,7 +94,7 @@ def test_gas_motion_and_torsion_take_the_stroke_of_the_cylinder():
     both = engine(**parts)
     swept = float(both.displacement_m3)
     assert swept == pytest.approx(np.pi / 4 * 0.08**2 * find_travel(both.cylinders).stroke.sum(), rel=1e-12)
-    assert analyze_torque(both).mean_torque_Nm == pytest.approx(8e5 * swept / (2 * np.pi), rel=1e-9)
+    assert torque(both).mean_torque_Nm == pytest.approx(8e5 * swept / (2 * np.pi), rel=1e-9)
     for k, stroke in enumerate((90, 60)):
         one = engine(**parts | {"crank": {**parts["crank"], "stroke": stroke}})
         mine, its = (curves(each, 7, cylinder=k + 1).curves for each in (both, one))

@@ -213,10 +213,10 @@ def test_the_schema_names_every_key():
 def test_the_library_offers_it(runs):
     import balcli
 
-    result, text = balcli.balance_rotor(runs, "max"), runs.read_text(encoding="utf-8")
+    result, text = balcli.field(runs, "max"), runs.read_text(encoding="utf-8")
     assert isinstance(result, balcli.FieldBalance)
     for source in (text, str(runs), tomllib.loads(text)):
-        assert balcli.balance_rotor(source, "max").corrections == result.corrections
+        assert balcli.field(source, "max").corrections == result.corrections
 
 
 def test_readings_at_several_speeds_are_of_no_one_run():

@@ -11,7 +11,7 @@ from balcli.analysis.answer import analyze
 from balcli.analysis.order_tables import tell_rocking
 from balcli.analysis.two_engines import Arrangement, combine_engines
 from balcli.core.phasors import Phasors
-from balcli.crank_torque.answer import analyze_torque_of_engine as analyze_torque
+from balcli.crank_torque.answer import analyze_torque_of_engine as torque
 from balcli.engine.engine import take_model
 from balcli.engine.load import load
 from balcli.errors import BalcliError
@@ -62,7 +62,7 @@ def test_orders_of_firing_are_shown_however_high():
     for found in (
         analyze(subject).spectra.gas,
         analyze(subject, only=["gas"]).spectra.gas,
-        analyze_torque(subject).spectra.gas,
+        torque(subject).spectra.gas,
     ):
         assert found.orders[-2:].tolist() == [14, 28]
         assert found.major[-2:] == pytest.approx(count * one.major, rel=1e-9)

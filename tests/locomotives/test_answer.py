@@ -11,7 +11,7 @@ from support.commands import ask, ask_csv, ask_json, refusal, run_here
 from support.engines import engine
 from support.paths import ENGINES
 
-from balcli import analyze_locomotive, load, sweep
+from balcli import load, locomotive, sweep
 from balcli.file.examples import template
 from balcli.forces.spectrum import compute_spectra
 
@@ -104,7 +104,7 @@ def locomotives(draw):
 @given(locomotives())
 def test_wheels_and_track_feel_what_particles_do(parts):
     made, factor = engine(**parts), parts["locomotive"]["factor"]
-    found, square, particles = analyze_locomotive(made), float(made.omega) ** 2, Particles(parts)
+    found, square, particles = locomotive(made), float(made.omega) ** 2, Particles(parts)
     start = float(made.first_axis_deg)
     for wheel in found.wheels:
         at = turning(np.angle(wheel.unbalance, deg=True) + start)
@@ -125,7 +125,7 @@ def test_wheels_and_track_feel_what_particles_do(parts):
 @given(st.floats(0, 1), st.floats(100, 600))
 def test_two_cranks_at_right_angles_are_those_of_textbooks(factor, apart):
     made = engine(**changed(crank={"positions": [-apart / 2, apart / 2]}))
-    found, one = analyze_locomotive(made, factor), (1 - factor) * 300 * 0.3 * float(made.omega) ** 2
+    found, one = locomotive(made, factor), (1 - factor) * 300 * 0.3 * float(made.omega) ** 2
     assert found.tractive_variation_N == pytest.approx(math.sqrt(2) * one, abs=1e-6)
     assert found.swaying_couple_Nm == pytest.approx(one * apart / 1e3 / math.sqrt(2), abs=1e-6)
 
@@ -148,8 +148,8 @@ def coupled(**locomotive):
 def test_revolving_parts_are_balanced_and_the_rest_is_the_hammer_blow():
     """Force across and moment about x, about a plane of the wheels, of the engine with all balance masses."""
     parts = coupled() | {"frame": {"reference": [0, 0, -750]}}
-    found = analyze_locomotive(engine(**parts))
-    one_axle = analyze_locomotive(engine(**INSIDE)).rails[0].hammer_blow_N
+    found = locomotive(engine(**parts))
+    one_axle = locomotive(engine(**INSIDE)).rails[0].hammer_blow_N
     shares = [axle.wheels[0].hammer_blow_N / one_axle for axle in found.axles]
     assert shares == pytest.approx([0.2, 0.4, 0.4], rel=1e-12)
     weights = [weight.model_dump(exclude_none=True) for weight in found.remedy.devices]
@@ -183,10 +183,10 @@ def test_coupling_masses_are_counterweights():
 
 def test_a_limit_of_the_hammer_blow_gives_the_factor():
     made = engine(**coupled())
-    found = analyze_locomotive(made, hammer_blow="5 kN")
+    found = locomotive(made, hammer_blow="5 kN")
     assert max(wheel.hammer_blow_N for wheel in found.wheels) == pytest.approx(5000, rel=1e-12)
-    assert analyze_locomotive(made, found.factor).to_dict() == found.to_dict()
-    assert analyze_locomotive(made, hammer_blow=1e9).factor == 1
+    assert locomotive(made, found.factor).to_dict() == found.to_dict()
+    assert locomotive(made, hammer_blow=1e9).factor == 1
 
 
 @pytest.mark.parametrize("parts", [INSIDE, coupled(), coupled(speed="60 mph")], ids=["one axle", "several", "speed"])
@@ -224,14 +224,14 @@ def test_the_speed_on_the_track_is_the_speed_of_the_file():
     assert [made.speed_rpm, load(made.to_dict()).speed_rpm] == pytest.approx([rpm, rpm], rel=1e-12)
     assert made.vary({"locomotive.speed": 45}).speed_rpm == pytest.approx(rpm / 2, rel=1e-12)
     assert made.vary({"operation.speed": 100}).speed_rpm == 100
-    assert analyze_locomotive(made).speed_km_h == pytest.approx(90, rel=1e-12)
+    assert locomotive(made).speed_km_h == pytest.approx(90, rel=1e-12)
     heavy = load(changed(locomotive={"wheel_load": "9 long ton"})).model.locomotive
     assert heavy.wheel_load == pytest.approx(89_676.15, rel=1e-6)
 
 
 def test_every_optional_key_of_the_starting_file_can_be_switched_on():
     text = re.sub(r"(?m)^# *(\[+[a-z.0-9]+\]+|[a-z_]+ *= .*)", r"\1", template("locomotive"))
-    assert [axle.name for axle in analyze_locomotive(load(text)).axles] == ["leading", "driving"]
+    assert [axle.name for axle in locomotive(load(text)).axles] == ["leading", "driving"]
 
 
 def test_every_format_and_unit(tmp_path):
@@ -287,7 +287,7 @@ def test_what_the_command_refuses_and_doubts(tmp_path):
 
 def test_examples_of_books():
     """The blows of their answers; sources are in the files."""
-    found = analyze_locomotive(load(ENGINES / "historic" / "locomotive2.toml"))
+    found = locomotive(load(ENGINES / "historic" / "locomotive2.toml"))
     assert found.wheels[0].hammer_blow_N == pytest.approx(22_565, abs=0.5)
 
 
@@ -300,5 +300,5 @@ def test_no_scheme_divides_weights_between_axles(tmp_path: Path) -> None:
 
 def test_an_uneven_speed_is_said_to_be_ignored() -> None:
     ripple = {"speed": 240, "speed_ripple": [{"order": 2, "amplitude": 0.02, "angle": 0}]}
-    told = analyze_locomotive(engine(**changed(operation=ripple))).doubts
+    told = locomotive(engine(**changed(operation=ripple))).doubts
     assert told == ("operation.speed_ripple is ignored: the speed is taken as steady",)

@@ -375,7 +375,7 @@ def compare_poles(model: Model, found: np.ndarray) -> float | None:
 def compare_file(name: str, text: str) -> Agreement:
     """Return the agreement for a chain file or an engine file."""
     speeds = SPEEDS[name]
-    found = balcli.analyze_torsion(text, speeds)
+    found = balcli.torsion(text, speeds)
     nodes = len(found.nodes)
     if name in ENGINE_CASES:
         model, excitation = read_engine(text), found.system.excitation

@@ -19,11 +19,11 @@ SHOWN = {
     "analysis": lambda: balcli.plot(balcli.analyze(THREE), "polar"),
     "balance": lambda: balcli.plot(balcli.balance(THREE, "counterweights"), "spectrum"),
     "sweep": lambda: balcli.plot(balcli.sweep(VEE, {"layout.bank_angle": "0:180:20"})),
-    "torque": lambda: balcli.plot(balcli.analyze_torque(GAS)),
-    "torsion": lambda: balcli.plot(balcli.analyze_torsion(DIESEL, SPEEDS), "response"),
+    "torque": lambda: balcli.plot(balcli.torque(GAS)),
+    "torsion": lambda: balcli.plot(balcli.torsion(DIESEL, SPEEDS), "response"),
     "torsion of an engine": lambda: balcli.plot(DIESEL, "waterfall", speeds_rpm=SPEEDS, orders=[3]),
-    "mounts": lambda: balcli.plot(balcli.analyze_mounts(balcli.load_example("i4_mounts"), SPEEDS)),
-    "rotor": lambda: balcli.plot(balcli.balance_rotor(three_runs())),
+    "mounts": lambda: balcli.plot(balcli.mounts(balcli.load_example("i4_mounts"), SPEEDS)),
+    "rotor": lambda: balcli.plot(balcli.field(three_runs())),
 }
 
 

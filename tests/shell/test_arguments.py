@@ -40,7 +40,7 @@ def test_errors_name_arguments(ask, given, options, told):
         lambda: balcli.analyze(V8, only=repeat("force", 1_000_000)),
         lambda: balcli.balance(V8, orders=repeat(1, 1_000_000)),
         lambda: balcli.compare(V8, V8, names=repeat("a", 1_000_000)),
-        lambda: balcli.analyze_torsion(CHAIN, range(1_000_000)),
+        lambda: balcli.torsion(CHAIN, range(1_000_000)),
         lambda: balcli.sweep(V8, {"rod.ratio": range(10_000_001)}, "force.1.major"),
         lambda: balcli.sweep(V8, {"rod.ratio": [0.2, 0.3]}, repeat("force.1.major", 1_000_000)),
         lambda: balcli.load({"crank": {"stroke": 90, "throws": repeat(0, 1_000_000)}}),
@@ -58,4 +58,4 @@ def test_a_sweep_of_one_value_is_no_picture():
 
 @cases("shell/arguments", "what_is_of_another_type")
 def test_what_is_of_another_type(options, told):
-    assert refused(balcli.combine, V8, V8, **options) == (TypeError, told)
+    assert refused(balcli.sum, V8, V8, **options) == (TypeError, told)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import tomli_w
 
-from balcli import analyze, analyze_mounts, analyze_torsion, load
+from balcli import analyze, load, mounts, torsion
 from balcli.core.records import to_document
 
 pytestmark = pytest.mark.stress
@@ -89,8 +89,8 @@ def answer(tables: dict[str, Any], chapter: str, folder) -> dict[str, Any]:
     engine = load(path)
     found = {
         "analyze": lambda: to_document(analyze(engine, [1, 1.5, 2, 3, 4, 6])),
-        "mounts": lambda: analyze_mounts(engine, SPEEDS).to_dict(),
-        "torsion": lambda: analyze_torsion(engine, SPEEDS).to_dict(),
+        "mounts": lambda: mounts(engine, SPEEDS).to_dict(),
+        "torsion": lambda: torsion(engine, SPEEDS).to_dict(),
     }[chapter]()
     nodes = [node["name"] for node in found.get("nodes", ())]
     for mode in found["modes"] if nodes else ():

@@ -141,29 +141,29 @@ def test_engines_side_by_side_have_names():
 def test_an_engine_with_torsion_is_read_once_from_standard_input(monkeypatch):
     text = (ENGINES / "i6_diesel.toml").read_bytes()
     monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(text)))
-    found = balcli.analyze_torsion("-")
-    assert found.modes[0].frequency_Hz == balcli.analyze_torsion(DIESEL).modes[0].frequency_Hz
+    found = balcli.torsion("-")
+    assert found.modes[0].frequency_Hz == balcli.torsion(DIESEL).modes[0].frequency_Hz
 
 
 def test_torsion_of_an_engine_is_that_of_its_file(tmp_path):
-    by_engine = balcli.analyze_torsion(DIESEL, [1500, 1000], orders=[3, 6])
-    by_dict = balcli.analyze_torsion(DIESEL.to_dict(), [1000, 1500], orders=[3, 6])
+    by_engine = balcli.torsion(DIESEL, [1500, 1000], orders=[3, 6])
+    by_dict = balcli.torsion(DIESEL.to_dict(), [1000, 1500], orders=[3, 6])
     for one, other in zip(by_engine.response.shafts, by_dict.response.shafts, strict=True):
         assert np.array_equal(one.half_peak_to_peak_Nm, other.half_peak_to_peak_Nm)
         assert len(one.half_peak_to_peak_Nm) == 2
-    damped = balcli.analyze_torsion(DIESEL, range(1000, 2001, 100), damper="viscous", orders=[3, 6])
+    damped = balcli.torsion(DIESEL, range(1000, 2001, 100), damper="viscous", orders=[3, 6])
     assert damped.damper.damper is not None
 
 
 def test_mounts_of_an_engine_a_dict_or_a_body_alone():
-    found = balcli.analyze_mounts(MOUNTS, [2000], orders=[2], scheme="two-shaft")
-    again = balcli.analyze_mounts(MOUNTS.to_dict(), [2000], orders=[2])
+    found = balcli.mounts(MOUNTS, [2000], orders=[2], scheme="two-shaft")
+    again = balcli.mounts(MOUNTS.to_dict(), [2000], orders=[2])
     assert found.modes[0].frequency_Hz == again.modes[0].frequency_Hz
     worst = max(mount.worst.force_N for mount in found.response.mounts)
     assert max(mount.worst.force_N for mount in found.fitted.response.mounts) < worst
     alone = {key: table for key, table in MOUNTS.to_dict().items() if key in ("body", "mount")}
-    assert balcli.analyze_mounts(alone).response is None
-    beside = balcli.analyze_mounts(MOUNTS, [2000], orders=[2], others={"V8": V8})
+    assert balcli.mounts(alone).response is None
+    beside = balcli.mounts(MOUNTS, [2000], orders=[2], others={"V8": V8})
     assert [other.name for other in beside.others] == ["V8"]
 
 

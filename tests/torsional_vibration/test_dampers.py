@@ -13,7 +13,7 @@ from support.commands import ask_json, ask_torsion, refusal, run_here
 from support.diesel import write_diesel
 from support.paths import ENGINES, write
 
-from balcli import analyze_torsion
+from balcli import torsion
 from balcli.file.examples import template
 from balcli.torsional_vibration.motion import compute_curves
 from balcli.torsional_vibration.plot import make_torsion
@@ -218,7 +218,7 @@ def test_dampers_of_unlikely_size(options, told):
 
 def test_the_inertia_of_pendulums_is_about_the_axis():
     text = single(disc={"damper": {"kind": "pendulum", "mass": 2000, "radius": 60, "length": 50}})
-    damper = analyze_torsion(text, [900, 1000, 1100], damper="pendulum").damper
+    damper = torsion(text, [900, 1000, 1100], damper="pendulum").damper
     told = float(re.search(r"([\d.]+) kg m2", damper.doubts[0])[1])
     assert told == pytest.approx(damper.mass_kg * (damper.radius_m + damper.length_m) ** 2, rel=1e-3)
 
@@ -304,7 +304,7 @@ def test_pictures_without_a_range_show_modes_and_criticals(tmp_path):
 
 def test_pictures_of_large_torques_are_in_kilonewton_metres():
     """Of a crankshaft without diameters as well; a limit stands in the unit of the stress."""
-    result = analyze_torsion(write_diesel(), [4000, 4300, 4332])
+    result = torsion(write_diesel(), [4000, 4300, 4332])
     waterfall, response = (make_torsion(result, what).axes[0] for what in ("waterfall", "response"))
     largest = max(max(shaft.half_peak_to_peak_Nm) for shaft in result.response.shafts) / 1e3
     assert largest > 10
@@ -315,9 +315,9 @@ def test_pictures_of_large_torques_are_in_kilonewton_metres():
 
 def test_pictures_show_a_resonance_between_the_speeds():
     """Two hundred rpm apart, the curve would stay below what the table tells."""
-    result = analyze_torsion(write_diesel("limit = 60"), [4030, 4230, 4430, 4630])
+    result = torsion(write_diesel("limit = 60"), [4030, 4230, 4430, 4630])
     closely = np.arange(4200, 4500, 0.5)
-    fine = analyze_torsion(write_diesel("limit = 60"), closely).response
+    fine = torsion(write_diesel("limit = 60"), closely).response
     by_order = np.abs(compute_curves(result.system, closely)[0]).max(axis=(0, 1))
     highest_fine, highest_coarse = (
         max(max(shaft.stress_Pa) for shaft in each.shafts if shaft.stress_Pa is not None)
@@ -338,7 +338,7 @@ def test_pictures_show_a_resonance_between_the_speeds():
 
 def test_orders_of_a_waterfall_do_not_cover_one_another():
     """Nor where nothing resonates, so that all are about as large."""
-    result = analyze_torsion(ENGINES / "i6_diesel.toml", [1000, 1500, 2000], orders=[0.5, 1, 1.5, 2, 2.5, 3])
+    result = torsion(ENGINES / "i6_diesel.toml", [1000, 1500, 2000], orders=[0.5, 1, 1.5, 2, 2.5, 3])
     (axes,) = make_torsion(result, "waterfall").axes
     streams = [stream.get_paths()[0].vertices[:, 0] for stream in axes.collections]
     assert len(streams) == 6
@@ -350,7 +350,7 @@ def test_orders_of_a_waterfall_do_not_cover_one_another():
 def test_pictures_leave_out_orders_that_are_small(what):
     """At most 15 orders are drawn, and the title counts the others; of few large orders all are."""
     speeds = [1000, 2000, 3000]
-    crowded, few = (analyze_torsion(ENGINES / "i6_diesel.toml", speeds, orders=n) for n in (None, [4.5, 6]))
+    crowded, few = (torsion(ENGINES / "i6_diesel.toml", speeds, orders=n) for n in (None, [4.5, 6]))
 
     def look(result):
         (axes,) = make_torsion(result, what).axes
@@ -398,10 +398,10 @@ def test_of_several_stiffnesses_that_are_best_nearby_the_best_of_all_is_taken():
     speeds = np.arange(1800, 6501, 100)
 
     def stress(damper):
-        shafts = analyze_torsion(chain(damper=damper), speeds).response.shafts
+        shafts = torsion(chain(damper=damper), speeds).response.shafts
         return max(shaft.worst.stress_Pa or 0 for shaft in shafts)
 
-    sized = analyze_torsion(chain(), speeds, damper="rubber").damper
+    sized = torsion(chain(), speeds, damper="rubber").damper
     ring = sized.damper.model_dump(exclude_none=True)
     assert sized.after == pytest.approx(stress(ring), rel=1e-9)
     others = [ring | {"stiffness": share * sized.start} for share in np.geomspace(1 / 4, 4, 33).tolist()]
@@ -415,7 +415,7 @@ def test_the_order_that_pendulums_are_tuned_to_meets_modes_with_their_node_at_re
 
     def analyze(pulley, *speeds, **head):
         nodes = {"pulley": {"inertia": 5e4} | pulley, "crank": 0.2, "flywheel": 1.5}
-        return analyze_torsion(chain_text(nodes, shafts, [("crank", 2, 300)], loss=1e-4, **head), *speeds)
+        return torsion(chain_text(nodes, shafts, [("crank", 2, 300)], loss=1e-4, **head), *speeds)
 
     for mode in analyze({}, fixed=["pulley"]).modes:
         rpm = 60 * mode.frequency_Hz / 2

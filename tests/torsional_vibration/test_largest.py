@@ -10,7 +10,7 @@ from support.commands import ask_torsion
 from support.diesel import write_diesel
 from support.paths import ENGINES
 
-from balcli import BalcliError, analyze_torsion
+from balcli import BalcliError, torsion
 from balcli.core.peaks import find_swing
 from balcli.engine.build import build
 from balcli.engine.parse import parse
@@ -186,7 +186,7 @@ def test_a_peak_beside_its_resonance_is_found():
     dynamic[:, 0, 0] += 4.5j * w - w**2 * 0.11 / (1 + 1j * w * 0.11 / 3.3)
     angle = np.linalg.solve(dynamic, np.array([[[80.0], [0], [0], [0]]]))[:, :, 0]
     torque = np.abs(stiffness[0] * (angle[:, 0] - angle[:, 1]))
-    worst = analyze_torsion(text, np.linspace(1400, 6100, 6)).response.shafts[0].worst
+    worst = torsion(text, np.linspace(1400, 6100, 6)).response.shafts[0].worst
     assert worst.half_peak_to_peak_Nm == pytest.approx(torque.max(), rel=1e-7)
     assert worst.speed_rpm == pytest.approx(speeds[torque.argmax()], abs=0.02)
 
@@ -200,7 +200,7 @@ def test_the_largest_of_a_long_chain_are_those_of_close_speeds():
     shafts = {ends: 10 ** rng.uniform(5.5, 6.5) for ends in pairwise(names)}
     torques = [(str(rng.choice(names)), k / 2, *rng.normal(size=2).tolist()) for k in range(1, 9)]
     tables = chain_text(nodes, shafts, torques, loss=0.01)
-    coarse, fine = (analyze_torsion(tables, np.linspace(600, 1200, count)).response.shafts for count in (17, 3001))
+    coarse, fine = (torsion(tables, np.linspace(600, 1200, count)).response.shafts for count in (17, 3001))
     for few, many in zip(coarse, fine, strict=True):
         assert few.worst.half_peak_to_peak_Nm == pytest.approx(many.half_peak_to_peak_Nm.max(), rel=1e-3)
 
@@ -215,14 +215,14 @@ def write_disc(loss: float) -> str:
 def test_what_hardly_anything_damps_has_no_bound(loss):
     """So narrow a resonance no search between the speeds climbs: of 1e-11 to a thousandth."""
     with pytest.raises(BalcliError, match=r"15\.9155 Hz is excited by order 1 at 954\.93 rpm"):
-        analyze_torsion(write_disc(loss), [800, 1100])
-    assert analyze_torsion(write_disc(loss), [960, 1100]).response is not None
+        torsion(write_disc(loss), [800, 1100])
+    assert torsion(write_disc(loss), [960, 1100]).response is not None
 
 
 @pytest.mark.parametrize("loss", [3e-9, 1e-6])
 def test_what_something_damps_is_found(loss):
     """At the resonance 1/loss times as much as 1 N m."""
-    (shaft,) = analyze_torsion(write_disc(loss), [800, 1100]).response.shafts
+    (shaft,) = torsion(write_disc(loss), [800, 1100]).response.shafts
     assert shaft.worst.half_peak_to_peak_Nm == pytest.approx(1 / loss, rel=1e-6)
 
 

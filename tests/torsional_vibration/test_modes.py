@@ -137,7 +137,7 @@ def test_work_is_that_of_harmonic_torques_on_a_harmonic_motion_of_the_worst_phas
     """Torques Re(T e^{i wt}) on angles Re(B shape e^{i wt}), |B| = 1: integrated over a cycle in
     time, for the phase of B at which they do most.
     """
-    found = balcli.analyze_torsion(balcli.load_example("i6_diesel"))
+    found = balcli.torsion(balcli.load_example("i6_diesel"))
     system, modes = found.system, {mode.number: mode for mode in found.modes}
     turn = np.exp(2j * np.pi * np.arange(64) / 64)
     for critical in found.criticals[:12]:

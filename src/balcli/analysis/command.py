@@ -200,7 +200,7 @@ def piston(
     form = text_format(output, form)
     from . import piston as chapter
 
-    found = chapter.analyze_pistons(read_engine(path, parse_speed(speed), ()).engine)
+    found = chapter.piston(read_engine(path, parse_speed(speed), ()).engine)
     if cylinder is not None:
         found = chapter.choose_cylinder(found, cylinder)
     show([found], chapter.RENDERER, form, output, units)

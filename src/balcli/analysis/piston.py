@@ -166,7 +166,7 @@ class Pistons(Result):
         return f"of {self.engine.name or 'an engine'}"
 
 
-def analyze_pistons(engine: Engine) -> Pistons:
+def piston(engine: Engine) -> Pistons:
     """Return the motion of the pistons of an engine at its mean speed.
 
     Args:
@@ -176,9 +176,9 @@ def analyze_pistons(engine: Engine) -> Pistons:
         TypeError: `engine` is not an Engine.
 
     Example:
-        >>> analyze_pistons(load("i4.toml")).mechanisms[0].velocity.max_m_per_s
+        >>> piston(load("i4.toml")).mechanisms[0].velocity.max_m_per_s
     """
-    engine = check_engine("analyze_pistons", engine)
+    engine = check_engine("piston", engine)
     refuse_geared(engine)
     c, numbers = engine.cylinders, np.array(engine.numbers)
     orders = np.arange(1.0, max(c.find_highest_order(), 2) + 1)
@@ -294,7 +294,7 @@ def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> N
 
 def evaluate_engine(engine: Engine, quantities: Sequence[TargetQuantity]) -> list[float]:
     """Return the value of each quantity of one engine in SI units."""
-    found = analyze_pistons(engine).mechanisms
+    found = piston(engine).mechanisms
     of_cylinder = {number: one for one in found for number in one.cylinders}
     return [_read_quantity(of_cylinder[int(q.target or 1)], q.part) for q in quantities]
 

@@ -31,7 +31,7 @@ from ..sizing.bobweights import FactorPeaks
 from .crank_drive import CrankTorques, weigh_cylinders
 from .curves import compute_curves_by_step, compute_cylinder_curves
 from .order_tables import fit_largest
-from .piston import analyze_pistons, choose_cylinder, choose_unit
+from .piston import choose_cylinder, choose_unit, piston
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -246,7 +246,7 @@ def draw_piston(fig: Figure, engine: Engine, number: int, system: System) -> Non
         BalcliError: The engine has no such cylinder.
     """
     steady, row = replace(engine, ripple=()), find_row(engine, number)
-    found = choose_cylinder(analyze_pistons(steady), number).mechanisms[0]
+    found = choose_cylinder(piston(steady), number).mechanisms[0]
     own_deg = np.arange(0.0, 360 + _STEP / 2, _STEP)
     turned = own_deg - float(np.ravel(engine.cylinders.angle_deg)[row])
     curves = compute_cylinder_curves(steady, number, turned)

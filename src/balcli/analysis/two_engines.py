@@ -186,7 +186,7 @@ def combine_engines(
 
 
 @tell_arguments(phase="phase_deg", at="at_m", turn="turn_deg")
-def combine(
+def sum(  # noqa: A001 - the name of the command
     first: Engine,
     second: Engine,
     *,
@@ -219,9 +219,9 @@ def combine(
         TypeError: An argument has a wrong type.
 
     Example:
-        >>> combine(load("i4.toml"), load("i4.toml"), phase_deg=90, at_m=(0.3, 0, 0)).peak.force
+        >>> sum(load("i4.toml"), load("i4.toml"), phase_deg=90, at_m=(0.3, 0, 0)).peak.force
     """
-    checked = check_engine("combine", first), check_engine("combine", second)
+    checked = check_engine("sum", first), check_engine("sum", second)
     phase = check_number("phase_deg", phase_deg, "give an angle in degrees")
     turn = check_number("turn_deg", turn_deg, "give an angle in degrees")
     check_type("reverse", reverse, bool, "give True or False")

@@ -1,4 +1,4 @@
-"""Analyze the torque on an engine's crank (`analyze_torque`): by order and over the cycle, with
+"""Analyze the torque on an engine's crank (`torque`): by order and over the cycle, with
 means, extremes and the flywheel.
 """
 
@@ -70,9 +70,9 @@ def analyze_torque_of_engine(
         TypeError: An argument has the wrong type.
 
     Example:
-        >>> analyze_torque(load("i4_wiebe.toml"), fluctuation=1 / 200).flywheel.needed_kg_m2
+        >>> torque(load("i4_wiebe.toml"), fluctuation=1 / 200).flywheel.needed_kg_m2
     """
-    gas = take_gas(check_engine("analyze_torque", engine))
+    gas = take_gas(check_engine("torque", engine))
     if cylinder is None:
         cylinder = choose_firing_cylinder(engine)
     kinds = (str, int, np.integer) if engine.placed else (int, np.integer)
@@ -135,5 +135,5 @@ def analyze_torque_of_engine(
     )
 
 
-analyze_torque = tell_arguments()(analyze_torque_of_engine)
-analyze_torque.__name__ = analyze_torque.__qualname__ = "analyze_torque"
+torque = tell_arguments()(analyze_torque_of_engine)
+torque.__name__ = torque.__qualname__ = "torque"

@@ -14,7 +14,7 @@ from ..errors import BalcliError
 from ..file.model import EngineFile
 from ..forces.curves import find_constant_inertia, find_torque_curves
 from ..forces.quantity import TargetQuantity
-from .answer import analyze_torque_of_engine as analyze_torque
+from .answer import analyze_torque_of_engine as torque
 
 _NAMES = ("torque.mean", "torque.max", "torque.min", "fluctuation")
 NO_INERTIA = "fluctuation: the file gives no inertia; give inertia in [crank] or [flywheel]"
@@ -50,7 +50,7 @@ def evaluate_engine(engine: Engine, quantities: Sequence[TargetQuantity]) -> lis
         found |= {"torque.mean": curves.gas.mean, "torque.max": highest.value}
         found["torque.min"] = lowest.value
     if any(q.name == "fluctuation" for q in quantities):
-        flywheel = analyze_torque(engine, [1]).flywheel
+        flywheel = torque(engine, [1]).flywheel
         if flywheel is None or flywheel.fluctuation is None:
             raise BalcliError(NO_INERTIA if flywheel is None else flywheel.stall or NO_INERTIA)
         found["fluctuation"] = flywheel.fluctuation

@@ -1,5 +1,5 @@
 """Define the records of the torque on the crank, which are the result of `balcli torque` and
-`analyze_torque`.
+`torque`.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Balance a rotor in the field (`balance_rotor`): compute correction weights, the remaining
+"""Balance a rotor in the field (`field`): compute correction weights, the remaining
 readings, whether the balance grade is reached, and warnings of doubtful runs.
 
 The corrections x minimise the sum of squares of the readings `|V + alpha x|`, or the largest of
@@ -490,7 +490,7 @@ def _find_permitted(
 
 
 @tell_arguments()
-def balance_rotor(
+def field(
     runs: str | Path | Mapping[str, object],
     minimise: Literal["squares", "max"] = "squares",
     *,
@@ -517,13 +517,13 @@ def balance_rotor(
         TypeError: An argument has a wrong type.
 
     Example:
-        >>> balance_rotor("fan.toml", "max").to_pandas()
+        >>> field("fan.toml", "max").to_pandas()
     """
     check_type("minimise", minimise, str, 'give "squares" or "max"')
     if minimise not in ("squares", "max"):
         raise BalcliError(f'minimise {minimise!r}: choose "squares" or "max"')
     planes = [without] if isinstance(without, str) else list_words("without", without, '["front"]')
     wanted = "give the path, text or dict of a file of runs"
-    tables, name = take_tables("balance_rotor", runs, wanted)
+    tables, name = take_tables("field", runs, wanted)
     file = check_runs(tables, name)
     return find_corrections(file, minimise, planes, name or "file of runs")  # text or dict: no name

@@ -1,5 +1,5 @@
 """Compute the balance masses in the wheels of a locomotive, the hammer blow and the forces along
-the track: `analyze_locomotive`.
+the track: `locomotive`.
 
 Each revolving mass is an unbalance: a complex product of mass and radius, whose angle counts from
 cylinder 1's crank pin, on an axle at a position z. The revolving masses are those of the crank
@@ -232,9 +232,9 @@ def analyze_locomotive_of_engine(
         TypeError: `engine` is not an Engine.
 
     Example:
-        >>> analyze_locomotive(load_example("locomotive2"), 2 / 3).axles[0].wheels[0].hammer_blow_N
+        >>> locomotive(load_example("locomotive2"), 2 / 3).axles[0].wheels[0].hammer_blow_N
     """
-    model = take_model(check_engine("analyze_locomotive", engine))
+    model = take_model(check_engine("locomotive", engine))
     refuse_geared(model)
     table = _take_table(engine, model, speed_given=speed is not None)
     axles = table.list_axles(model.axle)
@@ -284,9 +284,9 @@ def analyze_locomotive_of_engine(
     )
 
 
-analyze_locomotive = tell_arguments()(analyze_locomotive_of_engine)
-analyze_locomotive.__name__ = analyze_locomotive.__qualname__ = "analyze_locomotive"
-analyze_locomotive.__module__ = __name__  # where pickle finds it
+locomotive = tell_arguments()(analyze_locomotive_of_engine)
+locomotive.__name__ = locomotive.__qualname__ = "locomotive"
+locomotive.__module__ = __name__  # where pickle finds it
 
 
 def _take_table(engine: Engine, model: EngineFile, *, speed_given: bool) -> Locomotive:

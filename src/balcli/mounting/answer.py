@@ -1,4 +1,4 @@
-"""Analyze the vibration of an engine on its mounts: `analyze_mounts`."""
+"""Analyze the vibration of an engine on its mounts: `mounts`."""
 
 from __future__ import annotations
 
@@ -128,7 +128,7 @@ def report_mounts(
 
 
 @tell_arguments(speeds="speeds_rpm")
-def analyze_mounts(
+def mounts(
     source: Engine | str | Path | Mapping[str, object],
     speeds_rpm: ArrayLike | None = None,
     *,
@@ -160,12 +160,12 @@ def analyze_mounts(
         TypeError: The source or an argument has a wrong type.
 
     Example:
-        >>> [mode.frequency_Hz for mode in analyze_mounts("i4_mounts.toml").modes]
+        >>> [mode.frequency_Hz for mode in mounts("i4_mounts.toml").modes]
     """
-    speeds = check_speeds("analyze_mounts", speeds_rpm)
+    speeds = check_speeds("mounts", speeds_rpm)
     beside = others or {}
-    check_type("analyze_mounts", beside, Mapping, 'give a dict, such as {"V8": engine}')
-    engines = [(str(name), check_engine("analyze_mounts", one)) for name, one in beside.items()]
+    check_type("mounts", beside, Mapping, 'give a dict, such as {"V8": engine}')
+    engines = [(str(name), check_engine("mounts", one)) for name, one in beside.items()]
     check_type("scheme", scheme, (str, NoneType), 'give its name, such as "counterweights"')
     model, engine, name = _read(source)
     steps = np.diff([] if speeds is None else speeds)
@@ -178,6 +178,6 @@ def _read(source: object) -> tuple[EngineFile, Engine | None, str]:
     if isinstance(source, Engine):
         return take_model(source), source, ""
     wanted = "give an Engine, or the path, text or dict of a file with [body] and [[mount]]"
-    tables, name = take_tables("analyze_mounts", source, wanted)
+    tables, name = take_tables("mounts", source, wanted)
     draft = check_tables(tables, Path(name).parent, name, bare=True)
     return (*check_mounted(draft, name)[:2], name)

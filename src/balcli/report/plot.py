@@ -49,10 +49,7 @@ if TYPE_CHECKING:
 Shown: TypeAlias = (
     Engine | Analysis | Balance | Swept | TorqueAnalysis | TorsionAnalysis | MountReport
 ) | FieldBalance
-_DRAWN = (
-    "give an Engine, or a result of analyze, balance, sweep, analyze_torque, analyze_torsion, "
-    "analyze_mounts or balance_rotor"
-)
+_DRAWN = "give an Engine, or a result of analyze, balance, sweep, torque, torsion, mounts or field"
 
 
 @tell_arguments(speeds="speeds_rpm")
@@ -81,8 +78,8 @@ def plot(
             bank angle; with scheme "two-shaft", distances of the shafts from the crank axis),
             "factor" (peaks over the balance factor), "stars" (each cylinder's vectors), "piston",
             "journals"; with gas "pressure", "p-v", "torque", "pin", "main"; with torsion "modes",
-            "campbell", "response", "waterfall". A result of `analyze_torque` has the pages with
-            gas, a result of `analyze_torsion` those with torsion and "all". Other results have one
+            "campbell", "response", "waterfall". A result of `torque` has the pages with
+            gas, a result of `torsion` those with torsion and "all". Other results have one
             picture.
         orders: Orders of an engine to draw; default: all that are not negligible.
         scheme: Balance scheme; the page compares the engine without and with its devices.

@@ -1,4 +1,4 @@
-"""Analyze torsional vibration: `analyze_torsion`."""
+"""Analyze torsional vibration: `torsion`."""
 
 from __future__ import annotations
 
@@ -379,7 +379,7 @@ def require_speeds(asked: TorsionQuestion, what: str) -> None:
 
 
 @tell_arguments(speeds="speeds_rpm")
-def analyze_torsion(
+def torsion(
     source: Engine | str | Path | Mapping[str, object],
     speeds_rpm: ArrayLike | None = None,
     *,
@@ -419,7 +419,7 @@ def analyze_torsion(
         TypeError: An argument has the wrong type.
 
     Example:
-        >>> analyze_torsion(load("i6_diesel.toml"), range(1000, 2501, 25)).barred_rpm
+        >>> torsion(load("i6_diesel.toml"), range(1000, 2501, 25)).barred_rpm
     """
     check_type("damper", damper, (str, NoneType), 'give a kind of damper, such as "viscous"')
     if damper not in (None, *FIGURES):
@@ -427,7 +427,7 @@ def analyze_torsion(
     asked = check_torsion_orders(orders)
     inertia = check_inertia("damper_inertia", damper_inertia)
     check_type("damper_at", damper_at, (str, NoneType), 'give the name of a part, such as "hub"')
-    speeds = check_speeds("analyze_torsion", speeds_rpm)
+    speeds = check_speeds("torsion", speeds_rpm)
     question = TorsionQuestion(speeds, (), DamperAsked(damper, damper_at, inertia))
     return answer_question(_read_source(source, asked), question)
 
@@ -436,7 +436,7 @@ def _read_source(source: object, orders: Array | None) -> Source:
     if isinstance(source, Engine):
         return make_source(take_model(source), source, source.name, orders)
     wanted = "give an Engine, or the path, text or dict of a chain of inertias and shafts"
-    tables, name = take_tables("analyze_torsion", source, wanted)
+    tables, name = take_tables("torsion", source, wanted)
     if describes_chain(tables):
         name = name or "chain file"  # name, in messages, of a chain without a path
         return make_chain_source(read_chain_tables(tables, name), name, orders)
