@@ -1,40 +1,25 @@
-"""The commands `new`, `engines`, `schema`, `check` and `bench`."""
+"""The commands `new`, `engines`, `schema` and `bench`."""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Sequence
 from enum import StrEnum
-from functools import partial
 from itertools import groupby
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
-from xml.etree.ElementTree import Element, SubElement, indent, tostring
+from typing import Annotated
 
 import typer
 
-from .core.records import Node, describe_record, to_document
-from .errors import BalcliError, Exit, OtherKindError, legible
+from .core.records import Node, describe_record
+from .errors import BalcliError
 from .file import examples
 from .file.examples import template
-from .file.fields import counted, suggest_nearest
+from .file.fields import suggest_nearest
 from .names import DOCUMENTS, import_name
-from .shell.file_names import (
-    format_option,
-    parse_output,
-    require_ending,
-    text_format,
-)
-from .shell.inputs import exit_on_errors, find_engine_files, find_expected, read_engine, try_each
+from .shell.file_names import parse_output, require_ending, text_format
 from .shell.options import FormatOption, Output
-from .shell.output import emit, make_folder_of, refuse_existing, show, write_file
-from .shell.progress import each_until_stopped, exit_if_cut_short, reporting_until_stopped
+from .shell.output import emit, refuse_existing, show, write_file
 from .shell.values import argument, optional
-from .show.formats import Format, json_text
-
-if TYPE_CHECKING:
-    from .regression import CheckedEngine, Difference
-
 
 Force = Annotated[bool, typer.Option("--force", help="Overwrite FILE if it exists.")]
 KIND = (
@@ -183,112 +168,6 @@ def describe_document(name: str) -> Node:
     head = {"$schema": DIALECT, "$id": f"urn:balcli:schema:{name}:1"}
     changed = {"properties": properties, "required": ["version", *found["required"]]}
     return head | found | changed | {"title": f"balcli.{name}/1"}
-
-
-REPORTS = (Format.TABLE, Format.JSON, Format.JUNIT)
-REPORT = "junit: an XML report for continuous integration."
-UPDATE = "Record the present results in the folder expected/ next to each engine file."
-TOLERANCE = "Allowed change of a figure, as a share of the largest figure of the same quantity."
-
-
-def check(
-    paths: Annotated[list[Path], argument("PATH...", "Engine files, or folders of them.")],
-    update: Annotated[bool, typer.Option("--update", help=UPDATE)] = False,
-    tolerance: Annotated[float, typer.Option(help=TOLERANCE, min=0, max=1)] = 1e-9,
-    form: Annotated[Format | None, format_option(REPORTS, REPORT)] = None,
-) -> None:
-    """Recompute engines and compare them with their recorded results; exit status 1 if a figure
-    changed.
-
-    A record holds the result of `analyze` (orders, peaks, displacement, dead centres) and, if the
-    file has tables for them, main figures of `torque`, `mounts` and `torsion`. A record whose
-    engine file is missing counts as a difference. Other kinds of files in a folder are skipped.
-
-    \b
-    Examples:
-      balcli check v8.toml --update
-      balcli check v8.toml
-      balcli check v8.toml --tolerance 1e-6 --format junit
-    """
-    from .regression import Check, find_abandoned
-
-    files, expected = find_engine_files(paths), find_expected(paths)
-    found, work = {*files} - {*paths}, partial(_check_engine, update=update, tolerance=tolerance)
-    with reporting_until_stopped("engines", len(files)) as progress:
-        results, others = try_each(each_until_stopped(files, progress), work, found)
-    checked = [*results, *find_abandoned(expected)]
-    errors = [*(each.error for each in results if each.error), *others]
-    compared = sum(each.error is None for each in results)
-    moved = sum(len(each.differences) for each in checked)
-    if form is Format.JSON:
-        emit(json_text(to_document(Check(engines=tuple(checked)))))
-    elif form is Format.JUNIT:
-        emit(_write_junit(checked))
-    else:
-        done = " recorded" if update else f", {counted(moved, 'difference')}"
-        lines = [line for each in checked for line in _list_lines(each)]
-        emit(legible("\n".join([*lines, counted(compared, "engine") + done])))
-    exit_on_errors(errors)
-    exit_if_cut_short(progress)
-    if not checked:
-        raise BalcliError(f"{paths[0]}: has no engine files (*.toml)")
-    if moved:
-        raise typer.Exit(Exit.DIFFERENCE)
-
-
-def _check_engine(path: Path, *, update: bool, tolerance: float) -> CheckedEngine:
-    """Compare an engine file with its record, or (`update`) write the record."""
-    from .regression import (
-        CheckedEngine,
-        check_target,
-        find_differences,
-        find_record,
-        record_result,
-    )
-
-    differences: list[Difference] = []
-    try:
-        engine = read_engine(str(path)).engine
-        if update:
-            write_file(record_result(engine), make_folder_of(check_target(path)))
-        else:
-            differences = find_differences(engine, find_record(path), tolerance)
-    except OtherKindError:
-        raise
-    except BalcliError as error:
-        return CheckedEngine(engine=str(path), differences=(), error=str(error))
-    return CheckedEngine(engine=str(path), differences=tuple(differences))
-
-
-def _list_lines(checked: CheckedEngine) -> Iterator[str]:
-    """Yield a line for each quantity with changed figures, followed by these figures."""
-    for cause in dict.fromkeys(each.cause for each in checked.differences):
-        moved = [each for each in checked.differences if each.cause == cause]
-        if cause is None:
-            yield from (f"{checked.engine}: {each}" for each in moved)
-            continue
-        largest = max((each.share for each in moved if each.share is not None), default=None)
-        share = "" if largest is None else f", by up to {largest:.1e} of the largest figure"
-        yield f"{checked.engine}: {cause}: {counted(len(moved), 'figure')} changed{share}"
-        yield from (f"  {each}" for each in moved)
-
-
-def _write_junit(checked: Sequence[CheckedEngine]) -> str:
-    """Return an XML report in JUnit's format, with a test case for each engine."""
-    suite = Element("testsuite", name="balcli check", tests=str(len(checked)))
-    suite.set("failures", str(sum(bool(each.differences) for each in checked)))
-    suite.set("errors", str(sum(each.error is not None for each in checked)))
-    for each in checked:
-        case = SubElement(suite, "testcase", classname="balcli", name=legible(each.engine))
-        if each.error:
-            first = legible(each.error.partition("\n")[0])
-            SubElement(case, "error", message=first).text = legible(each.error)
-        if each.differences:
-            message = counted(len(each.differences), "difference")
-            failure = SubElement(case, "failure", message=message)
-            failure.text = legible("\n".join(_list_lines(each)))
-    indent(suite)
-    return tostring(suite, encoding="utf-8", xml_declaration=True).decode()
 
 
 def bench(form: FormatOption = None, output: Output = None) -> None:

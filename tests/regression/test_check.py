@@ -13,9 +13,10 @@ from support.cases import cases, slow
 from support.engines import GOOD, build_text, changed
 from support.paths import ENGINE_FILES, ENGINES, GEARED_FILES, write
 
-from balcli import load_example, regression
+from balcli import load_example
 from balcli.analysis.answer import analyze
-from balcli.regression import TOLERANCE, find_differences, find_record, record_result
+from balcli.regression import comparison
+from balcli.regression.comparison import TOLERANCE, find_differences, find_record, record_result
 
 
 @pytest.fixture
@@ -227,8 +228,8 @@ FOLLOWING = {"axis_deg", "phase_deg", "peak_deg", "balanced"}
 def test_a_change_of_any_leaf_is_noticed(record, monkeypatch, name):
     """Vectors, sizes, texts, dead centers, and the figures of further chapters."""
     engine = load_example(name)
-    text, described = record_result(engine), regression._describe(engine)
-    monkeypatch.setattr(regression, "_describe", lambda *_: described)
+    text, described = record_result(engine), comparison._describe(engine)
+    monkeypatch.setattr(comparison, "_describe", lambda *_: described)
     record.write_text(text)
     assert find_differences(engine, record) == []
     unnoticed = set()

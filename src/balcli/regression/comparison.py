@@ -20,17 +20,17 @@ from typing import Any, Literal
 
 import numpy as np
 
-from .analysis.answer import Analysis, analyze
-from .core.records import Node, to_document
-from .crank_torque.answer import torque
-from .engine.engine import Engine
-from .errors import BalcliError
-from .file.model import EngineFile
-from .forces.kinds import GAS, GAS_KINDS, KINDS
-from .forces.spectrum import Spectra, compute_spectra, find_relevant_orders
-from .limits import LARGEST_FILE_BYTES
-from .mounting.answer import mounts
-from .torsional_vibration.answer import torsion
+from ..analysis.answer import Analysis, analyze
+from ..core.records import Node, to_document
+from ..crank_torque.answer import torque
+from ..engine.engine import Engine
+from ..errors import BalcliError
+from ..file.model import EngineFile
+from ..forces.kinds import GAS, GAS_KINDS, KINDS
+from ..forces.spectrum import Spectra, compute_spectra, find_relevant_orders
+from ..limits import LARGEST_FILE_BYTES
+from ..mounting.answer import mounts
+from ..torsional_vibration.answer import torsion
 
 TOLERANCE = 1e-9  # share of the largest figure of a quantity; rounding is allowed in addition
 PEAK_ANGLE_DEG = 1e-3  # allowed change of a peak's angle; rounding changes it more than the value

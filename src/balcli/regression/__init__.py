@@ -1,0 +1,1 @@
+"""Compare engines with recorded results (`balcli check`)."""
