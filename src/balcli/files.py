@@ -32,7 +32,8 @@ def replacing(target: Path) -> Iterator[Path]:
         place = name_hidden(real)
         try:
             # if the target exists, the file is private until it gets the target's mode
-            flags, private = os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o600
+            flags = os.O_CREAT | os.O_EXCL | os.O_WRONLY
+            private = 0o600
             os.close(os.open(place, flags, 0o666 if mode is None else private))
             yield place
             if mode is not None:

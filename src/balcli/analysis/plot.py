@@ -166,7 +166,8 @@ def draw_factors(
         force: Unit of forces.
         moment: Unit of moments; None if moments are not known.
     """
-    share, moments = [row.factor for row in rows], np.array([row.peak_moment_Nm for row in rows])
+    share = [row.factor for row in rows]
+    moments = np.array([row.peak_moment_Nm for row in rows])
     s = force.fit(max(row.peak_force_N for row in rows))
     forces = np.array([(row.peak_force_N, row.along_N, row.across_N) for row in rows]).T / s.size
     labels = ("force", "along the first bank", "across it")
@@ -185,7 +186,8 @@ def draw_factors(
         title=f"Largest free force over the balance factor; best at {best.factor:.4g} ({least})",
     )
     if moment is not None and moments.max() > 0:
-        t, right = moment.fit(float(moments.max())), ax.twinx()
+        t = moment.fit(float(moments.max()))
+        right = ax.twinx()
         right.plot(share, moments / t.size, **_DASHED)
         right.set(ylabel=f"moment (dashed grey), {t.name}", ylim=(0, None))
         right.grid(False)
@@ -245,13 +247,16 @@ def draw_piston(fig: Figure, engine: Engine, number: int, system: System) -> Non
     Raises:
         BalcliError: The engine has no such cylinder.
     """
-    steady, row = replace(engine, ripple=()), find_row(engine, number)
+    steady = replace(engine, ripple=())
+    row = find_row(engine, number)
     found = choose_cylinder(piston(steady), number).mechanisms[0]
     own_deg = np.arange(0.0, 360 + _STEP / 2, _STEP)
     turned = own_deg - float(np.ravel(engine.cylinders.angle_deg)[row])
     curves = compute_cylinder_curves(steady, number, turned)
-    outer, inner = found.outer_dead_center_own_deg % 360, found.inner_dead_center_own_deg
-    v, a = found.velocity, found.acceleration
+    outer = found.outer_dead_center_own_deg % 360
+    inner = found.inner_dead_center_own_deg
+    v = found.velocity
+    a = found.acceleration
     extremes = (
         ((inner, found.stroke_m), (outer, 0.0)),
         ((v.max_own_deg, v.max_m_per_s), (v.min_own_deg, v.min_m_per_s)),
@@ -293,7 +298,8 @@ def _draw_motion(
     for (angle, value), side in zip(extremes, (1, -1), strict=True):
         beside = (angle < 20) - (angle > 340)  # inwards from an edge of the picture
         ax.plot([angle], [value], "o", color=INK, markersize=4, zorder=4)
-        shift, align = (6 * beside, 9 * side), ("center", "left", "right")[beside]
+        shift = (6 * beside, 9 * side)
+        align = ("center", "left", "right")[beside]
         label: Look = {"xytext": shift, "textcoords": "offset points", "ha": align, "va": "center"}
         ax.annotate(number(value), (angle, value), fontsize=7.5, bbox=_ON_PAPER, **label)
     ax.axhline(0, color=SOFT, linewidth=0.7)
@@ -315,13 +321,15 @@ def draw_journals(fig: Figure, engine: Engine, unit: ShownUnit) -> None:
     """
     cycle_deg = 360.0 if engine.gas is None else engine.gas.cycle_deg
     degrees = np.arange(0.0, cycle_deg + _STEP / 2, _STEP)
-    torques, angle = CrankTorques.of(engine), np.radians(degrees)
+    torques = CrankTorques.of(engine)
+    angle = np.radians(degrees)
     curves = {
         f"main {place}": torques.sample(angle, weights)
         for (kind, place), weights in weigh_cylinders(engine).items()
         if kind == "main"
     }
-    ax, s = fig.subplots(), unit.fit(max(float(np.abs(each).max()) for each in curves.values()))
+    ax = fig.subplots()
+    s = unit.fit(max(float(np.abs(each).max()) for each in curves.values()))
     for (place, curve), (line, color) in zip(curves.items(), repeat(MANY_LOOKS), strict=False):
         ax.plot(degrees, curve / s.size, linestyle=line, color=color, label=place)
     set_crank_axis(ax, degrees)

@@ -84,7 +84,8 @@ def _list_rows(shown: list[Words], power: int) -> Iterator[tuple[Row, Words]]:
     """
     for words in shown:
         function, order, exponent, _, source, equation = words
-        n, p = int(order or 0), int(exponent or 0)
+        n = int(order or 0)
+        p = int(exponent or 0)
         exact = {**GENERATED, **PRINTED}[function or ""](n, p).get(p, 0)
         yield (function, None if order is None else n, p, str(exact), source, equation), words
     known = {words[:3] for words in shown}
@@ -102,7 +103,8 @@ Terms: TypeAlias = Callable[[int, int], series.Series]
 def tabulate_coefficients(printed: Print, ranges: Ranges, exact: Exact, terms: Terms) -> Table:
     """Return Kvasnikov's Table I (coefficients A_n) or II (D_k), by closed form and series."""
     headings = ranges.lam or printed.headings()
-    lam, stub = as_numbers(headings), printed.column("coefficient")
+    lam = as_numbers(headings)
+    stub = printed.column("coefficient")
     orders = [int(label.partition("_")[2]) for label in stub]
     supposed = []
     for count, kind in enumerate(("first term of the series alone", "two terms of the series"), 1):
@@ -132,7 +134,8 @@ def tabulate_kvasnikov_statements(printed: Print, ranges: Ranges) -> Table:
     """
     engines = tomllib.loads(read_data("kvasnikov-layouts.toml"))
     books = {layout: _analyze(layout, tables) for layout, tables in engines.items()}
-    layouts, quantities = printed.column("layout"), printed.column("quantity")
+    layouts = printed.column("layout")
+    quantities = printed.column("quantity")
     answers = [
         _QUANTITIES[quantity](books[layout])
         for layout, quantity in zip(layouts, quantities, strict=True)

@@ -18,8 +18,10 @@ from ..file import units
 from ..file.units import POUND_FORCE, STANDARD_GRAVITY
 from .recomputed import ANSWER, Erratum, ErratumClass, Print, Ranges, Table
 
-POUND, FOOT = float(units.POUND), float(12 * units.INCH)  # kg, m
-CRANK, ROD = 2 / 12, 7 / 12  # ft
+POUND = float(units.POUND)
+FOOT = float(12 * units.INCH)  # kg, m
+CRANK = 2 / 12
+ROD = 7 / 12  # ft
 OMEGA = 4000 * RPM
 GRAVITY = STANDARD_GRAVITY / FOOT  # ft/s2
 
@@ -32,7 +34,9 @@ def tabulate_liang_examples(printed: Print, ranges: Ranges) -> Table:
     and big end), reciprocating weight (piston and small end), and the weight at a radius of 3.5 in
     that balances the rotating and half of the reciprocating weight at a crank radius of 3 in.
     """
-    mass, rotating, reciprocating = 1 + 2.75 * 2 / 7, 1.0 + 3.0, 6.0 + 2.0
+    mass = 1 + 2.75 * 2 / 7
+    rotating = 1.0 + 3.0
+    reciprocating = 6.0 + 2.0
     force = mass * _acceleration() * POUND * FOOT / POUND_FORCE
     balancing = (rotating + reciprocating / 2) * 3 / 3.5
     answers = (mass, _acceleration(), force, *_second(), rotating, reciprocating, balancing)
@@ -58,7 +62,9 @@ def _second(gravity: float = GRAVITY) -> tuple[float, ...]:
 
     lambda is crank radius over rod length, and omega the crank speed.
     """
-    lam, hk, q2 = CRANK / ROD, 1 / 3 * 2 / 3, 1 / 18
+    lam = CRANK / ROD
+    hk = 1 / 3 * 2 / 3
+    q2 = 1 / 18
     peak = float(SliderCrank(np.pi / 2, lam).spin_rate) / lam
     couple = 2.75 * ROD**2 * (hk - q2) * peak * lam * OMEGA**2 / gravity
     return (hk, q2, hk - q2, peak, couple)
@@ -76,7 +82,8 @@ def tabulate_published(printed: Print, ranges: Ranges) -> Table:
     for i, (source, figure, measure, kind, remark, text) in enumerate(zip(*named, strict=True)):
         if kind:
             name = f"{figure}, {measure}" if measure else figure
-            label, category = f"{source}: {name}", cast("ErratumClass", kind)
+            label = f"{source}: {name}"
+            category = cast("ErratumClass", kind)
             errata.append(Erratum(i, ANSWER, text, own[i], remark, label, category))
     words = tuple((*line[:-1], None) for line in printed.rows)
     return Table(*printed[:4], tuple(rows), words, tuple(errata), len(printed.columns) - 1)

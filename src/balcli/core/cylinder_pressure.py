@@ -110,7 +110,8 @@ class GasPiston:
             grid = np.linspace(low, high, 257)
             down = np.maximum.accumulate((-1 if upward else 1) * self.travel(grid))
             after = int(np.searchsorted(down, -travel if upward else travel))
-            low, high = grid[max(after - 1, 0)], grid[min(after, 256)]
+            low = grid[max(after - 1, 0)]
+            high = grid[min(after, 256)]
         return float(high)
 
 
@@ -124,11 +125,13 @@ def pistons(cylinders: Cylinders, area: ArrayLike) -> list[GasPiston]:
     # In a rotary engine, the pistons move along their axes as in a stationary one.
     kind = cylinders.linkage.hung if isinstance(cylinders.linkage, Rotary) else cylinders.linkage
     linkage = kind if isinstance(kind, Articulated) else None
-    c, found = replace(cylinders, linkage=linkage), []
+    c = replace(cylinders, linkage=linkage)
+    found = []
     figures = (c.lam, c.eps, area, *find_travel(c), c.radius)
     lam, eps, *sizes = (np.broadcast_to(figure, c.count) for figure in figures)
     for row in range(c.count):
-        rows, own = np.array(row), None
+        rows = np.array(row)
+        own = None
         if linkage is not None and linkage.master[row] != row:
             rows = np.array([row, linkage.master[row]])
             own = replace(
@@ -139,7 +142,8 @@ def pistons(cylinders: Cylinders, area: ArrayLike) -> list[GasPiston]:
                 lead_deg=linkage.lead_deg[rows],
             )
         bore, stroke, top, bottom, radius = (float(size[row]) for size in sizes)
-        lower, upper = math.radians(bottom + 180 - top), math.radians(top)
+        lower = math.radians(bottom + 180 - top)
+        upper = math.radians(top)
         found.append(GasPiston(bore, stroke, upper, lower, radius, lam[rows], eps[rows], own))
     return found
 
@@ -234,7 +238,8 @@ def find_highest(pressure: PiecewiseCurve) -> Extreme:
     """Return the highest pressure, Pa, and the first cycle angle (rad, in [-period/2, period/2)) at
     which it is reached.
     """
-    (angle, value), period = pressure.extremes()[1], pressure.period
+    angle, value = pressure.extremes()[1]
+    period = pressure.period
     corner = float(pressure.breaks[np.argmin(np.abs(pressure.breaks - angle))])
     angle = corner if abs(corner - angle) < _SAME else angle
     return Extreme((angle + period / 2) % period - period / 2, value)

@@ -97,7 +97,9 @@ class Cylinders:
         """Figures that determine each cylinder's mechanism, and its crank radius; equal mechanisms
         have equal figures. The cylinders must have no trailing axes.
         """
-        lam, eps, linkage = self.lam, self.eps, self.linkage
+        lam = self.lam
+        eps = self.eps
+        linkage = self.linkage
         columns = (lam, eps) if linkage is None else linkage.figures(lam, eps)
         each = [np.broadcast_to(column, self.count).tolist() for column in (*columns, self.radius)]
         return list(zip(*each, strict=True))
@@ -192,7 +194,8 @@ def find_travel(c: Cylinders) -> Travel:
     by `lam`, which may be 0. Dead centres of other mechanisms are found numerically.
     """
     _, stroke, top_deg, bottom_deg = _find_dead_centres(c)
-    shape, found = c.pin_deg.shape, (c.radius * stroke, top_deg, bottom_deg)
+    shape = c.pin_deg.shape
+    found = (c.radius * stroke, top_deg, bottom_deg)
     return Travel(*(np.broadcast_to(v, np.broadcast_shapes(shape, v.shape)) for v in found))
 
 
@@ -208,7 +211,8 @@ def _find_dead_centres(c: Cylinders) -> tuple[Array, Array, Array, Array]:
     stroke of the pistons, both in crank radii, and `top_deg` and `bottom_deg` of `Travel`.
     """
     if c.linkage is None:
-        top, bottom = c.eps / (1 + c.lam), c.eps / (1 - c.lam)
+        top = c.eps / (1 + c.lam)
+        bottom = c.eps / (1 - c.lam)
         both = np.sqrt((1 - top) * (1 + top)) + np.sqrt((1 - bottom) * (1 + bottom))
         stroke = both + 2 * c.eps * (top + bottom) / ((1 - c.lam) * (1 + c.lam) * both)
         with np.errstate(divide="ignore"):

@@ -117,7 +117,8 @@ def gas_cycle(piston: GasPiston, process: Process, goal: Goal) -> GasCycle:
     _check(piston, process, goal)
     cycle = _Cycle(piston, process)
     heat = cycle.find_heat(goal)
-    breaks, curves = [cycle.closes], []
+    breaks = [cycle.closes]
+    curves = []
     for end, law in cycle.list_laws(heat):
         if end > breaks[-1]:
             curves.append(resolved(law, [breaks[-1], end]))
@@ -140,13 +141,15 @@ def find_least_imep(piston: GasPiston, process: Process) -> float:
 # ---------------------------------------------------------------- checks
 def _check(piston: GasPiston, process: Process, goal: Goal) -> None:
     """Raise GasError for the first mistake in a cycle before it is computed."""
-    p, goals = process, GOALS[process.cycle]
+    p = process
+    goals = GOALS[process.cycle]
     if goal.name not in goals:
         hint = f"give {', '.join(goals[:-1])} or {goals[-1]}"
         raise GasError(goal.name, f"does not determine the {p.cycle} cycle: {hint}")
     if not p.expansion_index > 1:
         raise GasError("expansion_index", f"is {p.expansion_index:g}: give more than 1")
-    lowest, burnt = math.degrees(piston.bottom), p.burn_start + p.burn_duration
+    lowest = math.degrees(piston.bottom)
+    burnt = p.burn_start + p.burn_duration
     if p.strokes == 2 and p.exhaust_opens is not None and p.exhaust_opens > lowest:
         message = f"is {p.exhaust_opens:g}°: give up to {lowest:g}°, the lower dead centre"
         raise GasError("exhaust_opens", message)
@@ -163,7 +166,8 @@ def _find_valves(piston: GasPiston, process: Process) -> tuple[float, float]:
     """Return the cycle angles (rad) at which the exhaust opens and at which compression begins; the
     latter is negative, before the firing dead centre.
     """
-    opens_deg, closes_deg = process.exhaust_opens, process.intake_closes
+    opens_deg = process.exhaust_opens
+    closes_deg = process.intake_closes
     opens = piston.bottom if opens_deg is None else math.radians(opens_deg)
     if process.strokes == 2:
         down = float(piston.travel(np.array(opens)))
@@ -178,7 +182,9 @@ class _Cycle:
 
     def __init__(self, piston: GasPiston, process: Process) -> None:
         p = process
-        self.piston, self.process, self.index = piston, process, process.expansion_index
+        self.piston = piston
+        self.process = process
+        self.index = process.expansion_index
         self.start = math.radians(p.burn_start) if p.cycle == "wiebe" else 0.0
         self.opens, self.closes = _find_valves(piston, process)
         self.begins = min(self.start, 0.0)
@@ -186,7 +192,9 @@ class _Cycle:
         self.closed, self.charge, self.opened = self.find_volume(places).tolist()
         self.pressure = p.intake * (self.closed / self.charge) ** p.compression_index
         self.constant = self.pressure * self.charge**self.index  # p V^n of the charge
-        self.least, self.most, self.released = 0.0, math.inf, 1.0  # heat limits, J; released share
+        self.least = 0.0
+        self.most = math.inf
+        self.released = 1.0  # heat limits, J; released share
         self.grown = self.charge ** (self.index - 1)  # integral of V^(n-1) dx, x: burnt share
         self.limit = self.pressure if p.cycle == "diesel" else None
         if p.cycle == "dual":
@@ -257,7 +265,8 @@ class _Cycle:
         angle (rad) at which the law ends, and the law (Pa, a function of cycle angles). A law may
         end where it begins.
         """
-        p, period = self.process, self.process.strokes * math.pi
+        p = self.process
+        period = self.process.strokes * math.pi
         closed = p.intake * self.closed**p.compression_index
         return [
             (self.begins, self._expand(closed, p.compression_index)),
@@ -273,10 +282,12 @@ class _Cycle:
 
     def find_imep(self, heat: float) -> float:
         """Return the indicated mean effective pressure with this heat, Pa."""
-        p, n = self.process, self.index
+        p = self.process
+        n = self.index
         gained = self.burn(heat) * self.opened ** (1 - n) - self.pressure * self.charge
         work = self.released * heat - gained / (n - 1)
-        over, steps = p.compression_index - 1, math.log(self.closed / self.charge)
+        over = p.compression_index - 1
+        steps = math.log(self.closed / self.charge)
         work -= p.intake * self.closed * (math.expm1(over * steps) / over if over else steps)
         if p.strokes == 4:  # the ports of a two-stroke close at the volume at which they opened
             clearance = self.piston.clearance(p.compression_ratio)
@@ -305,7 +316,8 @@ class _Cycle:
     def find_heat(self, goal: Goal) -> float:
         """Return the heat (J) with which the cycle reaches the goal."""
         name, value = goal
-        lowest, highest = self.find_goal(name, self.least), math.inf
+        lowest = self.find_goal(name, self.least)
+        highest = math.inf
         if self.most < math.inf:
             highest = self.find_goal(name, self.most)
         guess = min(self.constant * self.charge ** (1 - self.index), self.most - self.least)

@@ -192,11 +192,13 @@ def minimise(
         regions: Region of every unknown; empty: unknowns may lie anywhere.
         largest: Whether to minimise the largest weighted residual, not the sum of squares.
     """
-    columns, goal = weights[:, None] * matrix, weights * target
+    columns = weights[:, None] * matrix
+    goal = weights * target
     sizes = np.linalg.norm(columns, axis=0)
     shares = np.full(len(goal), 1 / len(goal))
     x = best = np.zeros_like(matrix[0])
-    bound, least = 0.0, np.inf
+    bound = 0.0
+    least = np.inf
     for _ in range(_ROUNDS if largest else 1):  # the first round has equal shares: least squares
         root = np.sqrt(shares)
         weighted = root[:, None] * columns / sizes
@@ -205,7 +207,8 @@ def minimise(
         if settled:
             bound = max(bound, float(np.sqrt(shares @ left**2)))
         if left.max() <= least:
-            best, least = x, float(left.max())
+            best = x
+            least = float(left.max())
         if least <= _VANISHES * np.abs(goal).max():
             bound = 0.0
             break
@@ -225,7 +228,8 @@ def _solve_within(
     free = solve(matrix, target).x
     if (_project(regions, sizes, free)[0] == free).all():
         return free, True
-    square, pull = matrix.conj().T @ matrix, matrix.conj().T @ target
+    square = matrix.conj().T @ matrix
+    pull = matrix.conj().T @ target
     steepest = float(np.linalg.norm(square, 2))
     turn = np.array([[0, -1], [1, 0]])  # each complex number is two rows: real, imaginary
     curvature = np.kron(square.real, np.eye(2)) + np.kron(square.imag, turn)
@@ -246,7 +250,8 @@ def _project(regions: Sequence[Region], sizes: Array, y: Complex) -> tuple[Compl
     """Return the point nearest to y with `point / sizes` in the regions, and its derivative by y (a
     real matrix).
     """
-    points, change = y.copy(), np.eye(2 * len(y))
+    points = y.copy()
+    change = np.eye(2 * len(y))
     for k, region in enumerate(regions):
         inner = y[k] / sizes[k]
         point, change[2 * k : 2 * k + 2, 2 * k : 2 * k + 2] = region.project(inner)

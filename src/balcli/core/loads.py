@@ -70,7 +70,10 @@ class Loads:
         pistons' forces times their offsets, `-m_rec e (-s'')`, of the couples of a linkage's
         masses, and of the moments of forces that act away from the point of reference.
         """
-        c, harmonics, square, series = self.cylinders, self.harmonics, self.square, []
+        c = self.cylinders
+        harmonics = self.harmonics
+        square = self.square
+        series = []
         if np.count_nonzero(c.couple):
             series.append((c.couple * square) * harmonics["rod"])
         if np.count_nonzero(c.offset) and _has_pistons(c):
@@ -91,7 +94,8 @@ class Loads:
         """Inertia torque on the crank, N m: `-1/2 dI/dtheta` times the squared speed, with the
         cylinders' moment of inertia I about the crank.
         """
-        inertia, n = self._inertia, self.phases.n
+        inertia = self._inertia
+        n = self.phases.n
         rate: Complex = np.asarray(-0.5j * n, np.complex128)
         return self.phases.add_scalars(Series(rate * inertia.c, 0.5 * n * inertia.noise))
 
@@ -124,7 +128,9 @@ class Loads:
         `-m_rec s'' + m_rot r e^{i psi}` times the squared speed, plus the force of a linkage's
         masses.
         """
-        c, phases, square = self.cylinders, self.phases, self.square
+        c = self.cylinders
+        phases = self.phases
+        square = self.square
         along = Series(np.zeros_like(phases.n))
         if _has_pistons(c):
             along = (c.reciprocating * c.radius * square / 2) * self.harmonics["piston"]
@@ -134,9 +140,11 @@ class Loads:
         error = phases.rounding * (np.abs(along.c) + turning) + along.noise
         if c.linkage is not None:
             half = c.linkage.mass * c.radius * square / 2
-            x, y = half * self.harmonics["along"], half * self.harmonics["across"]
+            x = half * self.harmonics["along"]
+            y = half * self.harmonics["across"]
             across: Complex = np.asarray(1j * y.c, np.complex128)
-            forward, mirrored = forward + (x.c + across), mirrored + (x.c - across)
+            forward = forward + (x.c + across)
+            mirrored = mirrored + (x.c - across)
             error = error + phases.rounding * (np.abs(x.c) + np.abs(y.c)) + (x.noise + y.noise)
         return Series(put_together(forward, mirrored), error)
 
@@ -159,7 +167,8 @@ def find_device_force(device: Device, n: Array, square: Figure) -> Phasors:
         square: Square of the crank speed, rad2/s2.
     """
     size = (n == device.order) * (device.order**2 * square)
-    forward, backward = size * device.forward, size * device.backward
+    forward = size * device.forward
+    backward = size * device.backward
     return Phasors.of(n.reshape(-1), forward, backward, SUM * (np.abs(forward) + np.abs(backward)))
 
 

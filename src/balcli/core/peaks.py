@@ -123,7 +123,8 @@ def _list_components(curves: Phasors) -> Complex:
     """Return the coefficients c of the components `Re(c e^{i n theta})` along x and y, shape
     (orders, *trailing, 2).
     """
-    ahead, astern = curves.forward, np.conj(curves.backward)
+    ahead = curves.forward
+    astern = np.conj(curves.backward)
     return np.stack([ahead + astern, -1j * (ahead - astern)], axis=-1)
 
 
@@ -182,7 +183,8 @@ def _search(orders: ArrayLike, phasors: Complex, *, squared: bool) -> CyclePeak:
         raise ValueError("orders have to be different multiples of 1/2, none below 0")
     common = max(int(np.gcd.reduce(harmonics[there])), 1)  # shortens the cycle as far as possible
     harmonics = harmonics[there] // common
-    shape, components = phasors.shape[1:-1], phasors.shape[-1]
+    shape = phasors.shape[1:-1]
+    components = phasors.shape[-1]
     parts = phasors[there].reshape(len(harmonics), -1, components).transpose(1, 2, 0)
     step = max(_AT_ONCE // (_SAMPLES * int(harmonics.max(initial=1)) * components), 1)
     found = [np.zeros((2, 0))]
@@ -243,15 +245,23 @@ def _climb(
     steps of at most `step`. `parts` has a row for each angle; see `_find_tops` for the
     other arguments.
     """
-    value, angle, moving = np.empty(len(start)), start.copy(), np.arange(len(start))
+    value = np.empty(len(start))
+    angle = start.copy()
+    moving = np.arange(len(start))
     rates = np.vander(harmonics.astype(complex), 3, increasing=True)
     for _ in range(_ROUNDS):
         turned = parts[moving] * np.exp(1j * angle[moving, None] * harmonics)[:, None]
         sums = turned @ rates
-        x, slope, bend = sums[..., 0].real, -sums[..., 1].imag, -sums[..., 2].real
+        x = sums[..., 0].real
+        slope = -sums[..., 1].imag
+        bend = -sums[..., 2].real
         if squared:
-            x, slope, bend = x * x, 2 * x * slope, 2 * (slope * slope + x * bend)
-        x, slope, bend = x.sum(axis=1), slope.sum(axis=1), bend.sum(axis=1)
+            bend = 2 * (slope * slope + x * bend)
+            slope = 2 * x * slope
+            x = x * x
+        x = x.sum(axis=1)
+        slope = slope.sum(axis=1)
+        bend = bend.sum(axis=1)
         uphill = np.where(bend < 0, -slope / np.where(bend < 0, bend, -1), np.sign(slope) * step)
         move = np.clip(uphill, -step, step)
         gain = slope * move / 2  # exact for a parabola
@@ -285,7 +295,8 @@ def find_highest(
         level: Lowest height that matters, shape (functions,).
         near: Share of the level that a value at an end of a searched interval must reach.
     """
-    best, highest = places[heights.argmax(axis=0)], heights.max(axis=0)
+    best = places[heights.argmax(axis=0)]
+    highest = heights.max(axis=0)
     ends = np.maximum(heights[1:], heights[:-1])
     rise = np.abs(np.diff(np.pad(heights, ((1, 1), (0, 0)), mode="edge"), axis=0))
     beside = np.maximum(np.maximum(rise[:-2], rise[1:-1]), rise[2:])
@@ -316,7 +327,8 @@ def find_peaks_between(
         which: Index of the function of each interval, shape (intervals,).
     """
     shares = np.arange(1, _PARTS)[:, None] / _PARTS
-    best, highest = low.copy(), np.full(len(low), -np.inf)
+    best = low.copy()
+    highest = np.full(len(low), -np.inf)
     going = np.arange(len(low))
     for _ in range(_CUTS):
         step = (high - low) / _PARTS
@@ -324,8 +336,11 @@ def find_peaks_between(
         ends = np.full((1, len(low)), -np.inf)
         rises = np.diff(np.concatenate([ends, heights, ends]), axis=0) >= 0
         top, at = np.nonzero(rises[:-1] & ~rises[1:])
-        going, step, place = going[at], step[at], low[at] + step[at] * (1 + top)
-        here, middle = heights[top, at], np.clip(top, 1, _PARTS - 3)
+        going = going[at]
+        step = step[at]
+        place = low[at] + step * (1 + top)
+        here = heights[top, at]
+        middle = np.clip(top, 1, _PARTS - 3)
         around = np.stack([heights[middle + k, at] for k in (-1, 0, 1)])
         _raise(best, highest, going, place, here)
         of_function = np.full(which.max(initial=0) + 1, -np.inf)
@@ -333,7 +348,9 @@ def find_peaks_between(
         # The peak may lie above the value at its place by as much as the next values lie below it.
         may = 2 * here - around.min(axis=0) >= of_function[which[going]]
         going, place, step, top = (each[may] for each in (going, place, step, top))
-        low, high, around = place - step, place + step, around[:, may]
+        low = place - step
+        high = place + step
+        around = around[:, may]
     before, middle, after = around
     bend = before - 2 * middle + after
     beside = (before - after) / (2 * np.where(bend < 0, bend, -np.inf))
@@ -349,7 +366,9 @@ def _raise(best: Real, highest: Real, going: Indices, place: Real, height: Real)
     """
     rising = np.argsort(height, kind="stable")  # the highest is written last
     higher = rising[height[rising] > highest[going[rising]]]
-    best[going[higher]], highest[going[higher]] = place[higher], height[higher]
+    improved = going[higher]
+    best[improved] = place[higher]
+    highest[improved] = height[higher]
 
 
 Judged = TypeVar("Judged", float, tuple[float, float])
@@ -369,15 +388,21 @@ def find_least(
         high: Upper end of the interval.
         rounds: Number of steps, each of which narrows the interval to 0.618 of its width.
     """
-    left, right = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
-    at_left, at_right = judge(left), judge(right)
+    left = high - _GOLDEN * (high - low)
+    right = low + _GOLDEN * (high - low)
+    at_left = judge(left)
+    at_right = judge(right)
     for _ in range(rounds):
         if at_left <= at_right:
-            high, right, at_right = right, left, at_left
+            high = right
+            right = left
+            at_right = at_left
             left = high - _GOLDEN * (high - low)
             at_left = judge(left)
         else:
-            low, left, at_left = left, right, at_right
+            low = left
+            left = right
+            at_left = at_right
             right = low + _GOLDEN * (high - low)
             at_right = judge(right)
     return left if at_left <= at_right else right

@@ -45,12 +45,14 @@ class Phases:
     """
 
     def __init__(self, cylinders: Cylinders, orders: Array) -> None:
-        axis, pin = cylinders.axis_deg, cylinders.pin_deg
+        axis = cylinders.axis_deg
+        pin = cylinders.pin_deg
         self.orders = orders
         self.n = orders.reshape(-1, *(1,) * pin.ndim)
         self.count = cylinders.count
         self.rounding = self.count * SUM + ANGLE * self.n
-        self._axis, self._turn = axis, self.n * (axis - axis[cylinders.first])
+        self._axis = axis
+        self._turn = self.n * (axis - axis[cylinders.first])
         self._starts = cylinders.starts
         self._moving: dict[int, Complex] = {}  # e^{i n pin} by cylinder, (orders, *trailing)
         if pin.ndim == 1:

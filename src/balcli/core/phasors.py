@@ -48,7 +48,8 @@ def compose(real: Array, imaginary: Array) -> Complex:
         imaginary: Imaginary part, of a shape that broadcasts with it.
     """
     result = np.empty(np.broadcast_shapes(real.shape, imaginary.shape), complex)
-    result.real, result.imag = real, imaginary
+    result.real = real
+    result.imag = imaginary
     return result
 
 
@@ -114,7 +115,8 @@ class Phasors:
         """
         half = coefficients / 2
         mean = _column(orders, half) == 0
-        forward, backward = np.where(mean, coefficients.real, half), np.where(mean, 0, half.conj())
+        forward = np.where(mean, coefficients.real, half)
+        backward = np.where(mean, 0, half.conj())
         return cls.of(orders, forward, backward, noise)
 
     @property
@@ -217,7 +219,8 @@ class Phasors:
 
     def _project(self, turn: complex) -> Complex:
         """Return the coefficients of the components along the axis that the factor turns onto x."""
-        ahead, against = turn * self.forward, turn * self.backward
+        ahead = turn * self.forward
+        against = turn * self.backward
         mean = _column(self.orders, ahead) == 0
         c = np.where(mean, ahead.real, ahead + np.conj(against))
         return np.where(np.abs(c) <= 2 * self.noise, 0, c)

@@ -121,7 +121,8 @@ class PiecewiseCurve:
         whole numbers k >= 0, shape (harmonics,); c_0 is the mean.
         """
         numbers = np.asarray(wanted, int)
-        unit, top = 2 * np.pi / self.period, int(numbers.max(initial=0))
+        unit = 2 * np.pi / self.period
+        top = int(numbers.max(initial=0))
         angle, weights = quadrature(cut(self.breaks, _REACH / (unit * max(top, 1))), _NODES)
         shares = (2 * self.within(angle) * weights).reshape(-1)
 
@@ -172,7 +173,8 @@ class PiecewiseCurve:
         point of every panel.
         """
         points, values = self._sample()
-        tie, noise = _TIE * float(np.ptp(values)), _ROUNDING * np.abs(values).max()
+        tie = _TIE * float(np.ptp(values))
+        noise = _ROUNDING * np.abs(values).max()
         heights = sign * values
         start = x = points[np.argmax(heights >= heights.max(axis=0) - tie, axis=0)]
         rate = legendre.legder(self.series)
@@ -181,8 +183,10 @@ class PiecewiseCurve:
             slope, curved = (legendre.legval(x, each, tensor=False) for each in (rate, bend))
             x = np.clip(x - slope / np.where(sign * curved < 0, curved, np.inf), -1, 1)
         low, high = (sign * legendre.legval(p, self.series, tensor=False) for p in (start, x))
-        x, height = np.where(high > low + noise, x, start), np.maximum(low, high)
-        first, top = int(np.argmax(height >= height.max() - tie)), float(height.max())
+        x = np.where(high > low + noise, x, start)
+        height = np.maximum(low, high)
+        first = int(np.argmax(height >= height.max() - tie))
+        top = float(height.max())
         middle, half = _find_middles(self.breaks)
         angle = middle[first] + half[first] * x[first]
         return Extreme(float(angle), sign * top if abs(top) > noise else 0.0)
@@ -208,8 +212,11 @@ def resolved(function: Function, breaks: ArrayLike, widest: float = _WIDEST) -> 
         widest: Largest width of a panel before any is halved, rad.
     """
     edges = cut(np.asarray(breaks, float), widest)
-    low, high = edges[:-1], edges[1:]
-    size, starts, found = 0.0, [], []
+    low = edges[:-1]
+    high = edges[1:]
+    size = 0.0
+    starts = []
+    found = []
     for halvings in range(_HALVINGS + 1):
         middle = (low + high) / 2
         values = function(middle + (high - low) / 2 * gauss(_TERMS)[0][:, None])
@@ -222,8 +229,11 @@ def resolved(function: Function, breaks: ArrayLike, widest: float = _WIDEST) -> 
         found.append(series[:, ~halve])
         if not halve.any():
             break
-        low, middle, high = low[halve], middle[halve], high[halve]
-        low, high = np.concatenate([low, middle]), np.concatenate([middle, high])
+        low = low[halve]
+        middle = middle[halve]
+        high = high[halve]
+        low = np.concatenate([low, middle])
+        high = np.concatenate([middle, high])
     start = np.concatenate(starts)
     rising = np.argsort(start)
     series = np.concatenate(found, axis=1)[:, rising]
@@ -238,9 +248,11 @@ def polyline(angle: ArrayLike, value: ArrayLike) -> PiecewiseCurve:
         angle: Rising angles, rad, shape (points,).
         value: Values at the angles, shape (points, *figure).
     """
-    angles, values = np.asarray(angle, float), np.asarray(value)
+    angles = np.asarray(angle, float)
+    values = np.asarray(value)
     wide = np.diff(angles) > 0
-    first, last = values[:-1][wide], values[1:][wide]
+    first = values[:-1][wide]
+    last = values[1:][wide]
     breaks = np.append(angles[:-1][wide], angles[-1])
     return PiecewiseCurve(breaks, np.stack([first + last, last - first]) / 2)
 
@@ -304,20 +316,30 @@ def find_zero(rising: Callable[[float], float], guess: float, at_zero: float) ->
         guess: Positive number to start with.
         at_zero: Value of the function at 0, negative.
     """
-    low, below, high = 0.0, at_zero, guess
+    low = 0.0
+    below = at_zero
+    high = guess
     while (above := rising(high)) < 0:
-        low, below, high = high, above, 2 * high
-    tried, was_below = high, False
+        low = high
+        below = above
+        high = 2 * high
+    tried = high
+    was_below = False
     for _ in range(_ROUNDS):
         share = 0.5 if above == math.inf else below / (below - above)
-        last, tried = tried, low + (high - low) * share
+        last = tried
+        tried = low + (high - low) * share
         value = rising(tried)
         if value == 0 or abs(tried - last) <= _ENOUGH * tried:
             break
         if value < 0:
-            low, below, above = tried, value, above / 2 if was_below else above
+            low = tried
+            below = value
+            above = above / 2 if was_below else above
         else:
-            high, above, below = tried, value, below if was_below else below / 2
+            high = tried
+            above = value
+            below = below if was_below else below / 2
         was_below = value < 0
     return low if above == math.inf else tried
 

@@ -303,7 +303,8 @@ def _describe_class(record: type, definitions: Node) -> Node:
 
 def _describe(kind: object, each: _Attribute, definitions: Node) -> Node:
     """Return the schema of a type within the annotation of an attribute."""
-    origin, arguments = get_origin(kind), get_args(kind)
+    origin = get_origin(kind)
+    arguments = get_args(kind)
     if origin is Annotated:
         return _describe(arguments[0], each, definitions)
     if origin in (Union, UnionType):

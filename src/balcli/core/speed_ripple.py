@@ -104,7 +104,8 @@ def find_timetable(w: Complex, step: float, samples: int) -> Timetable:
         step: Step of the orders, 1 or 1/2.
         samples: Number of samples of a cycle of 1 / step turns, many more than 2 k.
     """
-    reach, k = len(w) // 2, np.fft.fftfreq(samples, 1 / samples)
+    reach = len(w) // 2
+    k = np.fft.fftfreq(samples, 1 / samples)
     speed = np.zeros(samples, complex)
     speed[np.arange(-reach, reach + 1)] = w
     slow = 1 / np.fft.ifft(speed, norm="forward").real
@@ -305,7 +306,8 @@ def speed_variation(torque: PiecewiseCurve, inertia: Function, mean_speed: float
     low, high = speed.extremes()
     # the difference of the squared speeds, without cancellation if the inertia is constant
     angles = np.array([high.angle, low.angle])
-    (w, w0), (i, i0) = done.at(angles) - slowest.value, inertia(angles)
+    w, w0 = done.at(angles) - slowest.value
+    i, i0 = inertia(angles)
     squares = float((2 * (w * i0 - w0 * i) + above * (i0 - i)) / (i * i0))
     return SpeedVariation(squares / (high.value + low.value) / mean_speed, low, high, speed)
 
@@ -328,7 +330,8 @@ def needed_inertia(
         moving: Moment of inertia of the moving parts as a function of the crank angle, kg m2.
     """
     course = resolved(moving, torque.breaks)
-    mean, (least, most) = course.mean, course.extremes()
+    mean = course.mean
+    least, most = course.extremes()
     energy_above = surplus(torque).energy
     if not energy_above and most.value == least.value:
         return -least.value

@@ -80,7 +80,8 @@ def find_modes(springs: Real, stiffness: Real, mass: Real, rigid: Real | None = 
     scaled = np.sqrt(stiffness)[:, None] * np.linalg.solve(root, springs.T).T
     _, falling, turned = np.linalg.svd(scaled, full_matrices=False)
     elastic = slice(springs.shape[1] - len(rigid))
-    omega, turned = falling[elastic][::-1], turned[elastic][::-1]
+    omega = falling[elastic][::-1]
+    turned = turned[elastic][::-1]
     mixed = np.linalg.qr((rigid @ root).T, mode="r")
     signed = mixed * np.copysign(1, np.diag(mixed))[:, None]
     still = np.linalg.solve(signed.T, rigid)  # of unit modal mass, orthogonal to each other
@@ -109,7 +110,8 @@ def modal_loss(modes: Modes, stiffness: Complex, damping: Real) -> Real:
         stiffness: K with its loss as imaginary part, shape (n, n).
         damping: C, N s/m or N m s, shape (n, n).
     """
-    x, omega = modes.shapes, modes.omega
+    x = modes.shapes
+    omega = modes.omega
     lost = np.einsum("mi,ij,mj->m", x, stiffness.imag, x)
     damped = omega * np.einsum("mi,ij,mj->m", x, damping, x)
     return np.where(omega > 0, (lost + damped) / np.where(omega > 0, omega, 1) ** 2, 0)

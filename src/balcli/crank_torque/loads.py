@@ -82,7 +82,8 @@ def analyze_loads(engine: Engine, asked: Iterable[str] = KINDS_OF_LOAD) -> Cycle
         BalcliError: The gas pressure is unknown, or only main bearings are requested and their
             positions are unknown.
     """
-    steady, sizes = replace(engine, ripple=()), engine.bearings
+    steady = replace(engine, ripple=())
+    sizes = engine.bearings
     pin = knuckle = main = obstacle = None
     if "pin" in asked:
         # forces on crank or knuckle pins; the real part is outward along the cylinder's axis
@@ -95,7 +96,8 @@ def analyze_loads(engine: Engine, asked: Iterable[str] = KINDS_OF_LOAD) -> Cycle
         knuckle = tuple(replace(x, pressure_Pa=None) for x in loads if x.cylinder in hung) or None
     if "main" in asked:
         try:
-            places, vectors = place_main_bearings(steady), partial(compute_bearing_loads, steady)
+            places = place_main_bearings(steady)
+            vectors = partial(compute_bearing_loads, steady)
         except BearingsUnknownError as error:
             if pin is None:
                 raise
@@ -112,7 +114,8 @@ def _measure(engine: Engine, vectors: Vectors, area: float | None) -> Iterator[C
     rounding errors compared with the largest force become 0.
     """
 
-    compute, breaks = partial(compute_in_pieces, engine, vectors), find_breaks(engine)
+    compute = partial(compute_in_pieces, engine, vectors)
+    breaks = find_breaks(engine)
     panels = find_panels(compute, breaks, 1.0)
     every = compute(panels.angles)
     every[np.abs(every).max(axis=1) <= ROUNDING * np.abs(every).max()] = 0.0

@@ -69,12 +69,15 @@ def _draw_pressure(ax: Axes, engine: Engine, system: System, *, over_volume: boo
     """Draw the pressure of a cylinder over the cycle angle, from one gas-exchange dead centre to
     the next, or over the volume.
     """
-    gas, number = take_gas(engine), choose_firing_cylinder(engine)
-    cylinder, half = gas.cylinders[engine.numbers.index(number)], gas.cycle_deg / 2
+    gas = take_gas(engine)
+    number = choose_firing_cylinder(engine)
+    cylinder = gas.cylinders[engine.numbers.index(number)]
+    half = gas.cycle_deg / 2
     angle = _divide(-half, half, np.degrees(cylinder.torque.breaks))
     volume = cylinder.piston.volume(np.radians(angle), gas.compression_ratio or math.inf)
     pressure = cylinder.find_pressure(np.radians(angle))
-    s, v = system.pressure.fit(float(pressure.max())), system.volume.fit(float(volume.max()))
+    s = system.pressure.fit(float(pressure.max()))
+    v = system.volume.fit(float(volume.max()))
     ax.plot(volume / v.size if over_volume else angle, pressure / s.size, color=BLUE)
     ax.set(ylim=(0, None), ylabel=f"pressure, {s.name}")
     if over_volume:
@@ -95,7 +98,9 @@ def _draw_torque(ax: Axes, engine: Engine, unit: ShownUnit) -> None:
     crank = _divide(0.0, take_gas(engine).cycle_deg, np.degrees(curves.gas.breaks))
     torques = [curve.at(np.radians(crank)) for curve in (curves.gas, curves.total)]
     s = unit.fit(float(np.abs(torques[1]).max()))
-    gas, total, mean = torques[0] / s.size, torques[1] / s.size, curves.total.mean / s.size
+    gas = torques[0] / s.size
+    total = torques[1] / s.size
+    mean = curves.total.mean / s.size
     ax.fill_between(crank, total, mean, where=total >= mean, color=BLUE, alpha=0.18, linewidth=0)
     ax.fill_between(crank, total, mean, where=total <= mean, color=RED, alpha=0.18, linewidth=0)
     ax.plot(crank, gas, color=GREEN, linewidth=1, linestyle="--", label="gas")
@@ -124,9 +129,11 @@ def _draw_pin(fig: Figure, engine: Engine, unit: ShownUnit) -> None:
     """
     first = engine.numbers.index(choose_firing_cylinder(engine))
     on_pin = (master for master, hung in list_hung_rows(engine).items() if first in hung)
-    row, angle = next(on_pin, first), _list_angles(engine)
+    row = next(on_pin, first)
+    angle = _list_angles(engine)
     found = compute_rod_forces(engine, angle)
-    pin, number = found.pin[row], engine.numbers[row]
+    pin = found.pin[row]
+    number = engine.numbers[row]
     limit = float(np.abs(pin).max())
     left, right = fig.subplots(1, 2)
     _draw_polar(left, pin / found.throw[row], angle, unit, limit)

@@ -71,7 +71,8 @@ def build_gas(parts: Parts) -> EngineGas:
         InputError: [gas], gas keys of single cylinders or files named there have mistakes; the
             error lists all of them.
     """
-    gas, bore = _vary(parts), _take(parts, "piston.bore", parts.model.piston.bore)
+    gas = _vary(parts)
+    bore = _take(parts, "piston.bore", parts.model.piston.bore)
     if problems := list(_list_contradictions(parts, gas, bore)):
         raise InputError(problems)
     found = pistons(parts.cylinders, math.pi / 4 * ((bore or 0.0) / 1e3) ** 2)
@@ -94,7 +95,8 @@ def _find_knees(gas: Gas, found: Sequence[GasPiston], strokes: int) -> list[Arra
     law demands less imep than the cycle has without heat. For a dual cycle, a second array follows:
     the speeds up to which the law demands less imep than the cycle needs to reach `max_pressure`.
     """
-    process, rated = _describe_process(gas, strokes), _find_goal(gas, None).value
+    process = _describe_process(gas, strokes)
+    rated = _find_goal(gas, None).value
     kinds = ("otto", "dual") if gas.cycle == "dual" else (process.cycle,)
     processes = [replace(process, cycle=kind) for kind in kinds]
     least = [[find_least_imep(piston, one) for piston in found] for one in processes]
@@ -114,7 +116,9 @@ def _follow_speed(
     Raises:
         InputError: The same errors as for `build_gas`.
     """
-    nodes, problems, doubts = dict[float, EngineGas](), list[Problem](), list[str]()
+    nodes = dict[float, EngineGas]()
+    problems = list[Problem]()
+    doubts = list[str]()
     for number, speed in enumerate(gas.speeds, 1):
         name = partial(_name_point, gas, number)
         try:
@@ -133,11 +137,15 @@ def _follow_speed(
             return _blend(nodes, speed)
         return make(_take_at(gas, speed), at_least=gas.law is not None and speed < gas.speeds[-1])
 
-    first, speeds, least = nodes[gas.speeds[0]], gas.speeds, 0.0
+    first = nodes[gas.speeds[0]]
+    speeds = gas.speeds
+    least = 0.0
     if gas.law is not None:
-        (rated,), knees = gas.speeds, find_knees()
+        (rated,) = gas.speeds
+        knees = find_knees()
         low = {0.0, *(rated * share for share in np.ravel(knees).tolist() if share < 1)}
-        speeds, least = (*sorted(low), rated), rated * float(knees[0].max())
+        speeds = (*sorted(low), rated)
+        least = rated * float(knees[0].max())
         with suppress(InputError):  # the cycle may not reach this imep
             solve(rated * _OVERSPEED)
             speeds = (*speeds, rated * _OVERSPEED)
@@ -151,7 +159,9 @@ def _blend(nodes: Mapping[float, EngineGas], speed: float) -> EngineGas:
     high = min((node for node in nodes if node > speed), default=low)
     if high == low or speed < low:
         return nodes[low]
-    share, one, two = (speed - low) / (high - low), nodes[low].cylinders, nodes[high].cylinders
+    share = (speed - low) / (high - low)
+    one = nodes[low].cylinders
+    two = nodes[high].cylinders
     rows = {cylinder.like for cylinder in one}
     torques = {row: blend(one[row].torque, two[row].torque, share) for row in rows}
     each = (cylinder._replace(torque=torques[cylinder.like]) for cylinder in one)
@@ -206,7 +216,8 @@ def _build_steady(
     Raises:
         InputError: The same errors as for `build_gas`.
     """
-    strokes, problems = parts.model.layout.strokes, list[Problem]()
+    strokes = parts.model.layout.strokes
+    problems = list[Problem]()
     sources = [_find_source(parts, gas, number) for number in parts.numbers]
     keys = [
         (*mechanism, source.indicator, source.heat)
@@ -218,9 +229,12 @@ def _build_steady(
         told = f"{MOST_DIFFERENT_GAS} are computed: give more of them the same figures"
         raise InputError([Problem("gas", many + told)])
 
-    torques, doubts, overfed = dict[int, GasTorque](), list[str](), list[str]()
+    torques = dict[int, GasTorque]()
+    doubts = list[str]()
+    overfed = list[str]()
     for row in sorted(set(like)):
-        source, piston = sources[row], found[row]
+        source = sources[row]
+        piston = found[row]
         name = source.indicator or gas.harmonics
         try:
             if name is None:
@@ -344,7 +358,8 @@ def _read_harmonics(
     orders, cosines, sines = (np.array(columns.column(k)) for k in range(3))
     if not len(orders):
         raise BalcliError(f"{name}: has no rows; give rows of order,cos,sin")
-    step, before = 2 / strokes, -math.inf
+    step = 2 / strokes
+    before = -math.inf
     for order, sine, line in zip(orders.tolist(), sines.tolist(), columns.lines, strict=True):
         wrong = ""
         if order <= before:
@@ -377,7 +392,8 @@ def _compute_cycle(
     Raises:
         InputError: No cycle is possible with the value of a key.
     """
-    process, goal = _describe_process(gas, strokes), _find_goal(gas, source.heat)
+    process = _describe_process(gas, strokes)
+    goal = _find_goal(gas, source.heat)
     if source.heat == 0:  # expansion reverses compression
         process = replace(process, cycle="otto", expansion_index=process.compression_index)
     try:
@@ -449,7 +465,8 @@ def _find_nominal(parts: Parts, tops: Sequence[float]) -> Iterator[float]:
         parts: Stages of the engine.
         tops: Top dead centre of each row's mechanism, rad.
     """
-    fires, cycle = parts.fires_deg, 180.0 * parts.model.layout.strokes
+    fires = parts.fires_deg
+    cycle = 180.0 * parts.model.layout.strokes
     origin = find_first(fires) if fires else 1
     first = parts.numbers.index(origin)
     for row, number in enumerate(parts.numbers):

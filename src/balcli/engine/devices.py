@@ -37,7 +37,8 @@ def build_devices(parts: Parts) -> Iterator[Device]:
 
 def _build_coupling_pins(parts: Parts, first_axis_deg: Figure) -> Iterator[Device]:
     """Yield the coupling masses of a locomotive, which turn with its axles, as counterweights."""
-    table, figures = parts.model.locomotive, parts.figures
+    table = parts.model.locomotive
+    figures = parts.figures
     if table is None or table.coupling_planes is None or table.coupling_angles is None:
         return
     given = figures.take_optional("locomotive.coupling_radius", table.coupling_radius)
@@ -75,7 +76,8 @@ def build_device(
     if table.to_fit:
         command = "run balcli balance FILE --write OUT, which puts a figure in its place"
         raise InputError([Problem("", f'{path}.unbalance is "fit": {command}')])
-    take, sector = figures.take, None
+    take = figures.take
+    sector = None
     unbalance = find_given_unbalance(table, figures, path)
     if isinstance(table, Counterweight) and table.sector is not None:
         sector = find_sector(table, table.sector, figures, path)
@@ -92,14 +94,16 @@ def build_device(
     place = place_in_plane(x / 1e3, y / 1e3)
     if isinstance(table, Shaft):
         forward, backward = (turning, 0j) if table.ratio > 0 else (0j, turning)
-        order, compensates = abs(table.ratio), table.role == "compensator"
+        order = abs(table.ratio)
+        compensates = table.role == "compensator"
         spin = table.ratio * take(f"{path}.inertia", table.inertia) / 1e6
         kind = DeviceKind.SHAFT
         return Device(order, forward, backward, place, z, kind, compensates, spin)
     # With unbalance U, order n and crank angle theta, the vector `U cos(n theta + angle)` along the
     # slider's path is the sum of two vectors of size U/2, which turn in opposite directions.
     half = _turn(0.5, take(f"{path}.direction", table.direction))
-    forward, backward = half * turning, half * np.conj(turning)
+    forward = half * turning
+    backward = half * np.conj(turning)
     return Device(table.order, forward, backward, place, z, DeviceKind.SLIDER)
 
 
@@ -176,7 +180,9 @@ def find_sector(
     if is_double or f"{path}.sector" in figures.displaced:
         told = "the file gives thickness or unbalance of the sector; vary the one that it gives"
         raise InputError([Problem(path, told)])
-    inner, outer, angle = inner / 1e3, outer / 1e3, opening * (math.pi / 180)
+    inner = inner / 1e3
+    outer = outer / 1e3
+    angle = opening * (math.pi / 180)
     area = angle / 2 * (outer**2 - inner**2)
     first = 2 / 3 * (_turn(outer**3 - inner**3, opening / 2).imag + 0.0)  # 0 for a whole ring
     # mass per area of the sector, kg/m2

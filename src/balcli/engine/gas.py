@@ -138,7 +138,8 @@ class EngineGas:
 
         def find_at_all(speeds_rpm: ArrayLike) -> Array:
             grown = np.asarray(speeds_rpm, float) ** law.power
-            found, beyond = find_curve().within(grown), grown > nodes[-1]
+            found = find_curve().within(grown)
+            beyond = grown > nodes[-1]
             if law.power > 1 and beyond.any():
                 found[beyond] = find_each(grown[beyond])
             return found
@@ -188,8 +189,11 @@ class GasLaw:
         """Yield warnings if some of these speeds (rpm) are outside the points of [[gas.at]], or if
         the propeller law demands less imep there than a cycle has without heat.
         """
-        low, high, least = np.min(speeds_rpm), np.max(speeds_rpm), self.least_rpm
-        first, last = self.nodes_rpm[0], self.nodes_rpm[-1]
+        low = np.min(speeds_rpm)
+        high = np.max(speeds_rpm)
+        least = self.least_rpm
+        first = self.nodes_rpm[0]
+        last = self.nodes_rpm[-1]
         ends = [f"the gas of {first:g} rpm is used at {low:g} rpm"] * bool(low < first)
         ends += [f"the gas of {last:g} rpm is used at {high:g} rpm"] * bool(high > last)
         if ends and self.power == 1:

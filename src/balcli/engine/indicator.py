@@ -54,8 +54,10 @@ def build_diagram(
     Raises:
         BalcliError: The first mistake in the diagram's file, with its line number.
     """
-    gauge, period = gas.pressure == "gauge" or columns.units[1] in GAUGE_UNITS, 180.0 * strokes
-    angle, pressure = np.array(columns.column(0)), np.array(columns.column(1)) * BAR
+    gauge = gas.pressure == "gauge" or columns.units[1] in GAUGE_UNITS
+    period = 180.0 * strokes
+    angle = np.array(columns.column(0))
+    pressure = np.array(columns.column(1)) * BAR
     pressure += ATMOSPHERE if gauge else 0.0
     for below in np.flatnonzero(pressure < 0).tolist():
         found = f"line {columns.lines[below]}: the pressure is {columns.as_written(below, 1)}"
@@ -93,7 +95,8 @@ def _average_cycles(angle: Array, pressure: Array, period: float) -> tuple[Array
     if len(angle) < 2 or not (np.delete(steps, starts) > 0).all():
         return angle, pressure, 1
     through = angle + period * np.searchsorted(starts, np.arange(len(angle)) - 0.5)
-    steps, span = np.diff(through), through[-1] - through[0]
+    steps = np.diff(through)
+    span = through[-1] - through[0]
     usual = np.median(np.diff(angle))
     count = round((span + usual) / period)
     gap = abs(span - count * period)
@@ -124,7 +127,8 @@ def draw_diagram(
         firing_deg: Angle of the firing dead centre in the diagram: minus the phase, or 360 minus
             the phase if angles count from the gas-exchange dead centre.
     """
-    angle, values = np.asarray(angle_deg, float), np.asarray(pressure, float)
+    angle = np.asarray(angle_deg, float)
+    values = np.asarray(pressure, float)
     period = 180.0 * strokes
     kept = slice(-1 if _is_closed(angle, period) else None)
     corners = np.append(angle[kept], angle[0] + period) - firing_deg
@@ -141,7 +145,8 @@ def find_diagram_mistakes(
         pressure: Absolute pressures, Pa, shape (rows,).
         strokes: 2 or 4.
     """
-    angle, values = np.asarray(angle_deg, float), np.asarray(pressure, float)
+    angle = np.asarray(angle_deg, float)
+    values = np.asarray(pressure, float)
     period = 180.0 * strokes
     if len(angle) < 2:
         yield None, f"has {len(angle)} rows; a cycle of {period:g}° needs more"
@@ -177,7 +182,8 @@ def list_doubts(
         found: Pressure over the cycle angle, Pa.
         imep: Indicated mean effective pressure, Pa.
     """
-    unit, scale = _name_unit(columns), columns.scales[1] * BAR  # Pa
+    unit = _name_unit(columns)
+    scale = columns.scales[1] * BAR  # Pa
     top, value = find_highest(found)
     if abs(math.degrees(top)) > NEAR_DEG:
         yield (
@@ -197,7 +203,8 @@ def list_doubts(
             f"{path}: the lowest pressure is {lowest:.4g} {unit} absolute, where at least "
             f"{LOW_PRESSURE * BAR / scale:.4g} is usual{ASK_GAUGE}"
         )
-    stated, measured = gas.imep if path == "gas.indicator" else None, imep / BAR
+    stated = gas.imep if path == "gas.indicator" else None
+    measured = imep / BAR
     if stated is not None and abs(measured - stated) > SAME_IMEP * abs(stated):
         yield (
             f"gas.imep is {stated:g} bar, but the diagram has {measured:.4g} bar; a phase error of "

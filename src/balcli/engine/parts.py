@@ -55,7 +55,8 @@ if TYPE_CHECKING:
 # ------------------------------------------------------------------ pistons and rods
 def find_masters(parts: Parts) -> dict[int, int]:
     """Return the cylinder number of the master rod, by number of each articulated cylinder."""
-    table, cells = parts.model.articulation, parts.plan.cells
+    table = parts.model.articulation
+    cells = parts.plan.cells
     if table is None:
         return {}
     places = parts.find_master_places()
@@ -102,7 +103,9 @@ class Pins(NamedTuple):
 
 def set_pins(parts: Parts) -> Pins:
     """Return axes, dead centres, throws and crank pins."""
-    model, figures, cells = parts.model, parts.figures, parts.plan.cells
+    model = parts.model
+    figures = parts.figures
+    cells = parts.plan.cells
     banks = bank_angles(model.layout, figures)
     turn = find_row_angle(model.layout, parts.plan.throws, figures)
     axes = {
@@ -111,7 +114,8 @@ def set_pins(parts: Parts) -> Pins:
     }
     tops = axes
     if model.articulation is None:
-        gears, find = parts.gears, parts.find_radius
+        gears = parts.gears
+        find = parts.find_radius
         tops = {n: axis + parts.sense * gears[n].top_deg(find(n)) for n, axis in axes.items()}
     splay = figures.take("crank.splay", model.crank.splay)
     if parts.throws_given or parts.order is None:
@@ -150,9 +154,11 @@ def find_fires(parts: Parts) -> dict[int, Figure]:
     layout = parts.model.layout
     if parts.order is None:
         return {}
-    intervals, cycle = layout.firing_intervals, cycle_deg(layout)
+    intervals = layout.firing_intervals
+    cycle = cycle_deg(layout)
     if intervals is None and parts.throws_given:
-        leads, tops = parts.pins.leads_deg, parts.true_tops_deg
+        leads = parts.pins.leads_deg
+        tops = parts.true_tops_deg
         ready = {n: parts.sense * float(tops[n] - lead) for n, lead in leads.items()}
         intervals = tuple(find_intervals(parts.order, ready, cycle))
     return find_instants(parts.order, intervals, cycle)
@@ -160,18 +166,23 @@ def find_fires(parts: Parts) -> dict[int, Figure]:
 
 def weigh_cylinders(parts: Parts) -> dict[int, CylinderMasses]:
     """Return the masses of each cylinder as a workshop weighs them, by cylinder number."""
-    take, bobweight = parts.figures.take, parts.model.bobweight
-    throw_mass, plan = parts.model.crank.throw_mass, parts.plan
+    take = parts.figures.take
+    bobweight = parts.model.bobweight
+    throw_mass = parts.model.crank.throw_mass
+    plan = parts.plan
     of_throws = parts.figures.take_for_each("crank.throw_mass", throw_mass, plan.throws)
     rod_bearing = take("bobweight.rod_bearing", bobweight.rod_bearing)
     oil = parts.figures.take_optional("bobweight.oil", bobweight.oil)
     oil_per_pin = parts.figures.take_optional("bobweight.oil_per_pin", bobweight.oil_per_pin)
-    piston, weighed = tuple(parts.find_piston_masses().items()), {}
+    piston = tuple(parts.find_piston_masses().items())
+    weighed = {}
     leads = parts.pins.leads_deg
     crosshead = take("crosshead.mass", parts.model.crosshead.mass)
     for cell in parts.plan.cells:
-        number, hung = cell.number, cell.number in parts.masters
-        gear, own = parts.gears[number], parts.override(number, "piston_mass")
+        number = cell.number
+        hung = cell.number in parts.masters
+        gear = parts.gears[number]
+        own = parts.override(number, "piston_mass")
         shared: Figure = 0.0
         if oil_per_pin is not None and not hung:  # shared by the rods on the same crank pin
             rods = [c.number for c in parts.plan.cells if c.throw == cell.throw]
@@ -213,7 +224,9 @@ class Places(NamedTuple):
 
 def find_places(parts: Parts) -> Places:
     """Return the places of cylinders and throws."""
-    model, figures, plan = parts.model, parts.figures, parts.plan
+    model = parts.model
+    figures = parts.figures
+    plan = parts.plan
     if model.crank.positions is None or "crank.positions" in figures.displaced:
         spacing = figures.take("crank.spacing", model.crank.spacing or 0.0)
         along = tuple((throw - (plan.throws - 1) / 2) * spacing for throw in range(plan.throws))
@@ -257,7 +270,8 @@ def _turn(parts: Parts) -> tuple[Mapping[int, Figure], Mapping[int, Figure]]:
     """Return the angles of axes, and of crank pins from cylinder 1's. In rotary engines, where
     cylinders turn about pins at rest, the two are exchanged (`core.mechanisms.linkage.Rotary`).
     """
-    axes, leads = parts.pins.axes_deg, parts.pins.leads_deg
+    axes = parts.pins.axes_deg
+    leads = parts.pins.leads_deg
     if not parts.model.layout.rotary:
         return axes, leads
     return {n: axes[1] + lead for n, lead in leads.items()}, {
@@ -267,8 +281,13 @@ def _turn(parts: Parts) -> tuple[Mapping[int, Figure], Mapping[int, Figure]]:
 
 def arrange_cylinders(parts: Parts) -> Cylinders:
     """Return the arrays of all cylinders, one row each, sorted by bank (`Parts.numbers`)."""
-    (axes, pins), numbers, rank = _turn(parts), parts.numbers, parts.rank
-    gears, weighed, masters, radius = parts.gears, parts.weighed, parts.masters, parts.find_radius
+    axes, pins = _turn(parts)
+    numbers = parts.numbers
+    rank = parts.rank
+    gears = parts.gears
+    weighed = parts.weighed
+    masters = parts.masters
+    radius = parts.find_radius
     one = all(gears[n] is gears[numbers[0]] for n in numbers)  # no cylinder differs from the others
     one = one and not isinstance(parts.model.crank.throw_mass, tuple)
 
@@ -306,7 +325,8 @@ def _link(parts: Parts, at_pistons: Array) -> Linkage | None:
         parts: Stages of the engine.
         at_pistons: Masses at the piston pins, kg: one row for each cylinder, or a single row.
     """
-    table, rotary = parts.model.articulation, parts.model.layout.rotary
+    table = parts.model.articulation
+    rotary = parts.model.layout.rotary
     if table is None:
         return Rotary(at_pistons) if rotary else None
     hung = _hang_rods(parts, table)
@@ -320,7 +340,10 @@ def _hang_rods(parts: Parts, table: Articulation) -> Articulated:
     """Return the mechanism of master and articulated rods. If the cylinders turn about a crank at
     rest, all angles change sign.
     """
-    numbers, masters, axes, rank = parts.numbers, parts.masters, parts.pins.axes_deg, parts.rank
+    numbers = parts.numbers
+    masters = parts.masters
+    axes = parts.pins.axes_deg
+    rank = parts.rank
     angles = {n: axes[n] - axes[master] for n, master in masters.items()}
     if (given := parts.find_knuckle_angles()) is not None:
         angles = {c.number: given[c.throw][c.bank] for c in parts.plan.cells if c.number in masters}
@@ -369,7 +392,8 @@ class Parts:
         rank: int = 0,
         known_gas: EngineGas | None = None,
     ) -> None:
-        self.model, self.gas = model, known_gas
+        self.model = model
+        self.gas = known_gas
         self.figures = FileFigures(varied or {}, model)
         self.varies = bool(varied)
         self.rank = max(rank, *map(np.ndim, (varied or {}).values()), 0)
@@ -398,7 +422,8 @@ class Parts:
     @property
     def throw_strokes(self) -> tuple[Figure, ...]:
         """Stroke of every throw, mm."""
-        given, count = self.model.crank.stroke, self.plan.throws
+        given = self.model.crank.stroke
+        count = self.plan.throws
         return self.figures.take_for_each("crank.stroke", given, count)
 
     def find_radius(self, number: int) -> Figure:
@@ -408,7 +433,8 @@ class Parts:
     @cached_property
     def _general_rods(self) -> tuple[RodFigures, RodFigures]:
         """General figures of rods on crank pins, and of articulated rods."""
-        rod, table = rod_figures(self.figures, self.model.rod), self.model.articulation
+        rod = rod_figures(self.figures, self.model.rod)
+        table = self.model.articulation
         if table is None:
             return rod, RodFigures()
         return rod, rod_figures(self.figures, table.rod, "articulation.rod")
@@ -432,7 +458,8 @@ class Parts:
             number: Number of the cylinder; 0 for the general figures.
             articulated: Whether the rod is articulated.
         """
-        general, own = self._general_rods[articulated], RodFigures()
+        general = self._general_rods[articulated]
+        own = RodFigures()
         if (table := self.tables.get(number)) is not None:
             own = rod_figures(self.figures, table, f"cylinder.{number}", "rod_")
         return RodPlace(number, articulated, general.with_own(own), own, general)
@@ -441,7 +468,8 @@ class Parts:
         """Return the masses of the parts of a piston, kg, by their keys; only `mass` for pistons
         weighed whole.
         """
-        table, take = self.model.piston, self.figures.take_optional
+        table = self.model.piston
+        take = self.figures.take_optional
         given = {key: take(f"piston.{key}", getattr(table, key)) for key in ("mass", *PISTON_PARTS)}
         return {key: mass for key, mass in given.items() if mass is not None}
 
@@ -450,7 +478,8 @@ class Parts:
         cylinder has no figures of its own), throw (0 if all throws have one stroke), and whether
         the rod is articulated.
         """
-        number, throw = place.number if place.number in self.tables else 0, 0
+        number = place.number if place.number in self.tables else 0
+        throw = 0
         if isinstance(self.model.crank.stroke, tuple) and place.number:
             throw = next(c.throw for c in self.plan.cells if c.number == place.number)
         return number, throw, place.articulated
@@ -459,7 +488,8 @@ class Parts:
         """Return piston and rod of one cylinder; cylinders without figures of their own share one
         object.
         """
-        number, key = place.number, self.kind_of_rod(place)
+        number = place.number
+        key = self.kind_of_rod(place)
         if key not in self._gears:
             offset = self.figures.take("piston.offset", self.model.piston.offset)
             mass = sum(self.find_piston_masses().values())
@@ -476,7 +506,8 @@ class Parts:
 
     def find_ripple(self) -> tuple[RippleLine, ...]:
         """Return the orders of the uneven speed; empty for a steady speed."""
-        take, lines = self.figures.take, []
+        take = self.figures.take
+        lines = []
         for k, line in enumerate(self.model.operation.speed_ripple, 1):
             path = f"operation.speed_ripple.{k}"
             amplitude = take(f"{path}.amplitude", line.amplitude)
@@ -488,7 +519,8 @@ class Parts:
         table = self.model.articulation
         if table is None:
             return ()
-        masters, throws = table.masters, self.plan.throws
+        masters = table.masters
+        throws = self.plan.throws
         if len(masters) not in (1, throws):
             told = f"{counted(len(masters), 'master')} for {counted(throws, 'row')}; give one "
             told += f"from 1 to {self.plan.banks}, or one per row"
@@ -499,10 +531,12 @@ class Parts:
         """Return the angles of each throw's knuckle pins by bank, deg; None where the file gives
         none.
         """
-        table, path = self.model.articulation, "articulation.knuckle_angles"
+        table = self.model.articulation
+        path = "articulation.knuckle_angles"
         if table is None or table.knuckle_angles is None:
             return None
-        banks, throws = self.plan.banks, self.plan.throws
+        banks = self.plan.banks
+        throws = self.plan.throws
         every = cast(tuple[float, ...], table.knuckle_angles)
         found = [self.figures.take_each(path, every)] * throws
         if rows := [row for row in table.knuckle_angles if isinstance(row, tuple)]:

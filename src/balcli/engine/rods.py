@@ -105,10 +105,13 @@ def weigh_rod(
         piston: Piston mass, kg.
     """
     if rod.small_end is not None or rod.big_end is not None:
-        small, big = or_zero(rod.small_end), or_zero(rod.big_end)
+        small = or_zero(rod.small_end)
+        big = or_zero(rod.big_end)
     else:
-        mass, from_big_end = or_zero(rod.mass), or_zero(rod.cg)
-        small, big = mass * (from_big_end / length), mass * ((length - from_big_end) / length)
+        mass = or_zero(rod.mass)
+        from_big_end = or_zero(rod.cg)
+        small = mass * (from_big_end / length)
+        big = mass * ((length - from_big_end) / length)
     whole = small + big
     share = small / np.where(whole == 0, 1.0, whole)  # (centre of mass to big end) / length
     two_masses = whole * share * (1 - share) * length**2
@@ -158,7 +161,8 @@ def check_ends(place: RodPlace) -> Iterator[Problem]:
     """Check that a rod weighed at one end is weighed at the other as well."""
     ends = [end for end in ENDS if end in place.rod.given]
     if len(ends) == 1:
-        path, missing = place.path(*ends), next(end for end in ENDS if end not in ends)
+        path = place.path(*ends)
+        missing = next(end for end in ENDS if end not in ends)
         other = f"rod_{missing}" if path.startswith("cylinder") else missing
         yield Problem(path, f"needs {other} as well: weigh the rod at both ends")
 
@@ -208,9 +212,11 @@ def check_rod_inertia(place: RodPlace, gear: RunningGear) -> Iterator[Problem]:
     length_mm = np.min(gear.length) * 1e3
     cg_mm = np.max(or_zero(place.rod.cg)) * 1e3
     # The general centre of mass may not fit the length of this cylinder's rod.
-    path, what = place.path("cg"), ""
+    path = place.path("cg")
+    what = ""
     if place.own.given.keys() & {*LENGTHS} and "cg" not in place.own.given:
-        path, what = place.path(*LENGTHS), f"{path} = "
+        what = f"{path} = "
+        path = place.path(*LENGTHS)
     told = f"{what}{cg_mm:g} mm is outside the rod of {length_mm:g} mm: give a cg from 0 to "
     yield Problem(path, f"{told}{length_mm:g} mm, or the rod's inertia")
 
@@ -224,7 +230,8 @@ def check_turning(place: RodPlace, gear: RunningGear, radius: Figure) -> Iterato
         gear: Running gear of its cylinder.
         radius: Crank radius, m.
     """
-    lam, eps = np.max(radius / gear.length), np.max(np.abs(gear.offset / gear.length))
+    lam = np.max(radius / gear.length)
+    eps = np.max(np.abs(gear.offset / gear.length))
     if lam + eps <= 1 - NEAREST_TO_LOCK:
         return
     sum_ = f"; with the piston offset over rod length, the sum is {lam + eps:.9g}" if eps else ""

@@ -79,7 +79,8 @@ def find_doubts(result: FieldBalance) -> Iterator[str]:
 def _doubt_trials(result: FieldBalance, series: list[Series]) -> Iterator[str]:
     """Yield warnings of weak trial weights, and of corrections far above all trial weights."""
     for correction in result.corrections:
-        plane, weight = correction.plane, abs(correction.weight)
+        plane = correction.plane
+        weight = abs(correction.weight)
         k = result.file.planes.index(plane)
         for each in series:
             alpha, found = fit_coefficients(each)
@@ -134,7 +135,8 @@ def _predict(series: Series, used: list[int]) -> tuple[Complex, float]:
     first = series._replace(readings=series.readings[:count], weights=series.weights[:count])
     alpha, found = fit_coefficients(first)
     changes = series.weights @ alpha.T
-    predicted, largest = found + changes, float(max(np.abs(found).max(), np.abs(changes).max()))
+    predicted = found + changes
+    largest = float(max(np.abs(found).max(), np.abs(changes).max()))
     return np.where(np.abs(predicted) <= _ROUNDING * largest, 0, predicted), largest
 
 
@@ -330,7 +332,8 @@ def find_corrections(
     """
     used = _choose_planes(file, without)
     runs = find_influence(file, used, name)
-    matrix, now = runs.coefficients[:, used], runs.start
+    matrix = runs.coefficients[:, used]
+    now = runs.start
     _refuse_dependent(matrix, [file.planes[k] for k in used], name)
     phases, senses = file.senses
     limits = [PlaneLimits.of_plane(file, k) for k in used]
@@ -355,7 +358,8 @@ def find_corrections(
     own_effects = 1 / np.linalg.norm(inverse, axis=1)
     corrections = []
     for j, k in enumerate(used):
-        on, add = runs.weights_on[k], complex(file.turn(step[j]))
+        on = runs.weights_on[k]
+        add = complex(file.turn(step[j]))
         weight = complex(file.turn(on + step[j]))
         corrections.append(
             Correction(

@@ -92,12 +92,14 @@ class Influence(NamedTuple):
 
 def collect_series(file: RunsFile) -> list[Series]:
     """Return the runs as one series for each speed, in the order of the file."""
-    found, speeds = list[Series](), dict.fromkeys(run.speed for run in file.run)
+    found = list[Series]()
+    speeds = dict.fromkeys(run.speed for run in file.run)
     rows = file.influence and np.array(file.influence, complex)
     known = [None] * len(speeds) if rows is None else np.split(rows, len(speeds))
     for speed, given in zip(speeds, known, strict=True):
         numbers = [k for k, run in enumerate(file.run) if run.speed == speed]
-        kept, states = np.zeros(len(file.planes), dtype=complex), []
+        kept = np.zeros(len(file.planes), dtype=complex)
+        states = []
         for run in (file.run[k] for k in numbers):
             states.append(kept + [run.weights.get(plane, 0j) for plane in file.planes])
             kept = states[-1] if run.keep_trial else kept
@@ -118,18 +120,23 @@ def find_influence(file: RunsFile, used: Collection[int], name: str = "") -> Inf
     Raises:
         InputError: The runs do not determine the coefficients of all planes.
     """
-    planes, blocks = len(file.planes), []
-    trim, goes_on = -1, np.zeros(planes, dtype=complex)  # index and weights of the last correction
+    planes = len(file.planes)
+    blocks = []
+    trim = -1
+    goes_on = np.zeros(planes, dtype=complex)  # index and weights of the last correction
     for series in collect_series(file):
         count = count_needed(series, used)
         if count is None:
             raise InputError([_explain_undetermined(file, series, used)], name)
         alpha, found = fit_coefficients(series)
-        latest, on = found, np.zeros(planes, dtype=complex)
+        latest = found
+        on = np.zeros(planes, dtype=complex)
         if (last := find_last_correction(series, count)) is not None:
-            latest, on = series.readings[last], series.weights[last]
+            latest = series.readings[last]
+            on = series.weights[last]
             if series.numbers[last] > trim:
-                trim, goes_on = series.numbers[last], on
+                trim = series.numbers[last]
+                goes_on = on
         speeds = np.full(len(found), series.speed_rpm, dtype=object)
         blocks.append((speeds, alpha, found, latest, latest - alpha @ on))
     speeds, alpha, found, latest, bare = map(np.concatenate, zip(*blocks, strict=True))
@@ -158,7 +165,8 @@ def fit_coefficients(series: Series) -> tuple[Complex, Complex]:
     else:
         design = _design(series)
         fitted = np.array([solve(design, column).x for column in series.readings.T])
-        found, changes = fitted[:, 0], fitted[:, 1:]
+        found = fitted[:, 0]
+        changes = fitted[:, 1:]
         unmoved = np.abs(changes) <= _ROUNDING * np.abs(series.readings).max(axis=0)[:, None]
         alpha = changes * ~unmoved / (np.abs(series.weights).max() or 1.0)
     bare = ~series.weights.any(axis=1)
@@ -179,18 +187,26 @@ def find_scatter(file: RunsFile, runs: Influence, used: list[int], step: Complex
         Distances as amounts of weight, shape (planes used,); None if there are only as many
         readings as unknowns.
     """
-    after, blocks, squares, freedom = runs.weights_on.copy(), collect_series(file), 0.0, 0
+    after = runs.weights_on.copy()
+    blocks = collect_series(file)
+    squares = 0.0
+    freedom = 0
     after[used] += step
     factors = runs.factors
     gains = []  # variance of each reading to cancel, relative to that of a single reading
     for series, scale in zip(blocks, np.split(factors, len(blocks)), strict=True):
-        design, readings = _design(series), series.readings
+        design = _design(series)
+        readings = series.readings
         if series.given is not None:
-            design, readings = design[:, :1], readings - series.weights @ series.given.T
-        inverse, bare = np.linalg.pinv(design), ~series.weights.any(axis=1)
-        taken, moved = bare / max(bare.sum(), 1) if bare.any() else inverse[0], after
+            design = design[:, :1]
+            readings = readings - series.weights @ series.given.T
+        inverse = np.linalg.pinv(design)
+        bare = ~series.weights.any(axis=1)
+        taken = bare / max(bare.sum(), 1) if bare.any() else inverse[0]
+        moved = after
         if (last := find_last_correction(series, count_needed(series, used) or 0)) is not None:
-            taken, moved = np.arange(len(readings)) == last, after - series.weights[last]
+            taken = np.arange(len(readings)) == last
+            moved = after - series.weights[last]
         if series.given is None:
             taken = taken + moved / (np.abs(series.weights).max() or 1.0) @ inverse[1:]
         gains.append(np.full(len(scale), np.linalg.norm(taken) ** 2))
@@ -198,7 +214,8 @@ def find_scatter(file: RunsFile, runs: Influence, used: list[int], step: Complex
         errors[np.abs(errors) <= _ROUNDING * np.abs(series.readings * scale).max()] = 0
         squares += float(np.sum(np.abs(errors) ** 2))
         freedom += (len(readings) - int(np.linalg.matrix_rank(design))) * len(scale)
-    matrix, gain = factors[:, None] * runs.coefficients[:, used], np.concatenate(gains)
+    matrix = factors[:, None] * runs.coefficients[:, used]
+    gain = np.concatenate(gains)
     left = factors * runs.start + matrix @ step
     left[np.abs(left) <= _ROUNDING * np.abs(factors * runs.found).max()] = 0
     inverse = np.linalg.pinv(matrix)
@@ -222,7 +239,8 @@ def count_needed(series: Series, used: Collection[int]) -> int | None:
     """
     if series.given is not None:
         return 1
-    design, unknowns = _design(series), _count_unknowns(series, used)
+    design = _design(series)
+    unknowns = _count_unknowns(series, used)
     counts = range(1, len(design) + 1)
     return next((n for n in counts if np.linalg.matrix_rank(design[:n]) == unknowns), None)
 

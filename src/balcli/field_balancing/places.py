@@ -62,7 +62,8 @@ class PlaneLimits(NamedTuple):
         unit = file.find_unbalance_per_weight(k)
         if file.drill is None or file.radius is None or unit is None:
             return cls(places, most, None)
-        rim, drill = file.radius[k] / 1e3, file.drill[k] / 1e3
+        rim = file.radius[k] / 1e3
+        drill = file.drill[k] / 1e3
         deepest = file.deepest[k] / 1e3 if file.deepest else rim
         heaviest = min(most, find_drilled_unbalance(deepest, rim, drill) / unit)
 
@@ -128,7 +129,9 @@ def split_weight(
     if size <= noise:
         return ()
     angles, numbers, unit = _sort_places(angles_deg)
-    target, limit, nothing = wanted / size, most / size, max(_ROUNDING, noise / size)
+    target = wanted / size
+    limit = most / size
+    nothing = max(_ROUNDING, noise / size)
     count = len(angles)
     sums = np.concatenate([[0], np.cumsum(np.tile(unit, 2))])
     first = np.arange(count)
@@ -166,7 +169,8 @@ def find_region(angles_deg: Array, most: float) -> Region:
     gaps = np.append(angles[1:], angles[0] + 360) - angles
     before = np.flatnonzero(gaps >= 180 - _ROUNDING)
     after = (before + 1) % len(angles)
-    ways, far = np.append(unit[after], -unit[before]), np.full(len(before), np.inf)
+    ways = np.append(unit[after], -unit[before])
+    far = np.full(len(before), np.inf)
     return Region(starts=np.zeros_like(ways), ways=ways, lengths=np.append(far, -far))
 
 
@@ -185,7 +189,8 @@ def _resolve(wanted: Complex, one: Complex, other: Complex, nothing: float) -> A
     If `other` is half a turn or more ahead of `one`, only `one` is used. -1 marks an impossible
     weight.
     """
-    across, miss = (np.conj(one) * other).imag, (np.conj(one) * wanted).imag
+    across = (np.conj(one) * other).imag
+    miss = (np.conj(one) * wanted).imag
     parts = np.array([-(np.conj(other) * wanted).imag, miss])
     alone = np.where(np.abs(miss) < nothing, (np.conj(one) * wanted).real, -1.0)
     two = across > _ROUNDING

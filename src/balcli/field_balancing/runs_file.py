@@ -64,7 +64,8 @@ class Polar(Number):
 
     def __init__(self, example: str, *, zero: bool) -> None:
         super().__init__(PLAIN)
-        self.example, self.zero = example, zero
+        self.example = example
+        self.zero = zero
 
     def read(self, value: object) -> complex:  # type: ignore[override]
         text = value if isinstance(value, str) and len(value) <= LONGEST_FIGURE else ""

@@ -105,7 +105,8 @@ def locate_beside(folder: Path, name: str) -> Path:
         BalcliError: The path leaves the folder, or no file can have that name.
     """
     try:
-        home, place = folder.resolve(), (folder / name).resolve()
+        home = folder.resolve()
+        place = (folder / name).resolve()
     except ValueError as error:  # a letter that this system's file names lack (LC_ALL=C)
         raise BalcliError(f"{shorten(name)}: cannot be read ({error})") from None
     if not place.is_relative_to(home):
@@ -167,11 +168,14 @@ def _parse(text: str, wanted: Sequence[Head]) -> NumberColumns:
             lines[number] = squeezed.strip()
         lines[next(iter(lines))] = re.sub(r"\s+(?=[\[(])", "_", next(iter(lines.values())))
         lines = {n: " ".join(line.split()) for n, line in lines.items()}
-    numbers, cells = list(lines)[1:], csv.reader(lines.values(), delimiter=mark)
+    numbers = list(lines)[1:]
+    cells = csv.reader(lines.values(), delimiter=mark)
     heading = [cell.strip() for cell in next(cells, [])]
     rows = list(cells)
     if rows and (joined := _join_units(heading, rows[0])):
-        heading, rows, numbers = joined, rows[1:], numbers[1:]
+        heading = joined
+        rows = rows[1:]
+        numbers = numbers[1:]
     found = [_find_head(head, heading, wanted, mark) for head in wanted]
     places = [place for place, _, _ in found]
     width = len(heading) if mark in ", " else None

@@ -37,7 +37,8 @@ SPEED = 9.0  # lowest speed, rpm; the largest ship engines idle at 15, and 1 rad
 # Engines with a stroke above 1 m, and slow engines with a stroke above two bores, are usually
 # two-strokes.
 CROSSHEAD_STROKE = 1000.0  # mm
-SLOW_SPEED, SLOW_BORES = 250.0, 2.0  # rpm, bores
+SLOW_SPEED = 250.0
+SLOW_BORES = 2.0  # rpm, bores
 OFFSET = 0.2  # largest offset / stroke: up to 0.05 is usual, in narrow-angle vees up to 0.15
 MAX_PRESSURE = 500.0  # largest cylinder pressure, bar; engines have 50 to 250
 # Absolute pressures: 0.26 bar at an altitude of 10 km, 10 bar after two stages of charging; figures
@@ -104,7 +105,8 @@ def find_suspicious(model: EngineFile) -> list[str]:
     """
     figures = [*_list_pistons(model), *_list_rods(model), *_list_cranks(model)]
     if model.locomotive is not None and model.locomotive.wheel_load is not None:
-        load, hint = model.locomotive.wheel_load, ask_unit("N", "40 kN", "9.5 t")
+        load = model.locomotive.wheel_load
+        hint = ask_unit("N", "40 kN", "9.5 t")
         figures.append(Figure("locomotive.wheel_load is", load, WHEEL_LOAD, math.inf, " N", hint))
     question = ask_unit("bar", "130 psi", "0.9 MPa")
     for path, key, value in walk_figures("gas", list_tables(model.gas)):
@@ -170,7 +172,8 @@ def _find_missing(model: EngineFile) -> Iterator[str]:
         yield "piston.mass is 0; give the mass of piston, pin, rings and locks"
     if model.rod.mass and model.rod.cg is None:
         yield "rod.cg is not given, and 0 is taken; measure it from the big-end centre"
-    crank, (throws, rods) = model.crank, _count_throws_and_rods(model)
+    crank = model.crank
+    throws, rods = _count_throws_and_rods(model)
     # A single figure is repeated for all throws; lists of a wrong length are rejected elsewhere.
     masses, strokes = (np.resize(each, throws) for each in (crank.throw_masses, crank.strokes))
     of_throws = float(masses @ (strokes / 2) ** 2)
@@ -186,7 +189,9 @@ def _find_missing(model: EngineFile) -> Iterator[str]:
             f"cylinder.{placed[0]}.position is given, but {left} cylinders have no position and "
             "are all at 0: give the position of each, or crank.spacing"
         )
-    stroke, speed, bore = max(crank.strokes), model.operation.speed, model.piston.bore
+    stroke = max(crank.strokes)
+    speed = model.operation.speed
+    bore = model.piston.bore
     slow = speed < SLOW_SPEED and bore is not None and stroke > SLOW_BORES * bore
     if "strokes" not in model.layout.model_fields_set and (stroke > CROSSHEAD_STROKE or slow):
         yield (
@@ -199,11 +204,14 @@ def _find_missing(model: EngineFile) -> Iterator[str]:
 
 
 def _list_pistons(model: EngineFile) -> Iterator[Figure]:
-    strokes, bore, speed = model.crank.strokes, model.piston.bore, model.operation.speed
+    strokes = model.crank.strokes
+    bore = model.piston.bore
+    speed = model.operation.speed
     stroke = max(strokes)
     narrow, wide = (BORE[0] * min(strokes), BORE[1] * stroke) if bore is None else (bore, bore)
     heavy = CROSSHEAD_HEAVY if _has_crosshead(model) else PISTON[1]
-    least, most = PISTON[0] * (narrow * 1e-3) ** 3, heavy * (wide * 1e-3) ** 3
+    least = PISTON[0] * (narrow * 1e-3) ** 3
+    most = heavy * (wide * 1e-3) ** 3
     unit = f" kg at a stroke of {stroke:g} mm" if bore is None else f" kg in a bore of {bore:g} mm"
     units = "are the units right? Bare numbers are kg and mm"
     name = "the parts of [piston] weigh" if model.piston.mass is None else "piston.mass is"
@@ -216,14 +224,17 @@ def _list_pistons(model: EngineFile) -> Iterator[Figure]:
             yield Figure("piston.bore / crank.stroke is", bore / each, *BORE, "", SAME_UNIT)
     most = OFFSET * stroke
     yield Figure("piston.offset is", model.piston.offset, -most, most, " mm", "is it in mm?")
-    mean, right = stroke * speed / 30e3, "are operation.speed and crank.stroke right?"
+    mean = stroke * speed / 30e3
+    right = "are operation.speed and crank.stroke right?"
     yield Figure("the mean piston speed is", mean, 0, PISTON_SPEED, " m/s", right)
     thousands = "a point separates decimals, not thousands"
     yield Figure("operation.speed is", speed, SPEED, math.inf, " rpm", thousands)
 
 
 def _list_rods(model: EngineFile) -> Iterator[Figure]:
-    rod, mass, piston = model.rod, _weigh_rod(model), _weigh_piston(model)
+    rod = model.rod
+    mass = _weigh_rod(model)
+    piston = _weigh_piston(model)
     length = rod.length or (max(model.crank.strokes) / 2 / rod.ratio if rod.ratio else math.inf)
     most = CROSSHEAD_LAMBDA if _has_crosshead(model) else LAMBDA[1]
     meaning = "crank.stroke is twice the crank radius, rod.length the distance between its centres"
@@ -246,7 +257,8 @@ def _list_rods(model: EngineFile) -> Iterator[Figure]:
         if rod.cg is not None and 0 < rod.cg < length:
             two_masses = TWO_MASSES * mass * rod.cg * (length - rod.cg)
             if two_masses < rod.inertia <= most:
-                most, about = two_masses, "does it belong to this mass, cg and length?"
+                most = two_masses
+                about = "does it belong to this mass, cg and length?"
         yield Figure("rod.inertia is", rod.inertia, least, most, " kg mm^2", about)
 
 
@@ -254,7 +266,9 @@ def _list_cranks(model: EngineFile) -> Iterator[Figure]:
     """Yield figures of the crankshaft and of parts that turn with it. Their usual ranges follow
     from the rods and pistons.
     """
-    crank, shares, wheel = model.crank, model.bobweight, model.flywheel
+    crank = model.crank
+    shares = model.bobweight
+    wheel = model.flywheel
     angles = crank.throws or (0.0,)
     if (span := max(angles) - min(angles)) >= THROWS[0]:
         name = "crank.throws: the largest difference between two is"
@@ -262,7 +276,8 @@ def _list_cranks(model: EngineFile) -> Iterator[Figure]:
     if bank := model.layout.bank_angle:
         yield Figure("layout.bank_angle is", bank, BANK, math.inf, " deg", RADIANS)
     throws, rods = _count_throws_and_rods(model)
-    one, radius = _weigh_piston(model) + _weigh_rod(model), max(crank.strokes) / 2
+    one = _weigh_piston(model) + _weigh_rod(model)
+    radius = max(crank.strokes) / 2
     throw_mass = max(crank.throw_masses)
     if one:
         most = THROW * rods / throws * one

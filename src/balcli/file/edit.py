@@ -123,14 +123,16 @@ def _edit(text: str, table: str, changes: Node, wanted: Any, note: str) -> str:
     place: Any = document
     for name in table.split("."):
         if isinstance(place, list):
-            place, wanted = place[int(name) - 1], wanted[int(name) - 1]
+            place = place[int(name) - 1]
+            wanted = wanted[int(name) - 1]
             continue
         if isinstance(place.get(name), InlineTable):
             changes = {name: wanted[name]}
             break
         if name not in place:
             place[name] = tomlkit.table()
-        place, wanted = place[name], wanted[name]
+        place = place[name]
+        wanted = wanted[name]
     body = place.value.body if isinstance(place, Table) else ()
     for key, value in changes.items():
         if value is None:
@@ -143,7 +145,8 @@ def _edit(text: str, table: str, changes: Node, wanted: Any, note: str) -> str:
         else:
             place[key] = item
         if not item.trivia.comment:
-            item.trivia.comment_ws, item.trivia.comment = "    ", f"# {note}"
+            item.trivia.comment_ws = "    "
+            item.trivia.comment = f"# {note}"
         elif note not in item.trivia.comment:
             item.trivia.comment = f"{item.trivia.comment.rstrip()} ({note})"
     return tomlkit.dumps(document)

@@ -143,11 +143,13 @@ class TableReader:
             return
         hint, near = suggest(key, own or (), is_engine=self.is_engine)
         heading = f"[{path}]" if own is None else format_heading(path)
-        table, meant = printable(heading), join_path(path, [near]) if near else ""
+        table = printable(heading)
+        meant = join_path(path, [near]) if near else ""
         message = f"unknown key in {table if path else self.file_kind}"
         is_table = isinstance(value, Mapping) and key in KNOWN and key not in TEXTS
         if self.is_engine and path and is_table:
-            message, meant = f"{key} is a table of its own, not one within {table}", key
+            message = f"{key} is a table of its own, not one within {table}"
+            meant = key
             hint = f"write {format_heading(key)} and its keys below it"
         elif own is None:
             message = f"there is no table {table}"

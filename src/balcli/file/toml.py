@@ -66,7 +66,8 @@ def find_near_file(source: str | Path) -> str:
     """Return the end of a message, with the file or example that was probably meant; empty if no
     name is similar.
     """
-    with_ending, asked = f"{source}.toml", Path(source)
+    with_ending = f"{source}.toml"
+    asked = Path(source)
     if Path(with_ending).is_file():
         return f"; {with_ending} is there: did you mean it?"
     if asked.suffix in ("", ".toml") and is_example(asked.stem):
@@ -101,9 +102,11 @@ def parse_toml(text: str | bytes, file: str, right: str = ENGINE_FILE) -> Node:
         except tomllib.TOMLDecodeError as error:
             message = f"is not valid TOML: {str(error)[:300]}{_explain(decoded, str(error))}"
         except RecursionError:
-            decoded, message = "", _TOO_DEEP
+            decoded = ""
+            message = _TOO_DEEP
         except ValueError:  # Python limits the number of digits
-            decoded, message = "", "has a number with thousands of digits"
+            decoded = ""
+            message = "has a number with thousands of digits"
     # A text without any key or heading was not meant as TOML, unless it is empty.
     key = r"""^(?:[\w."' \t-]++=|[ \t]*+\[{1,2}[\w. \t-]*(?:\]|$))"""
     if re.search(r"^[ \t]*[^\s#]", decoded, re.M) and not re.search(key, decoded, re.M):

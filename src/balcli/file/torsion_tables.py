@@ -183,7 +183,8 @@ def find_shaft_inertia(shaft: ShaftKeys, density: float | None) -> float:
 
 def _find_polar_moment(shaft: ShaftKeys) -> float:
     """Return the polar moment of the section, m4; 0 without a diameter."""
-    outer, inner = (shaft.diameter or 0.0) / 1e3, (shaft.bore or 0.0) / 1e3
+    outer = (shaft.diameter or 0.0) / 1e3
+    inner = (shaft.bore or 0.0) / 1e3
     return math.pi * (outer**4 - inner**4) / 32
 
 

@@ -301,7 +301,8 @@ def compute_loads_with_gas(engine: Engine, orders: Array | None = None) -> Loads
             size: Bound of the terms from which the weights are computed; it determines the rounding
                 error of the values.
         """
-        values, least = factor * (weights @ samples), ROUNDING * size * largest
+        values = factor * (weights @ samples)
+        least = ROUNDING * size * largest
         forward, backward = panels.find_orders(values, shown)
         phasors = Phasors.of(shown, forward, backward, np.full(forward.shape, least))
         peaks = map(panels.find_largest, values)
@@ -313,7 +314,8 @@ def compute_loads_with_gas(engine: Engine, orders: Array | None = None) -> Loads
         block.
         """
         borne = weigh(span, sections) @ shares
-        own, of_block = weigh(on_shaft, sections), weigh(on_block, sections)
+        own = weigh(on_shaft, sections)
+        of_block = weigh(on_block, sections)
         return np.hstack([own - borne, 0 * of_block]), np.hstack([borne, of_block])
 
     shear, block_shear = cut(find_ahead)
@@ -380,7 +382,8 @@ def compute_forces_along(engine: Engine, crank_deg: Array) -> tuple[Complex, Com
     pressed = found.axis * found.pin
     for master, hung in list_hung_rows(engine).items():
         pressed[master] -= pressed[hung].sum(axis=0)
-    c, (speed, rate) = engine.cylinders, find_crank_speed(engine, crank_deg)
+    c = engine.cylinders
+    speed, rate = find_crank_speed(engine, crank_deg)
     throws = np.array([[float(weighed.share)] for weighed in engine.weighed]) * as_rows(c.radius)
     pins_deg = float(engine.first_axis_deg) + np.ravel(c.pin_deg)[:, None]
     turning = throws * (speed**2 - 1j * rate) * unit(crank_deg + pins_deg)
@@ -410,7 +413,8 @@ def refuse_too_many_forces(engine: Engine, angles: int = 0) -> None:
         BalcliError: There are too many; the error states the numbers.
     """
     angles = angles or quadrature(cut(find_breaks(engine), 0.5))[0].size
-    cylinders, count = engine.cylinders.count, 2 * engine.cylinders.count + len(engine.devices)
+    cylinders = engine.cylinders.count
+    count = 2 * engine.cylinders.count + len(engine.devices)
     if count * angles > MOST_FORCES_OVER_CYCLE:
         raise BalcliError(
             f"loads with gas: {count} forces of {cylinders} cylinders at {angles} angles of the "

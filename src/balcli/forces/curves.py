@@ -84,7 +84,8 @@ class EngineMotion:
     """
 
     def __init__(self, engine: Engine, crank_deg: Array) -> None:
-        self.engine, self.cylinders = engine, engine.cylinders
+        self.engine = engine
+        self.cylinders = engine.cylinders
         c = engine.cylinders
         self.radius = as_rows(c.radius)
         self.crank_deg = crank_deg
@@ -118,10 +119,12 @@ def find_crank_speed(engine: Engine, crank_deg: Array) -> tuple[Array, Array]:
         engine: One engine, not an array of variants.
         crank_deg: Crank angles, deg, shape (angles,).
     """
-    ratio, slope = np.ones_like(crank_deg), np.zeros_like(crank_deg)
+    ratio = np.ones_like(crank_deg)
+    slope = np.zeros_like(crank_deg)
     for line in engine.ripple:
         wave = line.amplitude * unit(line.order * crank_deg - line.angle_deg)
-        ratio, slope = ratio + wave.real, slope - line.order * wave.imag
+        ratio = ratio + wave.real
+        slope = slope - line.order * wave.imag
     return engine.omega * ratio, engine.omega**2 * ratio * slope
 
 
@@ -136,7 +139,8 @@ def compute_device_forces(engine: Engine, crank_deg: Array) -> Complex:
     rows = np.empty((len(engine.devices), len(crank_deg)), complex)
     for row, d in enumerate(engine.devices):
         ahead = unit(d.order * crank_deg)
-        radial, along = d.order**2 * omega**2, 1j * d.order * xi
+        radial = d.order**2 * omega**2
+        along = 1j * d.order * xi
         rows[row] = d.forward * ahead * (radial - along)
         rows[row] += d.backward * np.conj(ahead) * (radial + along)
     return rows
@@ -149,7 +153,9 @@ def torque_of_cylinders(motion: EngineMotion) -> Array:
     the crank's axis, r the crank radius, `spin` the rod's angular velocity at crank speed 1, and H
     `Cylinders.couple`.
     """
-    c, r, m = motion.cylinders, motion.radius, motion.moved
+    c = motion.cylinders
+    r = motion.radius
+    m = motion.moved
     on_axis = as_rows(c.reciprocating) * r**2 * m.velocity * m.acceleration
     half_slope = on_axis + motion.mass * r**2 * m.power - as_rows(c.couple) * m.spin * m.spin_rate
     inertia = _inertia_of_cylinders(motion)
@@ -158,7 +164,9 @@ def torque_of_cylinders(motion: EngineMotion) -> Array:
 
 def _inertia_of_cylinders(motion: EngineMotion) -> Array:
     """Return the inertia I of each cylinder, kg m2, shape (cylinders, angles)."""
-    c, r, m = motion.cylinders, motion.radius, motion.moved
+    c = motion.cylinders
+    r = motion.radius
+    m = motion.moved
     on_axis = as_rows(c.reciprocating) * m.velocity**2 + motion.mass * m.energy
     inertia = r**2 * (on_axis + as_rows(c.rotating)) - as_rows(c.couple) * m.spin**2
     return np.asarray(np.broadcast_to(inertia, motion.psi.shape))
@@ -195,7 +203,8 @@ def find_torque_curves(engine: Engine) -> TorqueCurves:
     """
     from ..core.cylinder_pressure import crank_torque  # engines without gas do not load it
 
-    gas, times = take_gas(engine), count_repeats(engine)
+    gas = take_gas(engine)
+    times = count_repeats(engine)
     cylinders = [(c.torque, c.fires, c.share) for c in gas.cylinders]
     # If a two-stroke engine is geared to a four-stroke one, it has two cycles in the common cycle.
     twice = [c for c in gas.cylinders if engine.placed and 1.5 * c.torque.curve.period < gas.cycle]
@@ -210,7 +219,8 @@ def count_repeats(engine: Engine) -> int:
     """Return the number of periods of the torque in a cycle: one for each firing if the cylinders
     are equal and fire exactly evenly, else one. (One interval is computed faster than a cycle.)
     """
-    gas, c = take_gas(engine), engine.cylinders
+    gas = take_gas(engine)
+    c = engine.cylinders
     if engine.placed:
         return 1
     columns = (c.radius, c.offset, c.lam, c.eps, c.reciprocating, c.rotating, c.couple)
@@ -241,7 +251,8 @@ def find_moving_inertia(engine: Engine) -> Function:
     """
 
     def find(motion: EngineMotion) -> Array:
-        inertia, own = _inertia_of_cylinders(motion), motion.engine
+        inertia = _inertia_of_cylinders(motion)
+        own = motion.engine
         if own.crank_inertia is None or own.rotary:
             return inertia
         throws = np.array([float(weighed.share) for weighed in own.weighed])
@@ -270,7 +281,8 @@ def silence(engine: Engine, number: CylinderNumber) -> Engine:
     Raises:
         BalcliError: The engine has no gas, or no such cylinder, or the cylinder is a dummy.
     """
-    gas, row = take_gas(engine), find_row(engine, number)
+    gas = take_gas(engine)
+    row = find_row(engine, number)
     if not engine.placed and number not in (engine.fires_deg or {number}):
         raise BalcliError(f"cylinder {number} is a dummy piston, which never fires")
     each = [one._replace(share=one.share * (k != row)) for k, one in enumerate(gas.cylinders)]
@@ -282,7 +294,8 @@ def _silence_in_file(model: EngineFile, number: CylinderNumber) -> EngineFile:
     """Return a file without the gas of one cylinder, which may belong to one of several engines."""
     if isinstance(number, str):
         name, _, own = number.rpartition(".")
-        cranks, k = list(model.cranks), model.crank_names.index(name)
+        cranks = list(model.cranks)
+        k = model.crank_names.index(name)
         cranks[k] = _silence_in_file(cranks[k], int(own))
         return model.with_cranks(cranks)
     table = model.cylinder.get(number, Override.model_construct())

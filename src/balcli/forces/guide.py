@@ -72,7 +72,8 @@ def compute_guide_moments(
         few = every[every <= HIGHEST_GAS_ORDER_UNASKED]
         every = merge_orders(few, list_gas_orders(engine))
     rolls = compute_spectra(about_crank, every, [roll], each=True)[roll]
-    c, z = engine.cylinders, np.ravel(engine.cylinders.z)
+    c = engine.cylinders
+    z = np.ravel(engine.cylinders.z)
     h = sum_weighted(rolls, np.ones(c.count))
     due = mark_considerable(h)
     height = np.broadcast_to(np.ravel(c.rod_length) if height_m is None else height_m, c.count)
@@ -82,7 +83,8 @@ def compute_guide_moments(
         due |= mark_considerable(x)
     if orders is None:
         orders = every[due]
-    h, x = h.select_orders(orders), x and x.select_orders(orders)
+    h = h.select_orders(orders)
+    x = x and x.select_orders(orders)
     return GuideMoments(h, x, height[np.argsort(engine.numbers)], engine.gas is not None)
 
 

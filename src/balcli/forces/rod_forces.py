@@ -69,9 +69,11 @@ def compute_rod_forces(engine: Engine, crank_deg: Array) -> RodForces:
     Raises:
         BalcliError: The engine has no gas, or its cylinder pressure is not known.
     """
-    source, motion = take_gas(engine), EngineMotion(engine, crank_deg)
+    source = take_gas(engine)
+    motion = EngineMotion(engine, crank_deg)
     angles = np.radians(crank_deg) - as_rows(source.fires)
-    pressure, gas = np.empty_like(angles), np.empty_like(angles)
+    pressure = np.empty_like(angles)
+    gas = np.empty_like(angles)
     for torque, rows in source.group_equal():
         if torque.pressure is None:
             raise BalcliError("loads of pins need pressures, but [gas] has only torque harmonics")
@@ -86,11 +88,14 @@ def compute_rod_forces(engine: Engine, crank_deg: Array) -> RodForces:
     turned = unit(np.degrees(motion.psi))
     axis = unit(motion.pin_deg) if engine.rotary else np.broadcast_to(motion.axis, turned.shape)
     throw = np.conj(turned) if engine.rotary else turned
-    m, c, side = motion.moved, engine.cylinders, 1 if engine.rotary else -1
+    m = motion.moved
+    c = engine.cylinders
+    side = 1 if engine.rotary else -1
     lean = np.broadcast_to(m.cosine + 1j * side * m.lean, turned.shape)
     span = as_rows(c.lam) / (motion.radius * lean.real)  # 1/Re d, 0 in harmonic motion
     piston, (foot, foot_acceleration) = _follow_ends(engine, motion, throw)
-    up, aside = piston.real, piston.imag
+    up = piston.real
+    aside = piston.imag
     along = heads * up + gas
     spin_rate = m.spin_rate * motion.omega**2 + m.spin * motion.xi
     across = lean.imag / lean.real * (along + small * up) - small * aside
@@ -126,7 +131,8 @@ def _follow_ends(
     """Return accelerations of the piston pins, m/s2, and positions, m, and accelerations of the
     lower ends of the rods, in each cylinder's frame, each of shape (cylinders, angles).
     """
-    r, m = motion.radius, motion.moved
+    r = motion.radius
+    m = motion.moved
 
     def follow(point: PointMass, turned: Complex | float = 1.0) -> tuple[Complex, Complex]:
         """Return position and acceleration of a point from its derivatives by the crank angle, in

@@ -203,12 +203,16 @@ def _see(one: Placed, kind: Kind, own: Phasors) -> Phasors:
     """Return the phasors of a kind in the axes of all engines, from those in an engine's own."""
     n = own.orders.reshape(-1, *(1,) * (own.forward.ndim - 1))
     lead = unit(n * one.phase_deg)
-    forward, backward = lead * own.forward, np.conj(lead) * own.backward
+    forward = lead * own.forward
+    backward = np.conj(lead) * own.backward
     noise = own.noise + (SUM + ANGLE * n) * (np.abs(own.forward) + np.abs(own.backward))
     if one.ratio < 0 and kind.name not in ("torque", "gas"):
         sign = 1.0 if kind.dimension == "force" else -1.0
-        ahead, against, mean = sign * forward.conj(), sign * backward.conj(), n == 0
-        forward, backward = np.where(mean, ahead, against), np.where(mean, 0, ahead)
+        ahead = sign * forward.conj()
+        against = sign * backward.conj()
+        mean = n == 0
+        forward = np.where(mean, ahead, against)
+        backward = np.where(mean, 0, ahead)
     turn = unit(one.turn_deg) if kind.vector else 1.0
     return Phasors.of(own.orders, turn * forward, turn * backward, noise)
 
@@ -291,7 +295,9 @@ def _compute_inertia(
     engine: Engine, orders: Array, parts: Collection[str], each: bool
 ) -> dict[str, Phasors]:
     """Return the phasors of some kinds of inertia by name; arguments as in `compute_spectra`."""
-    c, (x, y, z), uneven = engine.cylinders, engine.reference_m, bool(engine.ripple)
+    c = engine.cylinders
+    x, y, z = engine.reference_m
+    uneven = bool(engine.ripple)
     names = [name for name in KINDS if name in parts]
     if not names:
         return {}
@@ -312,7 +318,8 @@ def _compute_inertia(
         return steady
     scale = engine.omega**2 / (c.count if each else 1)
     momentum, energy = (scale * value for value in engine.find_turning_inertia(beyond_pins=True))
-    found, lowest = {}, make_loads(0)
+    found = {}
+    lowest = make_loads(0)
     for name, phasors in steady.items():
         mean: Figure = 0.0
         if name == "torque":
@@ -504,7 +511,8 @@ def follow_gas(engine: Engine, find: Callable[[Engine], Complex]) -> GasAtSpeeds
     Raises:
         BalcliError: The engine has no gas.
     """
-    gas, volume = take_gas(engine), float(engine.displacement_m3)
+    gas = take_gas(engine)
+    volume = float(engine.displacement_m3)
     by_speed = gas.follow(lambda own: find(replace(engine, gas=own)))
 
     def find_torque(speeds_rpm: ArrayLike) -> Complex:

@@ -103,8 +103,10 @@ def find_stars(
     """
     orders = np.array([order for order in asked if order > 0])
     alone = without_devices(engine)
-    axes, row_of = engine.cylinders.axis_of_each_deg, engine.numbers.index
-    banks, count = _list_banks(engine), len(engine.cylinders.starts)
+    axes = engine.cylinders.axis_of_each_deg
+    row_of = engine.numbers.index
+    banks = _list_banks(engine)
+    count = len(engine.cylinders.starts)
     each = compute_spectra(alone, orders, kinds, each=True)
     total = compute_spectra(alone, orders, kinds)
     members = np.array([np.isin(engine.numbers, bank) for bank in banks], float)

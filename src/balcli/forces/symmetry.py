@@ -133,7 +133,8 @@ def find_textbook_units(engine: Engine, orders: Array) -> TextbookUnits:
         engine: One engine, not an array of variants.
         orders: Orders, shape (orders,).
     """
-    c, row = engine.cylinders, engine.numbers.index(1)
+    c = engine.cylinders
+    row = engine.numbers.index(1)
     if c.linkage is not None and not engine.rotary:
         row = int(cast("Articulated", c.linkage).master[row])
     figures = (c.lam, c.eps, c.reciprocating * c.radius)
@@ -198,7 +199,8 @@ class Reason(NamedTuple):
         """
         rest = f"{self.size:.4g} times that of one cylinder"
         if self.reciprocating is not None:
-            alone, built = f"{self.reciprocating:.4g}", f"{self.built:.4g}"
+            alone = f"{self.reciprocating:.4g}"
+            built = f"{self.built:.4g}"
             rest = f"{alone} {self.unit}" + (f" ({built} as built)" if built != alone else "")
             if alone == "0":
                 rest = f"{built} {self.unit} as built (0 without rotating masses and stagger)"
@@ -294,9 +296,12 @@ def _find_reasons(
             if there and balanced[0]:
                 verdict = "symmetry" if all(balanced) else "chance"
             number = order_number(order)
-            alone, built, unit = None, None, ""
+            alone = None
+            built = None
+            unit = ""
             if there and group in ("force", "moment"):
-                kind, force = KINDS[group], book.units.size(KINDS[group], number)
+                kind = KINDS[group]
+                force = book.units.size(KINDS[group], number)
                 if not np.isnan(force):
                     alone, built = (float(found[group].major[row] / force) for found in book[1:])
                     unit = book.units.name(kind, number)
@@ -306,7 +311,8 @@ def _find_reasons(
 
 def _draw(engine: Engine) -> Iterator[Engine]:
     """Yield the engine with other masses, rod length and gas, changed equally in all cylinders."""
-    c, random = engine.cylinders, np.random.default_rng(_SEED)
+    c = engine.cylinders
+    random = np.random.default_rng(_SEED)
 
     def redraw(masses: Array) -> Array:
         factor, more = random.uniform(0.5, 2, 2)
@@ -322,7 +328,8 @@ def _draw(engine: Engine) -> Iterator[Engine]:
             rotating=redraw(c.rotating),
             couple=redraw(c.couple),
         )
-        factors, gas = random.uniform(0.5, 2, c.count), engine.gas
+        factors = random.uniform(0.5, 2, c.count)
+        gas = engine.gas
         if gas is not None:  # cylinders with the same torque over their cycle have one factor
             each = (g._replace(share=g.share * float(factors[g.like])) for g in gas.cylinders)
             gas = replace(gas, cylinders=tuple(each))
@@ -337,7 +344,8 @@ def describe_firing(engine: Engine) -> str:
     instants = sorted(float(t) % cycle for t in engine.fires_deg.values())
     gaps = [b - a for a, b in pairwise([*instants, instants[0] + cycle])]
     uneven = max(gaps) - min(gaps)
-    least, most = f"{min(gaps):.6g}", f"{max(gaps):.6g}"
+    least = f"{min(gaps):.6g}"
+    most = f"{max(gaps):.6g}"
     if uneven <= _EVEN * cycle or least == most:
         return f"firing: even, every {cycle / len(gaps):.6g} deg"
     if uneven < NEARLY * cycle / len(gaps):

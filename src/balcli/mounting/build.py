@@ -85,12 +85,15 @@ def build_mounted_body(model: EngineFile, name: str = "") -> MountedBody:
     Raises:
         InputError: Tables are missing or contradictory, or a motion of the body is unrestrained.
     """
-    problems, table, mounts = list(find_mounting_faults(model)), model.body, model.mount
+    problems = list(find_mounting_faults(model))
+    table = model.body
+    mounts = model.mount
     if problems or table is None:
         raise InputError(problems, name)
     xx, yy, zz, xy, yz, zx = table.inertia
     tensor = 1e-6 * np.array([[xx, xy, zx], [xy, yy, yz], [zx, yz, zz]])  # kg mm2 to kg m2
-    body, down = Body(table.mass, _MM * np.array(table.cg), tensor), np.array(table.gravity)
+    body = Body(table.mass, _MM * np.array(table.cg), tensor)
+    down = np.array(table.gravity)
     static = Mounts(
         _MM * np.array([mount.at for mount in mounts]),
         np.array([_find_axes(mount) for mount in mounts]),
@@ -206,10 +209,14 @@ class BodyModes(NamedTuple):
 
 def find_mounted_modes(mounted: MountedBody) -> BodyModes:
     """Return the equations of motion and the natural modes of a body on its mounts."""
-    body, mounts = mounted.body, mounted.dynamic
-    modes, names = find_body_modes(body, mounts), name_motions(-mounted.weight)
-    stiffness, damping = stiffness_matrix(body, mounts), damping_matrix(body, mounts)
-    mass, loss = mass_matrix(body), modal_loss(modes, stiffness, damping)
+    body = mounted.body
+    mounts = mounted.dynamic
+    modes = find_body_modes(body, mounts)
+    names = name_motions(-mounted.weight)
+    stiffness = stiffness_matrix(body, mounts)
+    damping = damping_matrix(body, mounts)
+    mass = mass_matrix(body)
+    loss = modal_loss(modes, stiffness, damping)
     energy = share_energy(modes, body)
     shapes = drop_rounding(modes.shapes, 1 / np.sqrt(np.diag(mass)))
     each = tuple(
@@ -239,7 +246,8 @@ def settle(mounted: MountedBody, torque: float = 0.0) -> tuple[Real, Real]:
     return settle_body(mounted.body, mounted.static, load)
 
 
-SAG_LEAST, SAG_MOST = 0.02, 200.0  # plausible travel under the weight, mm; rubber mounts: 1 to 20
+SAG_LEAST = 0.02
+SAG_MOST = 200.0  # plausible travel under the weight, mm; rubber mounts: 1 to 20
 SMALL_BODY = 0.01  # least plausible ratio of radius of gyration to mount distance; usual: 0.2 to 1
 
 
@@ -281,7 +289,8 @@ def check_mounted(draft: Draft, name: str) -> tuple[EngineFile, Engine | None, t
 
 def _find_doubts(model: EngineFile) -> Iterator[str]:
     """Yield warnings of impossible or unlikely figures of body and mounts, such as wrong units."""
-    body, mounts = model.body, model.mount
+    body = model.body
+    mounts = model.mount
     if body is None:
         return
     moments = dict(zip(("xx", "yy", "zz"), body.inertia, strict=False))

@@ -58,12 +58,14 @@ def mounts(
     refuse_overwriting(reads=paths, writes={"--output": output, "--plot": plot})
     form = text_format(output, form)
     drawn = picture_form(plot, "--plot") if plot is not None else None
-    rpm, asked = parse_speeds(speeds), parse_orders(orders)
+    rpm = parse_speeds(speeds)
+    asked = parse_orders(orders)
     options = parse_scheme_options(order, at, position, planes, factor, measured, roll, units)
     scheme = choose_beside(scheme, options)
     from . import answer, build, plot as picture, show as pages
 
-    name, silent = name_file(paths[0]), misfire or ()
+    name = name_file(paths[0])
+    silent = misfire or ()
     model, engine, doubts = build.read_mounted(paths[0])
     warn_each(doubts, name)
     if engine is not None:

@@ -57,7 +57,8 @@ def compute_spectra_in_time(
     if not engine.ripple:
         return compute_spectra(engine, orders, kinds), 1.0
     mixed = [*(line.order for line in engine.ripple), *orders]
-    of_inertia, highest = find_relevant_orders(engine).max(), orders.max(initial=0)
+    of_inertia = find_relevant_orders(engine).max()
+    highest = orders.max(initial=0)
     fastest = dense_orders(max(of_inertia, 2 * highest), mixed)
     slowest = find_slowest(engine.ripple).value
     # The samples have to suffice where the crank is slowest.
@@ -172,7 +173,8 @@ def find_loads(
     pull = np.stack([force.x, force.y, 0 * force.x], axis=-1)
     turn = np.stack([moment.x, moment.y, roll.x], axis=-1)
     inertia = load_at_centre(pull, turn, list(map(float, engine.reference_m)), centre)
-    by_speed, mean = None, 0.0
+    by_speed = None
+    mean = 0.0
     if fired:
 
         def find_torque(own: Engine) -> NDArray[np.complex128]:

@@ -35,7 +35,8 @@ if TYPE_CHECKING:
     from ..show.plot_style import Look
 
 
-_WIDEST, _THINNEST = 7.0, 0.6  # largest and smallest line width of orders, in points (1/72 inch)
+_WIDEST = 7.0
+_THINNEST = 0.6  # largest and smallest line width of orders, in points (1/72 inch)
 _SWING = 0.22  # drawn travel of the corner that moves most, as a share of the body's size
 
 
@@ -68,7 +69,8 @@ def _draw_curves(ax: Axes, result: MountReport, kind: Kind) -> None:
         looks = zip(kind.places(response), MANY_LOOKS, strict=False)
         for (name, _, peak, _), (line, colour) in looks:
             look: Look = {"color": colour, "linestyle": "-." if label else line}
-            width, shown = 1.0 if label else 1.8, f"{fit_name(name, 20)}{label}"
+            width = 1.0 if label else 1.8
+            shown = f"{fit_name(name, 20)}{label}"
             heights = peak / kind.unit.size
             ax.plot(response.speeds_rpm, heights, label=shown, linewidth=width, **look)
     ax.set_ylim(bottom=0)
@@ -83,7 +85,8 @@ def _draw_meetings(ax: Axes, result: MountReport, response: BodyResponse) -> Non
     """
     mount = max(response.mounts, key=lambda mount: round(mount.worst.force_N, 6))
     largest = max(each.force_N.max() for each in mount.orders) or 1.0
-    rpm, highest = response.speeds_rpm, 2.5 * result.modes[-1].frequency_Hz
+    rpm = response.speeds_rpm
+    highest = 2.5 * result.modes[-1].frequency_Hz
     for order, force in mount.orders:
         hertz = order * rpm / 60
         width = np.maximum(_WIDEST * force / largest, _THINNEST)
@@ -103,7 +106,8 @@ def _draw_mode(ax: Axes, k: int, mode: BodyMode, result: MountReport) -> None:
     mode.
     """
     body = result.mounted.body
-    corners, places = find_corners(body), result.mounted.dynamic.at - body.centre
+    corners = find_corners(body)
+    places = result.mounted.dynamic.at - body.centre
     turned, carried = (mode.shape[:3] + np.cross(mode.shape[3:], p) for p in (corners, places))
     farthest = float(np.linalg.norm(turned, axis=1).max()) or 1.0
     scale = _SWING * 2 * float(corners.max()) / farthest
@@ -112,7 +116,8 @@ def _draw_mode(ax: Axes, k: int, mode: BodyMode, result: MountReport) -> None:
         for i, j in combinations(range(8), 2):
             if np.sum(corners[i] != corners[j]) == 1:
                 ax.plot(*flat[[i, j]].T, color=colour, linewidth=width)
-    rest, away = places @ PROJECTION.T, (places + scale * carried) @ PROJECTION.T
+    rest = places @ PROJECTION.T
+    away = (places + scale * carried) @ PROJECTION.T
     ax.plot(*rest.T, "o", color=SOFT, markersize=3, markerfacecolor=PAPER)
     ax.plot(*np.stack([rest.T, away.T], axis=1), color=SOFT, linewidth=0.8)
     ax.plot(*away.T, "o", color=RED, markersize=3)

@@ -70,7 +70,8 @@ def turn_axes(about_x: float, about_y: float, about_z: float) -> Real:
     """Return axes turned by angles (rad) about x, then y, then z, as columns: `Rz Ry Rx`."""
 
     def turn(angle: float, axis: int) -> Real:
-        c, s = np.cos(angle), np.sin(angle)
+        c = np.cos(angle)
+        s = np.sin(angle)
         return np.roll([[1, 0, 0], [0, c, -s], [0, s, c]], (axis, axis), (0, 1))
 
     return turn(about_z, 2) @ turn(about_y, 1) @ turn(about_x, 0)
@@ -238,7 +239,8 @@ def name_motions(up: Real) -> tuple[str, ...]:
         along = "up and down" if steep else "along z"
         return "along x", "along y", along, "turn about x", "turn about y", "roll"
     names = ["sideways", "sideways", "lengthways", "pitch", "pitch", "roll"]
-    names[upright], names[3 + upright] = "up and down", "yaw"
+    names[upright] = "up and down"
+    names[3 + upright] = "yaw"
     return tuple(names)
 
 
@@ -259,7 +261,8 @@ def describe_free_motion(motion: Real) -> str:
     """Return a description of an unrestrained motion (6,): a displacement along a direction,
     or a rotation about an axis.
     """
-    shift, turn = motion[:3], motion[3:]
+    shift = motion[:3]
+    turn = motion[3:]
     turns = np.linalg.norm(turn) > _FREE * np.linalg.norm(shift)
     vector = turn if turns else shift
     vector = vector / vector[np.argmax(np.abs(vector))]

@@ -51,8 +51,10 @@ def check(
     """
     from .comparison import Check, find_abandoned
 
-    files, expected = find_engine_files(paths), find_expected(paths)
-    found, work = {*files} - {*paths}, partial(_check_engine, update=update, tolerance=tolerance)
+    files = find_engine_files(paths)
+    expected = find_expected(paths)
+    found = {*files} - {*paths}
+    work = partial(_check_engine, update=update, tolerance=tolerance)
     with reporting_until_stopped("engines", len(files)) as progress:
         results, others = try_each(each_until_stopped(files, progress), work, found)
     checked = [*results, *find_abandoned(expected)]

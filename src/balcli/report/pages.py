@@ -78,7 +78,8 @@ def draw_end_curves(ax: Axes, banks: Banks, unit: ShownUnit) -> None:
     """Draw the path of the force's tip for several bank angles."""
     shown = [int(np.argmin(np.abs(banks.angles_deg - angle))) for angle in _BANKS_DEG]
     s = unit.fit(float(banks.force.major.max(initial=0)))
-    ahead, against = banks.force.forward[0, shown], banks.force.backward[0, shown]
+    ahead = banks.force.forward[0, shown]
+    against = banks.force.backward[0, shown]
     turn = np.exp(1j * FINE)
     paths = (ahead[:, None] * turn + against[:, None] / turn) / s.size
     labels = (f"{angle}°" for angle in _BANKS_DEG)
@@ -149,10 +150,12 @@ def draw_roses(ax: Any, banks: Banks, unit: ShownUnit) -> None:
     """Draw the magnitudes of both rotating vectors over the bank angle in polar coordinates: the
     radius is the magnitude, and the directions are those of the two banks.
     """
-    ahead, against = np.abs(banks.force.forward[0]), np.abs(banks.force.backward[0])
+    ahead = np.abs(banks.force.forward[0])
+    against = np.abs(banks.force.backward[0])
     largest = float(max(ahead.max(), against.max()))
     s = unit.fit(largest)
-    sides, dashed = _set_up_compass(ax, banks), (0, (5, 1.5))
+    sides = _set_up_compass(ax, banks)
+    dashed = (0, (5, 1.5))
     ax.plot(sides, _mirrored(ahead) / s.size, color=BLUE, label="with the crank")
     ax.plot(sides, _mirrored(against) / s.size, color=RED, linestyle=dashed, label="against it")
     if banks.own_deg <= 180:
@@ -255,7 +258,8 @@ def make_page(subject: PageSubject, what: str, *, titled: bool = True) -> Figure
         titled: Whether the page has the name of the engine as its title.
     """
     width, height, lay_out = _LAYOUTS[what]
-    engine, remedy = subject.now.engine, subject.study.remedy
+    engine = subject.now.engine
+    remedy = subject.study.remedy
     title = f"{fit_name(engine.name) or NAMELESS}, {engine.speed_rpm:g} rpm"
     if remedy is not None:
         share = f" {percent(remedy.card[0].factor)}" if remedy.card else ""
@@ -286,7 +290,8 @@ def draw_panel(subject: PageSubject, what: str, quantity: str) -> str:
 # ------------------------------------------------------------------ forces and moments
 def _draw(ax: Axes, subject: PageSubject, what: str, quantity: str) -> None:
     """Draw one picture of a force or moment, or of the moments about the crank."""
-    unit, (curve, before) = subject.unit(quantity), subject.phasors(quantity)
+    unit = subject.unit(quantity)
+    curve, before = subject.phasors(quantity)
     scalars = subject.list_scalars(with_gas=what == "spectrum") if quantity == ABOUT else {}
     ax.set_title(subject.title(what, quantity))
     if what == "polar":
@@ -305,7 +310,8 @@ def _draw(ax: Axes, subject: PageSubject, what: str, quantity: str) -> None:
         read = np.real if scalars else np.abs
         lines = {label: each.values(crank).real for label, each in scalars.items()}
         if not scalars:
-            values, (up, across) = curve.values(crank), subject.name_components(quantity)
+            values = curve.values(crank)
+            up, across = subject.name_components(quantity)
             lines = {up: values.real, across: values.imag, "magnitude": np.abs(values)}
         old = None if before is None else read(before.values(crank))
         draw_curves(ax, crank, lines, "moment" if scalars else quantity, unit, old)
@@ -359,7 +365,8 @@ def _lay_out_orders(fig: Figure, subject: PageSubject) -> str:
     fig.set_size_inches(max(1.0 + 3.3 * columns, 4.3), 0.4 + 3.5 * height)
     for place, (quantity, curve, k) in enumerate(found, 1):
         ax = fig.add_subplot(height, columns, place)
-        names, unit = subject.name_components(quantity), subject.unit(quantity)
+        names = subject.name_components(quantity)
+        unit = subject.unit(quantity)
         draw_order(ax, curve, k, quantity, names, unit)
     return words
 
@@ -371,7 +378,8 @@ def _lay_out_factor(fig: Figure, subject: PageSubject) -> None:
 
 
 def _lay_out_bank(fig: Figure, subject: PageSubject) -> str:
-    banks, unit = subject.study.banks, subject.system.force
+    banks = subject.study.banks
+    unit = subject.system.force
     assert banks is not None
     largest = float(banks.force.major.max(initial=0))
     if largest < NEGLIGIBLE * subject.now.of_one_cylinder["force"]:
@@ -390,7 +398,8 @@ def _lay_out_inner(fig: Figure, subject: PageSubject) -> str:
     """Draw shear, bending and bearing loads along the crankshaft; with gas, bending of crankshaft
     and block, and bearing loads.
     """
-    bent, system = subject.study.bent, subject.system
+    bent = subject.study.bent
+    system = subject.system
     gas = [inner.with_gas for inner in bent if inner.with_gas is not None]
     # Title, curves, and how their points are joined.
     pictures: list[tuple[str, Sequence[AlongCrank], str]] = [
@@ -428,7 +437,8 @@ def _lay_out_stars(fig: Figure, subject: PageSubject) -> str:
     every = list(find_stars(engine, subject.now.orders, kinds))
     if not every:
         return "No cylinder has a force of these orders."
-    stars, left_out = every[:_MOST_STARS], [star.order for star in every[_MOST_STARS:]]
+    stars = every[:_MOST_STARS]
+    left_out = [star.order for star in every[_MOST_STARS:]]
     rays = [ray for star in stars for bank in star.banks for ray in bank.cylinders]
     quantities = ("force", "moment")[: 1 + any(ray.moment for ray in rays)]
     fig.set_size_inches(2.9 * (1 + len(quantities)), 0.6 + 2.5 * len(stars))

@@ -20,7 +20,8 @@ if TYPE_CHECKING:
 
 T = TypeVar("T")
 
-_SILENT_S, _EVERY_S = 2.0, 0.5  # time before the bar appears, and between updates
+_SILENT_S = 2.0
+_EVERY_S = 0.5  # time before the bar appears, and between updates
 
 
 class Progress:
@@ -32,8 +33,10 @@ class Progress:
     """
 
     def __init__(self, what: str, total: float | None, shown: bool) -> None:
-        self.done, self.stopped = 0.0, False
-        self._what, self._total = what, total
+        self.done = 0.0
+        self.stopped = False
+        self._what = what
+        self._total = total
         self._next = time.monotonic() + _SILENT_S
         wanted = shown and not is_quiet() and sys.stderr.isatty()
         self._bar = _make_bar(what, total) if wanted else None

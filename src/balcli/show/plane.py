@@ -59,7 +59,8 @@ def draw_path(ax: Axes, path: Complex, crank_deg: Array, step: float, limit: flo
     ax.plot(path.imag, path.real, color=BLUE)
     marks = np.arange(0, crank_deg[-1], step)
     rows = np.abs(crank_deg[:, None] - marks).argmin(axis=0)
-    at, along = path[rows], np.gradient(path)[rows]
+    at = path[rows]
+    along = np.gradient(path)[rows]
     ax.plot(at.imag, at.real, "o", color=BLUE, markersize=2.6)
     normal = 1j * along * np.where((1j * along * at.conj()).real < 0, -1, 1)
     normal = np.where(np.abs(along) > 0.05 * np.abs(along).max(initial=0), normal, at)
@@ -105,7 +106,8 @@ def draw_locus(
     if tiny:
         ax.plot(path.imag / s.size, path.real / s.size, color=BLUE)
         if largest:
-            inset, t = ax.inset_axes((0.7, 0.7, 0.3, 0.3)), unit.fit(largest)
+            inset = ax.inset_axes((0.7, 0.7, 0.3, 0.3))
+            t = unit.fit(largest)
             set_up_plane(inset, largest / t.size)
             inset.plot(path.imag / t.size, path.real / t.size, color=BLUE)  # no room for angles
             inset.set_title(f"after, {t.name}", fontsize=8)
@@ -196,9 +198,11 @@ def draw_order(
         names: Names of the axes.
         unit: Unit of the vector.
     """
-    order, phase = float(curve.orders[k]), np.exp(1j * np.radians(_ORDER_ANGLE))
+    order = float(curve.orders[k])
+    phase = np.exp(1j * np.radians(_ORDER_ANGLE))
     s = unit.fit(float(curve.major[k]))
-    forward, backward = curve.forward[k] / s.size, curve.backward[k] / s.size
+    forward = curve.forward[k] / s.size
+    backward = curve.backward[k] / s.size
     path = forward * np.exp(1j * FINE) + backward * np.exp(-1j * FINE)
     set_up_plane(ax, float(np.abs(path).max()), names, s.name)
     ax.set_title(f"{what}, order {order_name(order)}, at crank angle {_ORDER_ANGLE / order:g}°")
@@ -210,7 +214,8 @@ def draw_order(
     ):
         if not vector:
             continue
-        ring, tip = start + vector * np.exp(1j * FINE), start + vector
+        ring = start + vector * np.exp(1j * FINE)
+        tip = start + vector
         ax.plot(ring.imag, ring.real, color=colour, linewidth=0.7, linestyle=":")
         look: Look = {"color": colour, "linestyle": style}
         _draw_arrow(ax, start, tip, linewidth=1.5, mutation_scale=11, **look)
@@ -279,13 +284,15 @@ def draw_polygon(ax: Axes, star: Star, quantity: str, turn_deg: float, unit: Sho
     total = complex(unit_vector(turn_deg)) * getattr(star, quantity)
     ax.set(title=f"{quantity}: {size_text(abs(total), unit) if total else 'closes'}")
     _set_up_square(ax, middle, limit)
-    shift, last = 0j, 0j
+    shift = 0j
+    last = 0j
     places = []
     for (vector, name, bank), start in zip(rays, corners, strict=False):
         way = vector / abs(vector)
         if abs(way + last) < _SAME:  # the vector runs back along the one before it
             shift += 1j * last * _GAP * limit
-        last, place = way, complex(start) + shift
+        last = way
+        place = complex(start) + shift
         _draw_arrow(ax, place, place + vector, **_look(bank, len(star.banks)))
         places.append((place + vector / 2, -1j * way * _GAP * limit, name))
     _write_numbers(ax, places)

@@ -28,13 +28,19 @@ Look: TypeAlias = dict[str, Any]  # keyword arguments of matplotlib
 
 # Wong, Nature Methods 8 (2011) 441: colour-blind readers distinguish these colours; line styles and
 # hatches distinguish the curves in black and white.
-INK, SOFT, FAINT, PAPER = "#1a1a1a", "#6b6b6b", "#d4d4d4", "#ffffff"
-BLUE, RED, GREEN = "#0072b2", "#d55e00", "#009e73"
+INK = "#1a1a1a"
+SOFT = "#6b6b6b"
+FAINT = "#d4d4d4"
+PAPER = "#ffffff"
+BLUE = "#0072b2"
+RED = "#d55e00"
+GREEN = "#009e73"
 # Looks of up to twelve curves.
 MANY_LOOKS = (*zip(("-", "--", ":") * 4, (BLUE, RED, GREEN, INK) * 3, strict=True),)
 _WORDS = ("ink", "soft", "faint", "paper", "blue", "red", "green")
 NAMES = dict(zip((INK, SOFT, FAINT, PAPER, BLUE, RED, GREEN), _WORDS, strict=True))
-_LETTER, _WIDE_LETTER = 0.1, 0.19  # width of a letter and of a wide letter in a title, inches
+_LETTER = 0.1
+_WIDE_LETTER = 0.19  # width of a letter and of a wide letter in a title, inches
 
 STYLE = Path(__file__).with_name("balcli.mplstyle")
 # Font families with Chinese, Japanese and Korean glyphs; the first that is installed is used.

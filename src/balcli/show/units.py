@@ -8,7 +8,8 @@ from typing import NamedTuple
 from ..file import units
 from ..forces.kinds import Kind
 
-POUND, INCH = float(units.POUND), float(units.INCH)  # kg, m
+POUND = float(units.POUND)
+INCH = float(units.INCH)  # kg, m
 
 
 class ShownUnit(NamedTuple):
@@ -71,9 +72,11 @@ class System(NamedTuple):
     @property
     def of_parts(self) -> dict[str, ShownUnit]:
         """Units of masses, moments of inertia and lengths of machine parts, by the SI unit."""
-        mass, inertia = self.mass, self.inertia
+        mass = self.mass
+        inertia = self.inertia
         if self is SI:
-            mass, inertia = ShownUnit("g", 1e-3), ShownUnit("kg·mm²", 1e-6)
+            mass = ShownUnit("g", 1e-3)
+            inertia = ShownUnit("kg·mm²", 1e-6)
         return {"kg": mass, "kg·m²": inertia, "m": self.length}
 
     def unit(self, kind: Kind) -> ShownUnit:

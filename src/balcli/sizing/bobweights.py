@@ -96,7 +96,8 @@ def _weigh(engine: Engine, rows: list[int], factor: float) -> Bobweight:
     def total(*parts: str) -> float:
         return sum(line.sum_g for line in lines if line.part in parts)
 
-    rotating, reciprocating = total(*ROTATING), total(*_RECIPROCATING)
+    rotating = total(*ROTATING)
+    reciprocating = total(*_RECIPROCATING)
     return Bobweight(
         throw=masses[0].throw + 1,
         cylinders=tuple(engine.numbers[row] for row in rows),
@@ -194,5 +195,6 @@ class FactorPeaks:
         """Sort key that is smallest at the best factor: force, then moment, or (`by_moment`) the
         reverse.
         """
-        force, moment = round(self.peak_force_N, 6), round(self.peak_moment_Nm, 6)
+        force = round(self.peak_force_N, 6)
+        moment = round(self.peak_moment_Nm, 6)
         return (moment, force) if self.by_moment else (force, moment)

@@ -91,7 +91,8 @@ def size_by_factor(engine: Engine, options: SchemeOptions) -> Remedy:
         )
     if options.measured is not None and options.factor is not None:
         return _change_measured(engine, options)
-    planes, factors = _choose_planes(engine, options), _choose_factors(engine, options)
+    planes = _choose_planes(engine, options)
+    factors = _choose_factors(engine, options)
     sweep = tuple(find_factor_peaks(engine, factor, planes) for factor in factors)
     best = min(sweep, key=lambda peaks: peaks.cost).factor
     fitting, found = _fit_factor(engine, best, planes)
@@ -127,7 +128,8 @@ def find_best_peaks(engine: Engine, options: SchemeOptions, remedy: Remedy) -> F
         options: Options of the scheme.
         remedy: Remedy for several factors.
     """
-    planes, best = _choose_planes(engine, options), remedy.details.get("best", {})
+    planes = _choose_planes(engine, options)
+    best = remedy.details.get("best", {})
     found = [find_factor_peaks(engine, one["factor"], planes) for one in best.values()]
     return min(*remedy.sweep, *found, key=lambda peaks: peaks.cost)
 
@@ -153,7 +155,8 @@ def _find_best_factors(
         share = find_least(judge, 0.0, 1.0, _ROUNDS)
         tried = [*(one["factor"] for one in best.values()), round(low + share * (high - low), 6)]
         sizes = [judge((factor - low) / (high - low)) for factor in tried]
-        least, most = min(sizes), max(judge(0.0), judge(1.0))
+        least = min(sizes)
+        most = max(judge(0.0), judge(1.0))
         if most - least > _FLAT * most:
             flat = (size - least <= _FLAT * most for size in sizes)
             name = key.removeprefix("peak_").rpartition("_")[0]
@@ -186,7 +189,8 @@ def _note(fitting: Fitting, factor: float, z: Array, own: bool) -> str:
     """
     engine = fitting.engine
     if len(set(z)) == 1 and engine.places_known:  # a single plane cannot take a moment
-        pins, (places, weights) = _list_pins(engine, factor), _find_counterweights(engine)
+        pins = _list_pins(engine, factor)
+        places, weights = _find_counterweights(engine)
         arms = np.array([*(pin.z for pin in pins), *places]) - z[0]
         vectors = np.array([*(pin.unbalance for pin in pins), *weights])
         if abs(arms @ vectors) > LEFT * (np.abs(arms) @ np.abs(vectors)):
@@ -210,7 +214,8 @@ def find_factor_peaks(
     """
     fitting, _ = _fit_factor(engine, factor, planes)
     new = fit_devices(fitting.engine, fitting.remedy)
-    force, moment = find_curve(new, "force"), find_curve(new, "moment")
+    force = find_curve(new, "force")
+    moment = find_curve(new, "moment")
     along = complex(unit(float(engine.cylinders.axis_deg[0])))
     weights = map(find_unbalance, fitting.remedy.counterweights)
     return FactorPeaks(
@@ -276,7 +281,8 @@ def find_measured_factor(engine: Engine, measured: float) -> float:
     if not reciprocating:
         raise BalcliError("--measured: this engine has no reciprocating mass and so no factor")
     factor = (1e3 * measured * len(card) - rotating) / reciprocating
-    told, turning = f"--measured {1e3 * measured:g} g", f"{rotating / len(card):.5g}"
+    told = f"--measured {1e3 * measured:g} g"
+    turning = f"{rotating / len(card):.5g}"
     if not abs(factor) <= LARGEST_FACTOR:
         raise BalcliError(
             f"{told} would balance {factor:.3g} times the reciprocating mass ({turning} g on a pin "
@@ -299,10 +305,13 @@ def _change_measured(engine: Engine, options: SchemeOptions) -> Remedy:
     if len(options.factor or ()) > 1:
         raise BalcliError("--factor: give one factor with --measured, such as 55%")
     measured = options.measured or 0.0
-    has, wanted = find_measured_factor(engine, measured), options._replace(measured=None)
+    has = find_measured_factor(engine, measured)
+    wanted = options._replace(measured=None)
     card = fill_card(engine, _choose_factors(engine, wanted)[0])
     masses = np.array([float(w.rotating + w.reciprocating) for w in engine.weighed])
-    slots, unbalances, actions = [], [], []
+    slots = []
+    unbalances = []
+    actions = []
     for rows, one in zip(engine.rows_by_pin, card, strict=True):
         pin, z = _locate_pin(engine, rows, masses[rows])
         slots.append(Slot("counterweight", 1, 1, z))
@@ -405,7 +414,8 @@ def _find_needs(engine: Engine, factor: float, planes: tuple[float, ...] | None)
     if weights.any():
         of_weights[np.argsort(z)] = share_by_lever(places, np.sort(z))
     unbalances = np.array([pin.unbalance for pin in pins])
-    wanted, present = -(of_pins @ unbalances), of_weights @ weights
+    wanted = -(of_pins @ unbalances)
+    present = of_weights @ weights
     parts = np.abs(of_pins) @ np.abs(unbalances) + np.abs(of_weights) @ np.abs(weights)
     needs = np.stack([wanted, present, wanted - present])
     return _Planes(z, np.where(np.abs(needs) <= LEFT * parts, 0, needs), sets)
@@ -415,7 +425,9 @@ def _size_each(engine: Engine, options: SchemeOptions) -> Remedy:
     """Fit counterweights to geared engines, to each on its own crank as if it were alone."""
     if options.measured is not None or len(options.factor or ()) > 1:
         raise BalcliError("geared engines: give one --factor, no --measured, or balance each alone")
-    remedy, cards, needs = Remedy("factor", 1), list[Bobweight](), list[PlaneNeed]()
+    remedy = Remedy("factor", 1)
+    cards = list[Bobweight]()
+    needs = list[PlaneNeed]()
     for one in map(move_along, engine.cranks):
         own = size_by_factor(one.engine, options)
         weights = [w.model_copy(update={"engine": one.name}) for w in own.counterweights]
@@ -441,7 +453,8 @@ def _find_counterweights(engine: Engine) -> tuple[Array, Complex]:
 
 def _list_pins(engine: Engine, factor: float) -> list[_Pin]:
     """Return the load of each crank pin; pins without load are omitted."""
-    weighed, pins = engine.weighed, []
+    weighed = engine.weighed
+    pins = []
     masses = np.array([float(w.rotating + w.share + factor * w.reciprocating) for w in weighed])
     for rows in engine.rows_by_pin:
         if total := float(masses[rows].sum()):
@@ -460,7 +473,8 @@ def _locate_pin(engine: Engine, rows: list[int], masses: Array) -> tuple[complex
         rows: Rows of the cylinders on the pin.
         masses: Mass on the pin for each of these cylinders, kg.
     """
-    c, places = engine.cylinders, engine.cylinders.z[rows]
+    c = engine.cylinders
+    places = engine.cylinders.z[rows]
     pin = float(c.radius_of_each[rows[0]]) * unit(engine.first_axis_deg + c.pin_deg[rows[0]])
     z = float(masses @ places) / float(masses.sum())
     rounded = round(z, 12) + 0.0

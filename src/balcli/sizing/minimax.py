@@ -74,7 +74,8 @@ def enclose_curve(curve: Phasors) -> Circle:
     curve = Phasors(curve.orders[there], curve.vectors[:, there], np.zeros(1))
     noise = _SAME * float(curve.major.sum())
     best = _reach(curve, complex(curve.forward[curve.orders == 1].sum()))
-    theta, lower = best.theta, 0.0
+    theta = best.theta
+    lower = 0.0
     for _ in range(_ROUNDS):
         points = _seen(curve, theta)
         centre, fixing = enclose_points(points)
@@ -96,7 +97,9 @@ def enclose_points(points: Complex) -> tuple[complex, list[int]]:
     """
     triples = np.array([*combinations_with_replacement(range(len(points)), 3)])
     a, b, c = points[triples].T
-    b, c, middle = b - a, c - a, (a + c) / 2
+    middle = (a + c) / 2
+    b = b - a
+    c = c - a
     across = 2 * (b.conj() * c).imag
     rise = 1j * (b * np.abs(c) ** 2 - c * np.abs(b) ** 2)
     with np.errstate(all="ignore"):  # three points in line have no circle
@@ -141,7 +144,8 @@ def size_minimax(engine: Engine, options: SchemeOptions) -> Remedy:
         NothingToBalanceError: No weight makes the largest force smaller.
     """
     fitting = Fitting.start(engine, "minimax", 1)
-    force, named = find_curve(fitting.engine, "force"), "all orders"
+    force = find_curve(fitting.engine, "force")
+    named = "all orders"
     if options.orders is not None:
         orders = sorted({1, *options.orders})
         force = force.select_orders(force.orders[np.isin(force.orders, orders)])

@@ -33,7 +33,8 @@ def find_ends(engine: Engine) -> tuple[float, float]:
     """
     throws = [move_along(one).engine.joined_throws_m for one in engine.cranks]
     places = np.concatenate(throws)
-    low, high = float(places.min()), float(places.max())
+    low = float(places.min())
+    high = float(places.max())
     if low < high:
         return low, high
     bore = float(engine.bore_m)
@@ -51,7 +52,8 @@ def find_carriers(engine: Engine) -> dict[int, Placed]:
 
 def move_along(one: Placed) -> Placed:
     """Return a geared engine with its places along z in the coordinates of all engines together."""
-    own, z = one.engine, float(one.at_m[2])
+    own = one.engine
+    z = float(one.at_m[2])
     if not z:
         return one
     cylinders = replace(own.cylinders, z=own.cylinders.z + z)

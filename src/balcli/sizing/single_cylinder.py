@@ -37,14 +37,16 @@ from .options import CRITERIA, DESIGNS, SchemeOptions
 from .remedy import Remedy
 
 FORCES = ("orders 1+2", "all orders")  # engine force: cos theta + lambda cos 2 theta; exact force
-_LEAST_K, _MOST_K = 1.2, 1e12  # limits of k; nearer to 1, the series is too long
+_LEAST_K = 1.2
+_MOST_K = 1e12  # limits of k; nearer to 1, the series is too long
 _COUNT = 512  # number of samples of a revolution, enough for k above _LEAST_K
 _GRID = np.linspace(0, np.pi, 1025)
 _ORDERS = np.arange(_COUNT // 4)
 _ROUNDS = 60
 _NOISE = 5e-16  # smaller coefficients count as 0: rounding, which order^2 would enlarge
 _SETTLED = 1e-10  # a relative step below this ends the search
-_FARTHEST_TO_PEAK, _FARTHEST_TO_MEAN = 0.25, 0.1  # largest change of k in one step, as a share of k
+_FARTHEST_TO_PEAK = 0.25
+_FARTHEST_TO_MEAN = 0.1  # largest change of k in one step, as a share of k
 _SINGULAR = 1e-14  # matrices with smaller determinants are singular
 _NEWTON_STEPS = 8  # steps from the middle of an interval of _GRID to a root, up to rounding
 
@@ -123,7 +125,8 @@ def expand_shaft_wave(design: str, k: float) -> tuple[Array, Array]:
     shafts, and the derivatives of these coefficients by k.
     """
     theta = np.arange(_COUNT) * np.float64(2 * np.pi / _COUNT)
-    cosine, step = np.cos(theta), 1e-30
+    cosine = np.cos(theta)
+    step = 1e-30
     moved = k + 1j * step  # a complex step gives the derivative to rounding
     wave: Complex
     if design == "a":
@@ -181,7 +184,8 @@ def _find_zeros(c: Array, derivative: int = 0) -> Array:
     if derivative == 1:  # the function is even about 0 and pi
         values[[0, -1]] = 0
     cells = np.flatnonzero(values[:-1] * values[1:] < 0)
-    low, high = _GRID[cells], _GRID[cells + 1]
+    low = _GRID[cells]
+    high = _GRID[cells + 1]
     theta = (low + high) / 2
     for _ in range(_NEWTON_STEPS):
         move = _evaluate(c, theta, derivative) / _evaluate(c, theta, derivative + 1)
@@ -212,7 +216,8 @@ def _step_to_peak(design: str, engine: Array, x: Array) -> Array:
     remaining, by_x = _linearize(design, engine, x)
     theta = _find_zeros(remaining, 1)
     values = _evaluate(remaining, theta)
-    sizes, slopes = np.abs(values), np.sign(values)[:, None] * _evaluate(by_x, theta)
+    sizes = np.abs(values)
+    slopes = np.sign(values)[:, None] * _evaluate(by_x, theta)
     triples = np.array([*combinations(range(len(values)), 3)])
     systems = np.insert(slopes, 2, -1.0, axis=1)[triples]  # size + slopes d = common size
     regular = np.abs(np.linalg.det(systems)) >= _SINGULAR
@@ -306,9 +311,11 @@ def _describe_shaft(engine: Engine, one: Optimum, unit_kg_m: float, radius: floa
         unit_kg_m: Reciprocating mass times crank radius, kg m.
         radius: Radius of pin and weight, m; None: the crank radius.
     """
-    unbalance, r_b = one.mu * unit_kg_m, radius or float(engine.cylinders.radius[0])
+    unbalance = one.mu * unit_kg_m
+    r_b = radius or float(engine.cylinders.radius[0])
     fastest, slowest, bend = find_shaft_rates(one.design, one.k)
-    force, rpm = unbalance * float(engine.omega) ** 2, float(engine.speed_rpm)
+    force = unbalance * float(engine.omega) ** 2
+    rpm = float(engine.speed_rpm)
     return {
         **to_document(one),
         "unbalance_kg_m": unbalance,
@@ -354,7 +361,8 @@ def size_oldham(engine: Engine, options: SchemeOptions) -> Remedy:
         for one in (first, second)
         for vectors in ((-one.force(1), 0j), (0j, -one.force(-1)))
     ]
-    weight, block = abs(first.force(-1)), abs(second.force(-1))
+    weight = abs(first.force(-1))
+    block = abs(second.force(-1))
     radius = options.radius or float(engine.cylinders.radius[0])
     fitting = fitting.add_details(
         first_order_kg_m=weight,

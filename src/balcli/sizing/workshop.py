@@ -143,7 +143,8 @@ def _check_figure(name: str, figure: float | None) -> float | None:
 
 
 def _find_figures(engine: Engine, device: DeviceTable, tools: Tools, room: float) -> Practical:
-    unbalance, order = find_unbalance(device), find_order(device)
+    unbalance = find_unbalance(device)
+    order = find_order(device)
     radius = _find_rim(engine, device, tools)
     is_sector = isinstance(device, Counterweight) and device.sector is not None
     disc: Node = {} if is_sector else _find_disc(unbalance, tools)
@@ -210,7 +211,8 @@ def _find_disc(unbalance: float, tools: Tools) -> Node:
     so `m r = density t 2/3 R^3`.
     """
     if tools.disc is not None:
-        radius, thickness = tools.disc, 1.5 * unbalance / (STEEL * tools.disc**3)
+        radius = tools.disc
+        thickness = 1.5 * unbalance / (STEEL * tools.disc**3)
     else:
         thickness = tools.thickness or THICKNESS
         radius = (1.5 * unbalance / (STEEL * thickness)) ** (1 / 3)

@@ -18,7 +18,8 @@ from .quantity_names import ENGINE, MOUNTS, TORSION
 
 # Keys of the masses and inertia of a rod, with the number of file units in one SI unit.
 _ROD_UNITS = {"mass": 1.0, "small_end": 1.0, "big_end": 1.0, "inertia": 1e6}
-OF_MOUNTS, OF_SHAFTS = 0.15, 0.05  # default tolerances of stiffness
+OF_MOUNTS = 0.15
+OF_SHAFTS = 0.05  # default tolerances of stiffness
 
 
 @dataclass(frozen=True)
@@ -96,7 +97,8 @@ def _find_sources_of_several(
     model: EngineFile, within: Tolerances
 ) -> tuple[EngineFile, tuple[Source, ...]]:
     """Return the file and the parts of geared engines; part names begin with the engine's name."""
-    cranks, sources = list[EngineFile](), list[Source]()
+    cranks = list[EngineFile]()
+    sources = list[Source]()
     for k, (name, crank) in enumerate(zip(model.crank_names, model.cranks, strict=True), 1):
         own, found = find_sources(crank, ENGINE, within)
         cranks.append(own)
@@ -114,7 +116,8 @@ def _spell_out_throws(model: EngineFile, *, angles: bool) -> EngineFile:
         model: Engine file.
         angles: Whether to add the throw angles that the firing order needs, if none are given.
     """
-    parts, masses = assemble(model), model.crank.throw_masses
+    parts = assemble(model)
+    masses = model.crank.throw_masses
     if len(masses) == 1:
         model = model.with_table("crank", throw_mass=masses * parts.plan.throws)
     if model.crank.throws is not None or not angles:
@@ -203,7 +206,8 @@ def _spell_out_shafting(model: EngineFile) -> EngineFile:
     if torsion is None:
         return model
     throws = len(build(model).throws_m)
-    stiffness, inertia = torsion.throw_stiffness or (), torsion.throw_inertia
+    stiffness = torsion.throw_stiffness or ()
+    inertia = torsion.throw_inertia
     return model.with_table(
         "torsion",
         throw_stiffness=stiffness * (throws - 1) if len(stiffness) == 1 else stiffness,
@@ -219,7 +223,8 @@ def _stiffen(part: Part) -> Part:
 
 def _list_shafting(model: EngineFile, within: Tolerances) -> Iterator[Source]:
     """Yield the stiffness of each shaft, the inertia of each node, and the mass of each piston."""
-    torsion, mass = model.torsion, within.mass
+    torsion = model.torsion
+    mass = within.mass
     if torsion is None:
         return
     elastic = OF_SHAFTS if within.stiffness is None else within.stiffness

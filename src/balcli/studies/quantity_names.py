@@ -15,8 +15,13 @@ from typing import Annotated, NamedTuple
 
 from ..core.records import HIDDEN
 
-ENGINE, GUIDE, CYCLE, PISTON = "engine", "guide", "cycle", "piston"
-JOURNALS, MOUNTS, TORSION = "journals", "mounts", "torsion"
+ENGINE = "engine"
+GUIDE = "guide"
+CYCLE = "cycle"
+PISTON = "piston"
+JOURNALS = "journals"
+MOUNTS = "mounts"
+TORSION = "torsion"
 _OF_VECTOR = "major, minor, forward, backward, axis (deg), x, y, x_cos, x_sin, y_cos, y_sin"
 _OF_SCALAR = "amplitude, cos, sin"
 # Columns: chapter, pattern, unit, table of the file that is needed, meaning.

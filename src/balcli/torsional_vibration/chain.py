@@ -102,7 +102,8 @@ def join_chain(
     not checked: gears may lock it.
     """
     table = np.array(list(shafts), float).reshape(-1, len(ChainShaft._fields))
-    start, end = table[:, 0].astype(np.intp), table[:, 1].astype(np.intp)
+    start = table[:, 0].astype(np.intp)
+    end = table[:, 1].astype(np.intp)
     j = np.asarray(inertia, float)
     held = np.isin(np.arange(len(j)), clamped)
     return Chain(j, start, end, table[:, 3], table[:, 2], held)
@@ -113,12 +114,14 @@ def find_pieces(chain: Chain, shafts: NDArray[np.bool_] | None = None) -> Pieces
     (shafts,); None: all shafts).
     """
     joining = np.ones(len(chain.start), bool) if shafts is None else shafts
-    first, pace = np.full(len(chain.inertia), -1), np.ones(len(chain.inertia))
+    first = np.full(len(chain.inertia), -1)
+    pace = np.ones(len(chain.inertia))
     for node in range(len(first)):
         if first[node] < 0:
             first[node] = node
             for child, parent, _, near, far in grow_branches(chain, [node], joining):
-                first[child], pace[child] = node, -far / near * pace[parent]
+                first[child] = node
+                pace[child] = -far / near * pace[parent]
     return Pieces(first, pace)
 
 
@@ -164,11 +167,14 @@ def grow_branches(chain: Chain, roots: Sequence[int], shafts: NDArray[np.bool_])
     """
     joined: dict[int, list[Branch]] = {}
     for shaft in np.flatnonzero(shafts).tolist():
-        start, end = int(chain.start[shaft]), int(chain.end[shaft])
+        start = int(chain.start[shaft])
+        end = int(chain.end[shaft])
         ratio = float(chain.ratio[shaft])
         joined.setdefault(start, []).append(Branch(end, start, shaft, -1.0, ratio))
         joined.setdefault(end, []).append(Branch(start, end, shaft, ratio, -1.0))
-    reached, branches, outward = {*roots}, list[Branch](), list(roots)
+    reached = {*roots}
+    branches = list[Branch]()
+    outward = list(roots)
     for parent in outward:
         for branch in joined.get(parent, ()):
             if branch.child not in reached:

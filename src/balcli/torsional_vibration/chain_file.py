@@ -129,7 +129,8 @@ def _find_misfits(data: Mapping[str, object]) -> Iterator[Problem]:
     for key, ends in _ENDS.items():
         for k, table in _tables(data, key):
             named += [(f"{key}.{k}.{end}", table.get(end)) for end in ends]
-            start, end = table.get("from"), table.get("to")
+            start = table.get("from")
+            end = table.get("to")
             if isinstance(start, str) and start == end:
                 text = f"goes from {shorten(start)} to itself; give two different nodes"
                 yield Problem(f"{key}.{k}", text)

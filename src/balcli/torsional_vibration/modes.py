@@ -70,7 +70,9 @@ def _condense(
     carried = []
     for dof in massless.tolist():
         meet = springs[:, dof] != 0
-        a, k, ends = springs[meet, dof], stiffness[meet], springs[meet].copy()
+        a = springs[meet, dof]
+        k = stiffness[meet]
+        ends = springs[meet].copy()
         ends[:, dof] = 0
         total = (k * a) @ a
         carried.append((dof, -(k * a) @ ends / total))
@@ -116,7 +118,8 @@ def locate_nodes(chain: Chain, shape: Real) -> tuple[Indices, Indices]:
     meshes = find_pieces(chain, np.isinf(chain.stiffness))
     pulled = np.zeros((2, len(shape)), bool)  # whether a neighbour turns forward, and backward
     for here, there in ((chain.start, chain.end), (chain.end, chain.start)):
-        way, wheel = ahead[there] * np.sign(chain.ratio * meshes.pace[here]), meshes.first[here]
+        way = ahead[there] * np.sign(chain.ratio * meshes.pace[here])
+        wheel = meshes.first[here]
         pulled[0, wheel[way > 0]] = pulled[1, wheel[way < 0]] = True
     at_rest = pulled.all(axis=0) & ~moves & ~find_still(chain)
     return np.flatnonzero((across < 0) & np.isfinite(chain.stiffness)), np.flatnonzero(at_rest)
@@ -143,8 +146,11 @@ def find_chain_poles(chain: Chain, damping: Damping) -> Complex:
     if not scale:
         return np.zeros(0, complex)
     unit = np.sqrt(scale / np.median(np.abs(np.diag(m)[np.diag(m) != 0])))  # rad/s
-    k, c, m = k / scale, c * (unit / scale), m * (unit**2 / scale)
-    one, none = np.eye(len(m)), np.zeros_like(m)
+    k = k / scale
+    c = c * (unit / scale)
+    m = m * (unit**2 / scale)
+    one = np.eye(len(m))
+    none = np.zeros_like(m)
     shifted = np.block([[-_SIGMA * one, one], [-k, -c - _SIGMA * m]])
     mu = np.linalg.eigvals(np.linalg.solve(shifted, np.block([[one, none], [none, m]])))
     finite = np.abs(mu) > _INFINITE * np.abs(mu).max()
@@ -233,8 +239,11 @@ def find_poles(system: TorsionalSystem, order: float | None = None) -> Complex:
         system: Torsional system. Each viscous ring becomes a node behind a dashpot.
         order: Order for which the inertia of pendulums is computed; None: they are left out.
     """
-    chain, damping, rings = system.chain, system.damping, system.rings
-    inertia, more = chain.inertia, (0, len(rings))
+    chain = system.chain
+    damping = system.damping
+    rings = system.rings
+    inertia = chain.inertia
+    more = (0, len(rings))
     if order is not None:
         inertia = inertia + system.attached_pendulums(np.array(order)).real
     shafts = [*map(ChainShaft, chain.start, chain.end, chain.stiffness, chain.ratio)]
@@ -259,14 +268,16 @@ def find_criticals(
         modes: Natural modes.
         range_rpm: First and last speed, rpm; None: all speeds.
     """
-    orders, (low, high) = excitation.orders, range_rpm or (0.0, np.inf)
+    orders = excitation.orders
+    low, high = range_rpm or (0.0, np.inf)
     moved = np.array([mode.shape[excitation.nodes] for mode in modes])
     moved = moved.reshape(len(modes), 1, len(excitation.nodes))
     speeds = np.array([mode.omega for mode in modes])[:, None] / orders  # (modes, orders)
     within = np.clip(speeds, low * RPM, high * RPM).ravel()  # speeds outside are ignored
     shape = len(orders), len(modes), len(orders), len(excitation.nodes)
     torque = np.einsum("kmks->mks", excitation.at(within).reshape(shape))
-    phasors, rpm = np.abs(np.sum(torque * moved, axis=-1)), speeds / RPM
+    phasors = np.abs(np.sum(torque * moved, axis=-1))
+    rpm = speeds / RPM
     counted = (rpm >= low * (1 - 1e-12)) & (rpm <= high * (1 + 1e-12))
     counted &= phasors > _UNDRIVEN * np.sum(np.abs(torque * moved), axis=-1)
     total = np.sum(phasors, axis=1, where=counted)
@@ -327,30 +338,37 @@ def tabulate_holzer(chain: Chain, frequency: float, first: int = 0, last: int = 
             the line other than the last is clamped; a branch resonates by itself.
     """
     count = len(chain.inertia)
-    last, stiff = last % count, chain.stiffness > 0
+    last = last % count
+    stiff = chain.stiffness > 0
     branches = grow_branches(chain, [last], stiff)
     if not len(branches) == count - 1 == np.count_nonzero(stiff):
         raise ValueError("Holzer's table needs a chain in one piece, without loops")
     if np.any(find_still(chain) & ~chain.clamped):
         raise ValueError("Holzer's table cannot have gears that mesh with a fixed node")
-    parents, node = {branch.child: branch.parent for branch in branches}, first
+    parents = {branch.child: branch.parent for branch in branches}
+    node = first
     while node in parents:
         if chain.clamped[node]:
             raise ValueError("Holzer's table can end at a clamped node, but not pass it")
         node = parents[node]
-    inertial, twisting = frequency**2 * chain.inertia, incidence(chain)[stiff]
+    inertial = frequency**2 * chain.inertia
+    twisting = incidence(chain)[stiff]
     unit = float(inertial.max()) or 1.0  # N m; in this unit torques are about as large as angles
     softness = np.diag(unit / chain.stiffness[stiff])
     matrix = np.block([[np.diag(inertial / unit), -twisting.T], [twisting, -softness]])
-    alone, held = np.eye(len(matrix)), np.flatnonzero(chain.clamped)
-    matrix[held], matrix[last] = alone[held], alone[first]
+    alone = np.eye(len(matrix))
+    held = np.flatnonzero(chain.clamped)
+    matrix[held] = alone[held]
+    matrix[last] = alone[first]
     try:
         solution = np.linalg.solve(matrix, alone[last])
     except np.linalg.LinAlgError:
         raise ValueError("a branch is at resonance by itself") from None
-    angle, carried = solution[:count], np.zeros(len(stiff))
+    angle = solution[:count]
+    carried = np.zeros(len(stiff))
     carried[stiff] = unit * solution[count:]
-    total, stiffness = inertial * angle - incidence(chain).T @ carried, np.zeros(count)
+    total = inertial * angle - incidence(chain).T @ carried
+    stiffness = np.zeros(count)
     for child, _, shaft, near, _ in branches:
         total[child] = near * carried[shaft]
         stiffness[child] = near**2 * chain.stiffness[shaft]

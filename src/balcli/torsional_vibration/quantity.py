@@ -60,7 +60,8 @@ class Variants:
     """
 
     def __init__(self, model: EngineFile, quantities: Sequence[TargetQuantity]) -> None:
-        self._model, self._quantities = model, quantities
+        self._model = model
+        self._quantities = quantities
         self._engines = EngineVariants(model)
         self._excitations: dict[Values, Excitation] = {}
 

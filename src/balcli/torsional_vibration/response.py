@@ -53,7 +53,8 @@ def find_largest(
         BalcliError: Nothing excites the system, or an undamped mode is driven at its own frequency.
     """
     refuse_unbounded(system, rpm)
-    orders, speeds = system.require_excitation().orders, _add_resonances(system, rpm)
+    orders = system.require_excitation().orders
+    speeds = _add_resonances(system, rpm)
     parts = compute_in_parts(system, speeds)
     heights = np.concatenate([np.append(sum_amplitudes(c), heat, axis=1) for c, heat in parts])
     columns = np.arange(heights.shape[1])
@@ -65,7 +66,8 @@ def find_largest(
         speeds, column = (each.ravel() for each in np.broadcast_arrays(at, which))
         rpm, point = np.unique(speeds, return_inverse=True)
         phasors, heat = compute_curves(system, rpm)
-        values, count = np.zeros(len(speeds)), phasors.shape[2]
+        values = np.zeros(len(speeds))
+        count = phasors.shape[2]
         swings = column < count
         curves = phasors[:, point[swings], column[swings]]
         values[swings] = find_swing(orders, curves).half
@@ -253,7 +255,9 @@ def find_response(
         BalcliError: Nothing excites the system, or an undamped mode is driven at its own frequency.
     """
     refuse_unbounded(system, speeds_rpm)
-    excitation, end, found = system.require_excitation(), len(system.shafts), []
+    excitation = system.require_excitation()
+    end = len(system.shafts)
+    found = []
     orders = excitation.orders
     for phasors, lost in compute_in_parts(system, speeds_rpm):
         found.append((find_swing(orders, phasors).half, sum_amplitudes(phasors), lost))
@@ -263,7 +267,8 @@ def find_response(
     curves = range(end + 1 + len(system.pendulums))  # torques, free end, pendulums
     there, _ = compute_curves(system, at[: len(curves)])
     by_order = np.abs(there[:, curves, curves])  # of each curve at its worst speed
-    named_orders, stress = list(map(order_number, orders.tolist())), system.stress_by_torque
+    named_orders = list(map(order_number, orders.tolist()))
+    stress = system.stress_by_torque
     shafts = tuple(
         ShaftResponse(
             name=name,
@@ -279,7 +284,8 @@ def find_response(
         )
         for k, name in enumerate(system.shafts)
     )
-    degrees, worst_deg = np.degrees(swings), np.degrees(value).tolist()
+    degrees = np.degrees(swings)
+    worst_deg = np.degrees(value).tolist()
     pendulums = []
     for k, each in enumerate(system.pendulums, end + 1):
         largest = named_orders[by_order[:, k].argmax()]
@@ -338,21 +344,27 @@ def find_barred(system: TorsionalSystem, rpm: Real) -> tuple[tuple[float, float]
     steps = max(math.ceil(math.log(rpm[-1] / rpm[0]) / _FINE), 1) if len(rpm) > 1 else 0
     speeds = _add_resonances(system, np.geomspace(rpm[0], rpm[-1], steps + 1))
     values = measure(speeds)
-    inner, before, after = values[1:-1], values[:-2], values[2:]
+    inner = values[1:-1]
+    before = values[:-2]
+    after = values[2:]
     sign = np.where(inner <= 1, 1, -1)  # peaks below the limit, valleys above it
     turns = np.all(sign * (inner - np.stack([before, after])) >= 0, axis=0)
     places = np.flatnonzero(turns & (inner > _CLOSE) & (inner < 1 / _CLOSE))
     if len(places):
-        sign, each = sign[places], np.arange(len(places))
+        sign = sign[places]
+        each = np.arange(len(places))
         found, _ = find_peaks_between(judge, speeds[places], speeds[places + 2], each)
         speeds = np.unique(np.append(speeds, found))
     above = measure(speeds) > 1
     changes = np.flatnonzero(above[1:] != above[:-1])
-    low, high, upward = speeds[changes], speeds[changes + 1], above[changes + 1]
+    low = speeds[changes]
+    high = speeds[changes + 1]
+    upward = above[changes + 1]
     for _ in range(_HALVINGS if len(changes) else 0):
         middle = (low + high) / 2
         same = (measure(middle) > 1) == upward
-        low, high = np.where(same, low, middle), np.where(same, middle, high)
+        low = np.where(same, low, middle)
+        high = np.where(same, middle, high)
     ends = (low + high) / 2
     starts = [*speeds[:1][above[:1]].tolist(), *ends[upward].tolist()]
     stops = [*ends[~upward].tolist(), *speeds[-1:][above[-1:]].tolist()]

@@ -238,7 +238,8 @@ def _is_enough(spectrum: Complex, rounding: Array, highest: float) -> NDArray[np
     """
     eighth = (len(spectrum) - 1) / 4
     sizes = np.abs(spectrum[round(2 * eighth) :])
-    third, fourth = sizes[: round(eighth)].max(axis=0), sizes[round(eighth) :].max(axis=0)
+    third = sizes[: round(eighth)].max(axis=0)
+    fourth = sizes[round(eighth) :].max(axis=0)
     decay = fourth / np.maximum(third, fourth + 1e-300)
     alias = fourth * decay ** (max(8 - highest / eighth, 4) - 3.5)
     return np.asarray(alias <= _LIMIT * np.maximum(rounding, 1.0))

@@ -196,7 +196,8 @@ def hang(
         knuckle, lead_deg: As in `Articulated`.
         master_lam, master_eps: Crank radius and offset over rod length of the master rods.
     """
-    crank, lead = on_circle(psi), unit(lead_deg)
+    crank = on_circle(psi)
+    lead = unit(lead_deg)
     master = SliderCrank(crank * lead, master_lam, master_eps)  # in the master's frame
     arm = np.conj(lead) * knuckle * compose(master.cosine, -master.lean)
     bend = compose(master.spin**2, -master.spin_rate)
@@ -249,7 +250,8 @@ class TurningMotion(Motion):
         self, psi: Array | Complex, inside: Motion, offset: Array, on_knuckle: Figure | None = None
     ) -> None:
         vars(self).update(vars(inside))
-        self._inside, self._turned = inside, on_circle(psi)
+        self._inside = inside
+        self._turned = on_circle(psi)
         place = compose(inside.place, np.asarray(offset))
         z1, z2 = (np.asarray(rate, complex) for rate in (inside.velocity, inside.acceleration))
         piston = PointMass(place, z1, z2)
@@ -259,7 +261,8 @@ class TurningMotion(Motion):
     def _see(self, point: PointMass, share: Figure) -> PointMass:
         """Return a point of the mechanism relative to the direction of the pin."""
         w, w1, w2 = map(np.conj, point[:3])
-        first, second = w1 + 1j * w, w2 + 2j * w1 - w
+        first = w1 + 1j * w
+        second = w2 + 2j * w1 - w
         return PointMass(self._turned * w, self._turned * first, self._turned * second, share)
 
     @property

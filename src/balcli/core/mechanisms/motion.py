@@ -65,8 +65,13 @@ class Motion:
         points: tuple[PointMass, ...] = (),
         condition: Array | float = 1.0,
     ) -> None:
-        self.pin, self._lam, self.cosine, self._tangent = pin, lam, cosine, lean / cosine
-        self.lean, self.points, self.condition = lean, points, condition
+        self.pin = pin
+        self._lam = lam
+        self.cosine = cosine
+        self._tangent = lean / cosine
+        self.lean = lean
+        self.points = points
+        self.condition = condition
 
     @cached_property
     def place(self) -> Array:

@@ -29,8 +29,11 @@ class SliderCrank(Motion):
     """
 
     def __init__(self, psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> None:
-        z, lam, eps = on_circle(psi), np.asarray(lam, float), np.asarray(eps, float)
-        height, signed = np.abs(z.imag), np.where(z.imag < 0, -eps, eps)
+        z = on_circle(psi)
+        lam = np.asarray(lam, float)
+        eps = np.asarray(eps, float)
+        height = np.abs(z.imag)
+        signed = np.where(z.imag < 0, -eps, eps)
         most = 1 - lam
         clearance = (most + signed) + ((1 - most) - lam)  # 1 - lam + q, rounded once
         near = clearance + lam * (z.real**2 / (1 + height))
@@ -68,7 +71,9 @@ def displacement(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> Array:
         psi: Crank angle, rad, real.
         lam, eps: Crank radius and offset over rod length.
     """
-    psi, lam, eps = np.asarray(psi, float), np.asarray(lam, float), np.asarray(eps, float)
+    psi = np.asarray(psi, float)
+    lam = np.asarray(lam, float)
+    eps = np.asarray(eps, float)
     sin_beta, cos_beta = rod_angle(psi, lam, eps)
     sin_tau = eps / (1 + lam)
     cos_tau = np.sqrt((1 - sin_tau) * (1 + sin_tau))

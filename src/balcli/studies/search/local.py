@@ -25,7 +25,8 @@ from .designs import BROKEN
 Judge = Callable[[Array], Array]  # function that returns the costs of points (points, numbers)
 _DIGITS = 12  # largest number of decimals of rounded numbers
 # Costs are equal if they differ by less than _LEVEL times a cost, or _ROUNDING times the largest.
-_LEVEL, _ROUNDING = 1e-9, 1e-12
+_LEVEL = 1e-9
+_ROUNDING = 1e-12
 
 
 @dataclass(frozen=True)
@@ -192,7 +193,8 @@ def _descend(judge: Judge, box: Box, best: Array, step: Array, exact: Array) -> 
     """Return the minimum near each start, shape (starts, 1). At each step every point moves to a
     better neighbour at the distance `step`, or halves this distance if neither is better.
     """
-    steps, reached = np.broadcast_to(step, best.shape).copy(), judge(best)
+    steps = np.broadcast_to(step, best.shape).copy()
+    reached = judge(best)
     while np.any(steps > exact):
         stays = np.full(len(best), True)
         for side in (-1, 1):
@@ -213,13 +215,16 @@ def _adapt(judge: Judge, box: Box, mean: Array, step: float, effort: Effort) -> 
     returned.
     """
     count, k = mean.shape
-    drawn, most = 8 + 4 * k, 300 + 100 * k
+    drawn = 8 + 4 * k
+    most = 300 + 100 * k
     half = drawn // 4
     random = np.random.default_rng(0)
     size = np.full(count, step)
     covariance = np.tile(np.eye(k), (count, 1, 1))
     learned = 1 + k * (k + 1) / (2 * half)
-    mean, best, reached = mean.copy(), mean.copy(), judge(mean)
+    reached = judge(mean)
+    best = mean.copy()
+    mean = mean.copy()
     for _ in range(most):
         squares, axes = np.linalg.eigh(covariance)
         widths = np.sqrt(np.maximum(squares, 1e-28))
@@ -232,7 +237,8 @@ def _adapt(judge: Judge, box: Box, mean: Array, step: float, effort: Effort) -> 
         moves = np.einsum("sij,slj->sli", axes[live], z * widths[live, None])
         points = box.bring_inside(mean[live, None] + sizes[..., None] * moves * box.span)
         costs = judge(points.reshape(-1, k)).reshape(sizes.shape)
-        rows, order = np.arange(len(live))[:, None], np.argsort(costs, axis=1)[:, :half]
+        rows = np.arange(len(live))[:, None]
+        order = np.argsort(costs, axis=1)[:, :half]
         first = costs.min(axis=1)
         better = first < reached[live]
         best[live[better]] = points[rows[:, 0], order[:, 0]][better]
