@@ -50,7 +50,7 @@ ANSWERS: dict[str, tuple[Callable[[], Result], str]] = {
         "mounts i4_mounts --speeds 1500,2000 --orders 2",
     ),
     "Scatter": (
-        lambda: balcli.scatter(load("i4"), SPREAD, mass=0.01, samples=100, seed=1),
+        lambda: balcli.scatter(load("i4"), SPREAD, mass_scatter=0.01, samples=100, seed=1),
         f"scatter i4 -q {SPREAD} --mass-scatter 1% --samples 100 --seed 1",
     ),
     "Search": (lambda: balcli.search(load("i4"), "throws", SPREAD), f"search i4 --over throws --minimise {SPREAD}"),

@@ -20,7 +20,7 @@ import typer
 from typer.core import TyperCommand, TyperGroup, TyperOption
 from typer.main import get_command
 
-from .errors import BalcliError, Exit, Loudness, note, say, set_loudness, warn
+from .errors import BalcliError, Exit, Loudness, name_option, note, say, set_loudness, warn
 from .limits import MOST_DIGITS
 from .names import import_name
 from .show.sheet import USUAL_DIGITS, set_digits
@@ -234,7 +234,7 @@ def main() -> NoReturn:
     try:
         sys.exit(_run())
     except BalcliError as error:
-        say(f"balcli: {error}")
+        say(f"balcli: {error.tell(name_option)}")
     except typer.TyperException as error:
         say(_usage(error))
     except BrokenPipeError:  # the reader of the output closed the pipe

@@ -6,13 +6,14 @@ import math
 import os
 import re
 import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager, suppress
 from enum import IntEnum
+from functools import partial
 from itertools import islice
 from numbers import Real
 from os import PathLike
-from typing import NamedTuple, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
 from .limits import MOST_LIST_VALUES
 
@@ -114,11 +115,129 @@ class Problem(NamedTuple):
         return cls(path, f"is missing; {hint}", (path,))
 
     def __str__(self) -> str:
-        return f"{self.path}: {self.message}" if self.path else self.message
+        return self.tell(str)
+
+    def tell(self, name_argument: NameArgument) -> str:
+        """Return path and message, with the names that `name_argument` returns for arguments."""
+        message = tell(self.message, name_argument)
+        return f"{self.path}: {message}" if self.path else message
 
 
+# ------------------------------------------------------------------ texts that name arguments
+NameArgument = Callable[[str], str]  # returns how an argument is shown: --damper-at for damper_at
+
+
+def name_option(argument: str) -> str:
+    """Return the option of a command for an argument: `--damper-at` for `damper_at`. As usual in
+    Python, an argument whose name would be a keyword ends with an underscore: `lambda_`.
+    """
+    return f"--{argument.rstrip('_').replace('_', '-')}"
+
+
+class Argument(str):
+    """Name of an argument, as a value of a `Message`."""
+
+    def tell(self, name_argument: NameArgument) -> str:
+        """Return the name that `name_argument` returns."""
+        return name_argument(str(self))
+
+
+class Message(str):
+    """A text that names arguments. As a string, it has their names in Python: `damper_at`; a
+    command prints the names of its options (`tell`): `--damper-at`.
+
+    Args:
+        text: Text with fields in braces. A field whose name is none of `values` is the name of an
+            argument.
+        values: Values of the other fields. Braces in them have no effect. Arguments, messages and
+            errors among them are told like the text itself.
+
+    Example:
+        >>> str(Message("{damper_at} {node!r}: choose from {nodes}", node="hub", nodes="a, b"))
+        "damper_at 'hub': choose from a, b"
+    """
+
+    text: str
+    values: dict[str, object]
+
+    def __new__(cls, text: str, /, **values: object) -> Message:
+        message = super().__new__(cls, _fill(text, values, str))
+        message.text = text
+        message.values = values
+        return message
+
+    def __getnewargs_ex__(self) -> tuple[tuple[str], dict[str, Any]]:  # for pickle and copy
+        return (self.text,), self.values
+
+    def tell(self, name_argument: NameArgument) -> str:
+        """Return the text with the names that `name_argument` returns for arguments."""
+        return _fill(self.text, self.values, name_argument)
+
+
+def tell(text: str, name_argument: NameArgument) -> str:
+    """Return a text; if it is a `Message`, with the names that `name_argument` returns."""
+    return text.tell(name_argument) if isinstance(text, Message) else text
+
+
+class _Fields(dict[str, object]):
+    """Values of the fields of a text; a field without a value is an argument."""
+
+    name_argument: NameArgument
+
+    def __missing__(self, name: str) -> str:
+        return self.name_argument(name)
+
+
+def _fill(text: str, values: dict[str, object], name_argument: NameArgument) -> str:
+    """Return a text with its fields filled; see `Message`."""
+    fields = _Fields(values)
+    fields.name_argument = name_argument
+    for name, value in values.items():
+        if isinstance(value, (Argument, Message, BalcliError)):
+            fields[name] = value.tell(name_argument)
+    return text.format_map(fields)
+
+
+# ------------------------------------------------------------------ errors
 class BalcliError(Exception):
     """A mistake that the user can correct; `cli.py` prints its text and exits with status 2."""
+
+    def tell(self, name_argument: NameArgument) -> str:
+        """Return the text, with the names that `name_argument` returns for arguments."""
+        return str(self)
+
+    def within(self, name: str) -> BalcliError:
+        """Return the error with a name in front of its text, such as that of an engine; the error
+        itself if the name is empty.
+        """
+        return BalcliError(f"{name}: {self}") if name else self
+
+
+class ArgumentError(BalcliError):
+    """A wrong argument of a function, or a wrong option of a command.
+
+    Args:
+        text: Text that names arguments in braces; see `Message`.
+        values: Values of the other fields of the text.
+
+    Example:
+        >>> raise ArgumentError("{factor} {value:g}: leave {hammer_blow} out", value=0.5)
+    """
+
+    def __init__(self, text: str, /, **values: object) -> None:
+        self.message = Message(text, **values)
+        super().__init__(self.message)
+
+    def __reduce__(self) -> tuple[Callable[[], ArgumentError], tuple[()]]:  # for pickle and copy
+        return partial(type(self), self.message.text, **self.message.values), ()
+
+    def tell(self, name_argument: NameArgument) -> str:
+        return self.message.tell(name_argument)
+
+    def within(self, name: str) -> ArgumentError:
+        if not name:
+            return self
+        return ArgumentError("{name}: {error}", name=name, error=self.message)
 
 
 def tell_unwritable(target: str | PathLike[str], error: OSError) -> BalcliError:
@@ -145,12 +264,20 @@ class InputError(BalcliError):
         super().__init__(file, self.problems, more)
 
     def __str__(self) -> str:
+        return self.tell(str)
+
+    def tell(self, name_argument: NameArgument) -> str:
         head = self.file or "engine"
-        if len(self.problems) == 1:
-            return f"{head}: {self.problems[0]}"
+        problems = [problem.tell(name_argument) for problem in self.problems]
+        if len(problems) == 1:
+            return f"{head}: {problems[0]}"
         last = [f"  and {self.more} more"] if self.more else []
-        count = len(self.problems) + self.more
-        return "\n".join([f"{head}: {count} mistakes", *(f"  {p}" for p in self.problems), *last])
+        count = len(problems) + self.more
+        return "\n".join([f"{head}: {count} mistakes", *(f"  {p}" for p in problems), *last])
+
+    def within(self, name: str) -> InputError:
+        names = [part for part in (name, self.file) if part]
+        return type(self)(self.problems, ": ".join(names), self.more)
 
 
 class OtherKindError(InputError):
@@ -211,7 +338,7 @@ def refuse_more(name: str, values: object, most: int) -> None:
         most: Largest number of values.
 
     Raises:
-        BalcliError: There are more than `most` values.
+        ArgumentError: There are more than `most` values.
     """
     size = getattr(values, "size", None)
     try:
@@ -221,7 +348,11 @@ def refuse_more(name: str, values: object, most: int) -> None:
     except OverflowError:  # a range longer than memory
         count = most + 1
     if count > most:
-        raise BalcliError(f"{name}: has more than {most} values; give at most {most}")
+        raise ArgumentError(
+            "{argument}: has more than {most} values; give at most {most}",
+            argument=Argument(name),
+            most=most,
+        )
     if count and isinstance(values, (list, tuple)):
         refuse_more(name, values[0], most)
 
@@ -230,7 +361,7 @@ def list_values(name: str, values: Iterable[T], most: int = MOST_LIST_VALUES) ->
     """Return an iterable argument as a list; reading ends after `most` + 1 values.
 
     Raises:
-        BalcliError: There are more than `most` values.
+        ArgumentError: There are more than `most` values.
     """
     refuse_more(name, values, most)
     listed = list(islice(values, most + 1))

@@ -84,9 +84,9 @@ def test_kinds(exact, text, kind):
 
 # ---------------------------------------------------------------- other ranges
 def test_ranges_include_both_ends():
-    assert parse_range("0.20:0.40:0.1", "--angle") == ("0.2", "0.3", "0.4")
-    assert parse_range("0:180:60", "--angle") == ("0", "60", "120", "180")
-    assert parse_range("0.24,1/3,0.24", "--angle") == ("0.24", "1/3")
+    assert parse_range("angle", "0.20:0.40:0.1") == ("0.2", "0.3", "0.4")
+    assert parse_range("angle", "0:180:60") == ("0", "60", "120", "180")
+    assert parse_range("angle", "0.24,1/3,0.24") == ("0.24", "1/3")
     assert len(parse_crank_ratios("0.20:0.40:0.01")) == 21
 
 
@@ -95,8 +95,8 @@ def test_ranges_include_both_ends():
     ["", "1:2:3:4", "a:b", "0:1:0", "1:0:0.1", "0:1e9:1e-9", "nan", "1/0", "0:1:", "1e400", "1e999999999", "3e9"],
 )
 def test_bad_ranges(text):
-    with pytest.raises(BalcliError, match=r"^--angle '.*' is no range: give START:STOP:STEP \(0.20:0.40:0.01\) or"):
-        parse_range(text, "--angle")
+    with pytest.raises(BalcliError, match=r"^angle '.*' is no range: give START:STOP:STEP \(0.20:0.40:0.01\) or"):
+        parse_range("angle", text)
 
 
 @pytest.mark.parametrize(
@@ -105,7 +105,7 @@ def test_bad_ranges(text):
 )
 def test_other_angles_and_ratios(name, function):
     """The print stands beside the exact values wherever it has the angle and the ratio, and only there."""
-    table = recompute(name, ratios="0.3,0.35", angles="70,71.5")
+    table = recompute(name, lambda_="0.3,0.35", angle="70,71.5")
     place = table.columns.index("0.35")
     assert table.exact[1][place] == pytest.approx(float(function(np.radians(71.5), 0.35)), rel=1e-14)
     assert table.printed[0][place - 1] is not None
@@ -113,7 +113,7 @@ def test_other_angles_and_ratios(name, function):
 
 
 def test_the_acceleration_goes_on_to_180_degrees():
-    table = recompute("tsinghua-1-6", angles="0:180:5")
+    table = recompute("tsinghua-1-6", angle="0:180:5")
     assert len(table.exact) == 37
     assert len(table.errata) == ERRATA["tsinghua-1-6"]
     assert table.exact[-1][table.columns.index("0.32")] == pytest.approx(-(1 - 0.32), rel=1e-14)
@@ -123,7 +123,7 @@ def test_the_acceleration_goes_on_to_180_degrees():
 @pytest.mark.parametrize("angles", ["17.5,45,131.81", "0:180:20"])
 def test_tables_of_liu_at_other_bank_angles(angles):
     """From the force of both banks sampled over a turn; path lengths as sums of small steps."""
-    paths, vectors, sliders = (recompute(f"liu-{n}", angles=angles) for n in (1, 2, 3))
+    paths, vectors, sliders = (recompute(f"liu-{n}", angle=angles) for n in (1, 2, 3))
     gammas = [float(heading) for heading in paths.columns[1:]]
     assert [*paths.columns[1:]] == [*vectors.columns[1:]]
     theta = np.radians(np.arange(0, 360, 5))
@@ -145,7 +145,7 @@ def test_tables_of_liu_at_other_bank_angles(angles):
 
 def test_the_optimum_of_wang_at_other_crank_ratios():
     """Between the printed ratios; what is not printed has no followed choice."""
-    table = recompute("wang-1", ratios="0.25,0.28")
+    table = recompute("wang-1", lambda_="0.25,0.28")
     theta = np.linspace(0, 2 * np.pi, 7201)
     force = np.cos(theta) + 0.28 * np.cos(2 * theta)
     peaks = [np.abs(force - k * np.exp(1j * theta)).max() for k in np.arange(0.55, 0.65, 1e-4)]
@@ -165,7 +165,7 @@ def test_errors_of_two_terms():
         error = np.abs(two - place)
         wanted += [error.max(), 100 * error.max() / np.abs(place).max()]
         place, two = np.gradient(place, psi, edge_order=2), np.gradient(two, psi, edge_order=2)
-    found = [row[1] for row in recompute("tsinghua-two-terms", ratios="0.25").exact]
+    found = [row[1] for row in recompute("tsinghua-two-terms", lambda_="0.25").exact]
     assert [found[n] for n in (0, 1, 4, 5, 8, 9)] == pytest.approx(wanted, rel=1e-3)
     assert found[9] == pytest.approx(0.66, abs=0.005)
 

@@ -10,7 +10,7 @@ from support.engines import build_text
 from support.gas_engines import FOUR, WIEBE, draw_engine
 
 from balcli.core.speed_ripple import speed_variation
-from balcli.crank_torque.answer import analyze_torque_of_engine as torque
+from balcli.crank_torque.answer import torque
 from balcli.engine.load import load
 from balcli.errors import BalcliError
 from balcli.forces.curves import (

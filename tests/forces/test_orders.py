@@ -11,7 +11,7 @@ from balcli.analysis.answer import analyze
 from balcli.analysis.order_tables import tell_rocking
 from balcli.analysis.two_engines import Arrangement, combine_engines
 from balcli.core.phasors import Phasors
-from balcli.crank_torque.answer import analyze_torque_of_engine as torque
+from balcli.crank_torque.answer import torque
 from balcli.engine.engine import take_model
 from balcli.engine.load import load
 from balcli.errors import BalcliError

@@ -21,7 +21,7 @@ SHOWN = {
     "sweep": lambda: balcli.plot(balcli.sweep(VEE, {"layout.bank_angle": "0:180:20"})),
     "torque": lambda: balcli.plot(balcli.torque(GAS)),
     "torsion": lambda: balcli.plot(balcli.torsion(DIESEL, SPEEDS), "response"),
-    "torsion of an engine": lambda: balcli.plot(DIESEL, "waterfall", speeds_rpm=SPEEDS, orders=[3]),
+    "torsion of an engine": lambda: balcli.plot(DIESEL, "waterfall", speeds=SPEEDS, orders=[3]),
     "mounts": lambda: balcli.plot(balcli.mounts(balcli.load_example("i4_mounts"), SPEEDS)),
     "rotor": lambda: balcli.plot(balcli.field(three_runs())),
 }

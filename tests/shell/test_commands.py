@@ -114,7 +114,7 @@ def test_a_cluster_that_does_not_answer(monkeypatch):
 
     monkeypatch.setitem(sys.modules, "distributed", dask(Client=refuse))
     with (
-        pytest.raises(BalcliError, match=r"--dask tcp://host:1: no cluster answers there \(nobody at tcp://host:1\)"),
+        pytest.raises(BalcliError, match=r"^dask tcp://host:1: no cluster answers there \(nobody at tcp://host:1\)"),
         cluster.connect_cluster("tcp://host:1"),
     ):
         pass
@@ -148,7 +148,7 @@ def test_workers_that_are_all_killed_are_a_message(monkeypatch, four):
     monkeypatch.setitem(sys.modules, "distributed", dask(KilledWorker=KilledError))
     monkeypatch.setattr("balcli.studies.sweep.CHUNK", 1)
     sweep, client = read_sweep(str(four), ["crank.stroke=80,90"], "force.2.major"), Lost()
-    with pytest.raises(BalcliError, match=r"--dask: the cluster has lost its workers \(KilledError\)"):
+    with pytest.raises(BalcliError, match=r"^dask: the cluster has lost its workers \(KilledError\)"):
         list(evaluate_chunks(sweep, partial(cluster.run_on_cluster, client)))
     assert [(part.variants, again) for part, again in client.given] == [(1, True), (1, True)]
     values = [part.parameters[0].values.tolist() for part, _ in client.given]

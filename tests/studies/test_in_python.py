@@ -58,7 +58,7 @@ def test_a_sweep_too_large_to_keep_names_the_command(monkeypatch):
     with pytest.raises(balcli.BalcliError) as caught:
         balcli.sweep(FOUR, {"rod.ratio": [0.25, 0.3]}, ["force.2.major", "force.4.major"])
     assert str(caught.value) == (
-        "4 values are too many to keep; give at most 3, or use balcli sweep -o FILE.parquet, which writes them as they are computed"
+        "4 values are too many to keep; give at most 3, or use the command balcli sweep, which writes them into a file as they are computed"
     )
 
 
@@ -77,7 +77,7 @@ def test_the_engine_that_a_search_finds_is_as_good_as_it_says(engine, over):
 
 def test_weights_and_limits_of_a_search():
     weighed = {"moment.1.major": 1, "moment.2.major": np.float64(0.5)}
-    for one in balcli.search(V8, "throws", weighed, limits={"moment.2.major": 1000.0}).results:
+    for one in balcli.search(V8, "throws", weighed, limit={"moment.2.major": 1000.0}).results:
         assert one.objective == pytest.approx(
             one.quantities["moment.1.major"] + 0.5 * one.quantities["moment.2.major"], rel=CLOSE
         )
@@ -98,7 +98,7 @@ def test_angles_of_a_search_are_numbers_of_a_frame():
 
 def test_tolerances_are_shares_or_percentages():
     one, other, third = (
-        balcli.scatter(FOUR, "force.1.major", mass=mass, angle_deg=angle, samples=50, seed=3)
+        balcli.scatter(FOUR, "force.1.major", mass_scatter=mass, angle_scatter=angle, samples=50, seed=3)
         for mass, angle in ((0.01, 0.2), ("1%", "0.2 deg"), (np.float32(0.01), 0.1))
     )
     assert one.quantities == other.quantities

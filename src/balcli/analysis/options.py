@@ -118,7 +118,7 @@ def choose_analysis_format(
 def parse_analysed_speeds(text: str | None) -> tuple[float, ...]:
     """Return the speeds (rpm) of a number, a range or a list; empty without a text."""
     if text is not None and (":" in text or "," in text):
-        several = parse_speeds(text, "--speed", MOST_ANALYSED_SPEEDS)
+        several = parse_speeds(text, "speed", MOST_ANALYSED_SPEEDS)
         return () if several is None else tuple(several.tolist())
     one = parse_speed(text)
     return () if one is None else (one,)

@@ -149,14 +149,12 @@ def parse_tools(units: Units, slug: str | None, **lengths: str | None) -> Tools:
     from ..sizing.workshop import Tools
 
     found = {
-        name: read_length(f"--{name.replace('_', '-')}", text, units)
-        for name, text in lengths.items()
-        if text is not None
+        name: read_length(name, text, units) for name, text in lengths.items() if text is not None
     }
     if slug is not None:
         wanted = f"{', '.join(SLUGS)}, or a density in g/cm3 such as 18.5"
         known = SLUGS.get(slug.strip().lower())
-        found["slug"] = known or 1e3 * read_number("--slug", slug, wanted)
+        found["slug"] = known or 1e3 * read_number("slug", slug, wanted)
     return Tools(**found)
 
 
@@ -174,13 +172,13 @@ def parse_shapes(
         BalcliError: A text cannot be read.
     """
     wanted = "the places of two bearings along z in mm, such as -130,130"
-    places = None if bearings is None else read_lengths("--bearings", bearings, wanted, 2, units)
+    places = None if bearings is None else read_lengths("bearings", bearings, wanted, 2, units)
     if sector is None:
         return places, None
     wanted = "inner and outer radius in mm and opening in deg, such as 30,75,140"
     radii, _, opening = sector.rpartition(",")
-    lengths = read_lengths("--sector", radii, wanted, 2, units)
-    return places, (*lengths, read_figure("--sector", opening, ANGLE))
+    lengths = read_lengths("sector", radii, wanted, 2, units)
+    return places, (*lengths, read_figure("sector", opening, ANGLE))
 
 
 def parse_grade(text: str | None) -> float | None:
@@ -188,7 +186,7 @@ def parse_grade(text: str | None) -> float | None:
     if text is None:
         return None
     wanted = "a grade of ISO 21940-11 such as G16 or 6.3"
-    return read_number("--grade", text.strip().removeprefix("G"), wanted)
+    return read_number("grade", text.strip().removeprefix("G"), wanted)
 
 
 def _check_fit(name: str, scheme: str, options: SchemeOptions, open_devices: Sequence[str]) -> None:
@@ -290,8 +288,8 @@ def balance(
     )
     options = options._replace(
         step=step,
-        direction=None if direction is None else read_figure("--direction", direction, ANGLE),
-        ratio=None if ratio is None else read_share("--ratio", ratio, "a share such as 50%"),
+        direction=None if direction is None else read_figure("direction", direction, ANGLE),
+        ratio=None if ratio is None else read_share("ratio", ratio, "a share such as 50%"),
         design=design,
         criterion=criterion,
     )
@@ -299,7 +297,7 @@ def balance(
     tools = parse_tools(units, slug, **lengths, max_depth=max_depth, width=width)
     shapes = Shapes(*parse_shapes(units, bearings, sector))
     grade_mm_s = parse_grade(grade)
-    mass_kg = None if mass is None else read_figure("--mass", mass, MASS, units)
+    mass_kg = None if mass is None else read_figure("mass", mass, MASS, units)
     asked, rpm = parse_orders(orders), parse_speed(speed)
     text, model, engine = read_engine(path, rpm, prepare=remove_to_fit)
     open_devices = [name for name, _ in list_to_fit(model)]

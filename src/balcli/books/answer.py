@@ -22,13 +22,13 @@ from ..core.mechanisms import closed_form, power_series, slidercrank
 from ..engine.build import build
 from ..engine.engine import Engine
 from ..engine.parse import parse
-from ..errors import BalcliError, check_type
+from ..errors import Argument, ArgumentError, BalcliError, check_type
 from ..file.examples import folder
 from ..file.fields import suggest_nearest
 from ..file.model import EngineFile
 from ..forces.symmetry import find_textbook
 from ..limits import HIGHEST_POWER
-from ..shell.arguments import check_count, tell_arguments
+from ..shell.arguments import check_count
 from . import schemes, series, tsinghua, worked_examples
 from .recomputed import (
     Print,
@@ -109,8 +109,8 @@ TABLES: dict[str, Callable[[Print, Ranges], Table]] = {
     "layouts": tabulate_layouts,
 }
 NAMES = tuple(TABLES)
-TAKES = {  # option that gives another range: tables that accept this option
-    "lambda": (
+TAKES = {  # argument that gives another range: tables that accept it
+    "lambda_": (
         *(f"tsinghua-1-{k}" for k in (2, 3, 4, 6)),
         *("tsinghua-two-terms", "wang-1", "kvasnikov-1", "kvasnikov-2"),
     ),
@@ -120,13 +120,13 @@ TAKES = {  # option that gives another range: tables that accept this option
 
 
 def select_tables(
-    name: str | None, lam: str | None = None, angle: str | None = None, power: int | None = None
+    name: str | None, lambda_: str | None = None, angle: str | None = None, power: int | None = None
 ) -> list[Table]:
     """Return the table of this name, or all tables.
 
     Args:
         name: Name; None: all tables.
-        lam: Range of crank ratios as text, `0.20:0.40:0.01`.
+        lambda_: Range of crank ratios as text, `0.20:0.40:0.01`.
         angle: Range of crank or bank angles as text, deg.
         power: Highest power of the crank ratio.
 
@@ -134,30 +134,33 @@ def select_tables(
         BalcliError: There is no such table, a range cannot be read, or a range is given without the
             name of a table that takes this range.
     """
-    lams = parse_crank_ratios(lam) if lam is not None else None
-    angles = parse_range(angle, "--angle") if angle is not None else None
+    lams = parse_crank_ratios(lambda_) if lambda_ is not None else None
+    angles = parse_range("angle", angle) if angle is not None else None
     ranges = Ranges(lams, angles, power)
     if name is not None and name not in TABLES:
         near = suggest_nearest(name, NAMES, f"there are {', '.join(NAMES)}")
         raise BalcliError(f"no table {name!r}; {near}")
     names = NAMES if name is None else (name,)
-    for (option, takers), value in zip(TAKES.items(), ranges, strict=True):
+    for (argument, takers), value in zip(TAKES.items(), ranges, strict=True):
         if value is not None and (name is None or names[0] not in takers):
-            raise BalcliError(f"--{option}: name a table that takes it: {', '.join(takers)}")
+            raise ArgumentError(
+                "{argument}: name a table that takes it: {takers}",
+                argument=Argument(argument),
+                takers=", ".join(takers),
+            )
     return [TABLES[each](load_print(each), ranges) for each in names]
 
 
-@tell_arguments(**{"lambda": "ratios", "angle": "angles"})
 def tables(
-    name: str, *, ratios: str | None = None, angles: str | None = None, power: int | None = None
+    name: str, *, lambda_: str | None = None, angle: str | None = None, power: int | None = None
 ) -> Table:
     """Return a printed coefficient table with the recomputed figures.
 
     Args:
         name: Name of the table, such as "tsinghua-1-2" or "series"; `balcli tables` lists all.
-        ratios: Crank ratios (crank radius over rod length) in place of the printed ones, for tables
-            by crank ratio, such as "0.20:0.40:0.01" or "0.25,1/3".
-        angles: Angles in place of the printed ones, deg, in the same form: crank angles, or bank
+        lambda_: Crank ratios (crank radius over rod length) in place of the printed ones, for
+            tables by crank ratio, such as "0.20:0.40:0.01" or "0.25,1/3".
+        angle: Angles in place of the printed ones, deg, in the same form: crank angles, or bank
             angles in the tables of liu.
         power: Highest power of the crank ratio in "series", 0 to 200.
 
@@ -174,7 +177,7 @@ def tables(
         >>> tables("tsinghua-1-2").errata
     """
     check_type("tables", name, str, f"give the name of a table, such as {NAMES[1]!r}")
-    check_type("ratios", ratios, (str, NoneType), 'give a text, such as "0.20:0.40:0.01"')
-    check_type("angles", angles, (str, NoneType), 'give a text, such as "0:180:5"')
+    check_type("lambda_", lambda_, (str, NoneType), 'give a text, such as "0.20:0.40:0.01"')
+    check_type("angle", angle, (str, NoneType), 'give a text, such as "0:180:5"')
     highest = None if power is None else check_count("power", power, 0, HIGHEST_POWER)
-    return select_tables(name, ratios, angles, highest)[0]
+    return select_tables(name, lambda_, angle, highest)[0]

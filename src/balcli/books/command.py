@@ -36,7 +36,7 @@ Kind = Annotated[
     Literal["misprint", "rounding", "approximation", "method", "error", "copy"] | None,
     typer.Option(help="List only errata of this class.", show_default=False),
 ]
-Lam = Annotated[
+Lambda = Annotated[
     str | None, optional("0.20:0.40:0.01", "Other crank ratios; as a list: 0.25,1/3.", "--lambda")
 ]
 Angle = Annotated[
@@ -51,7 +51,7 @@ def tables(
     name: Name = None,
     errata: Errata = False,
     kind: Kind = None,
-    lam: Lam = None,
+    lambda_: Lambda = None,
     angle: Angle = None,
     power: Power = None,
     form: FormatOption = None,
@@ -70,8 +70,8 @@ def tables(
     form = text_format(output, form)
     from . import answer, show as pages
 
-    angles = angle and as_bare_angles("--angle", angle)
-    chosen = answer.select_tables(name, lam, angles, power)
+    angles = angle and as_bare_angles("angle", angle)
+    chosen = answer.select_tables(name, lambda_, angles, power)
     if errata or kind:
         errors = [(t.name, e) for t in chosen for e in t.errata if kind in (None, e.category)]
         show([errors], pages.ERRATA, form, output)

@@ -20,7 +20,7 @@ import numpy as np
 
 from ..core.phasors import Array
 from ..core.records import HIDDEN, WrittenAs
-from ..errors import BalcliError
+from ..errors import Argument, ArgumentError
 from ..limits import LARGEST_TABLE_VALUE, MOST_TABLE_VALUES
 from ..show.result import Result
 
@@ -332,17 +332,25 @@ class Ranges(NamedTuple):
     power: int | None = None
 
 
-def parse_range(text: str, option: str) -> tuple[str, ...]:
+def parse_range(argument: str, text: str) -> tuple[str, ...]:
     """Return the numbers of a range as texts; START:STOP:STEP includes STOP if a step meets it.
 
+    Args:
+        argument: Name of the argument, for messages.
+        text: Range, or list of numbers.
+
     Raises:
-        BalcliError: The text is neither a range nor a list of numbers, or has too many of them.
+        ArgumentError: The text is neither a range nor a list of numbers, or has too many of them.
     """
     try:
         found = [heading for item in text.split(",") for heading in _expand(*item.split(":"))]
     except (ValueError, TypeError, ArithmeticError):
-        hint = "give START:STOP:STEP (0.20:0.40:0.01) or a list (0.24,0.28,1/3)"
-        raise BalcliError(f"{option} {text!r} is no range: {hint}") from None
+        raise ArgumentError(
+            "{argument} {text!r} is no range: give START:STOP:STEP (0.20:0.40:0.01) or a list "
+            "(0.24,0.28,1/3)",
+            argument=Argument(argument),
+            text=text,
+        ) from None
     return tuple(dict.fromkeys(found))
 
 
@@ -350,14 +358,16 @@ def parse_crank_ratios(text: str) -> tuple[str, ...]:
     """Return the numbers of a range of lambda (crank radius over rod length) as texts.
 
     Raises:
-        BalcliError: The range is wrong (see `parse_range`), or a mechanism in it cannot turn.
+        ArgumentError: The range is wrong (see `parse_range`), or a mechanism in it cannot turn.
     """
-    found = parse_range(text, "--lambda")
+    found = parse_range("lambda_", text)
     bad = next((heading for heading in found if not 0 < _read(heading) < 1), None)
     if bad is not None:
-        raise BalcliError(
-            f"--lambda {text!r}: lambda = {bad}, but a crank turns only with 0 < lambda < 1; give "
-            "crank radius over rod length, such as 0.25 or 1/3.5"
+        raise ArgumentError(
+            "{lambda_} {text!r}: lambda = {bad}, but a crank turns only with 0 < lambda < 1; give "
+            "crank radius over rod length, such as 0.25 or 1/3.5",
+            text=text,
+            bad=bad,
         )
     return found
 

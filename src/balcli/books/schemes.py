@@ -30,7 +30,7 @@ import numpy as np
 
 from ..core.peaks import find_least
 from ..core.phasors import Array, unit
-from ..errors import BalcliError
+from ..errors import ArgumentError
 from .recomputed import (
     Explanation,
     Print,
@@ -169,16 +169,18 @@ def tabulate_optimum(printed: Print, ranges: Ranges) -> Table:
     whole revolution with the printed counterweight.
 
     Raises:
-        BalcliError: There are too many crank ratios.
+        ArgumentError: There are too many crank ratios.
     """
     columns = (*printed.columns, *SEARCHED, *FOLLOWED)
     stub = ranges.lam or printed.column("lambda")
     words = printed.align_cells(stub, columns)
     lams = as_numbers(stub).tolist()
     if len(lams) > _MOST_RATIOS:
-        raise BalcliError(
-            f"{len(lams)} crank ratios are to be searched, and at most {_MOST_RATIOS} can be: take "
-            "larger steps of --lambda"
+        raise ArgumentError(
+            "{count} crank ratios are to be searched, and at most {most} can be: take larger steps "
+            "of {lambda_}",
+            count=len(lams),
+            most=_MOST_RATIOS,
         )
     searches = [_half_cycle(lam) for lam in lams]
     rows: list[Row] = []

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..core.mechanisms import slidercrank as sc
 from ..core.phasors import Array
-from ..errors import BalcliError
+from ..errors import ArgumentError
 from ..limits import MOST_TABLE_VALUES
 from .recomputed import (
     Cell,
@@ -95,14 +95,18 @@ def tabulate_by_angle(printed: Print, ranges: Ranges, function: ByAngle) -> Tabl
     signs and of the angles 360 degrees - alpha, where alpha is the crank angle.
 
     Raises:
-        BalcliError: The table has too many cells.
+        ArgumentError: The table has too many cells.
     """
     headings = ranges.lam or printed.headings()
     stub = ranges.angle or printed.column("alpha_deg")
     if (count := len(stub) * len(headings)) > MOST_TABLE_VALUES:
-        raise BalcliError(
-            f"{len(stub)} angles by {len(headings)} crank ratios are {count} figures, and at most "
-            f"{MOST_TABLE_VALUES} are tabulated: take larger steps of --angle or --lambda"
+        raise ArgumentError(
+            "{angles} angles by {ratios} crank ratios are {count} figures, and at most {most} are "
+            "tabulated: take larger steps of {angle} or {lambda_}",
+            angles=len(stub),
+            ratios=len(headings),
+            count=count,
+            most=MOST_TABLE_VALUES,
         )
     angles = as_numbers(stub)
     body = function(np.radians(angles)[:, None], as_numbers(headings)[None, :])

@@ -13,12 +13,11 @@ from ..core.cylinder_pressure import find_highest
 from ..core.speed_ripple import surplus
 from ..engine.engine import CylinderNumber, Engine, check_engine, find_row, refuse_geared
 from ..engine.layout import find_first
-from ..errors import BalcliError, check_number, check_type, list_words
+from ..errors import ArgumentError, check_number, check_type, list_words
 from ..file.plain_tables import STEADY
 from ..forces.crankshaft import refuse_too_many_forces
 from ..forces.curves import find_constant_inertia, find_moving_inertia, find_torque_curves
 from ..forces.spectrum import check_orders, compute_spectra, list_gas_orders, take_gas
-from ..shell.arguments import tell_arguments
 from .flywheel import find_flywheel
 from .loads import KINDS_OF_LOAD, analyze_loads
 from .records import (
@@ -42,7 +41,7 @@ def choose_firing_cylinder(engine: Engine) -> CylinderNumber:
     return find_first(engine.fires_deg) if engine.fires_deg else 1
 
 
-def analyze_torque_of_engine(
+def torque(
     engine: Engine,
     orders: Iterable[float] | None = None,
     *,
@@ -81,7 +80,11 @@ def analyze_torque_of_engine(
         fluctuation = check_number("fluctuation", fluctuation, "give a number, such as 1 / 200")
     wanted = list_words("loads", loads, '["pin", "main"]')
     if strange := [word for word in wanted if word not in KINDS_OF_LOAD]:
-        raise BalcliError(f"--loads: {strange[0]!r}; choose from {', '.join(KINDS_OF_LOAD)}")
+        raise ArgumentError(
+            "{loads}: {strange!r}; choose from {kinds}",
+            strange=strange[0],
+            kinds=", ".join(KINDS_OF_LOAD),
+        )
     if wanted:
         refuse_geared(engine)
         refuse_too_many_forces(engine)
@@ -133,7 +136,3 @@ def analyze_torque_of_engine(
         spectra=spectra,
         cylinder=cylinder,
     )
-
-
-torque = tell_arguments()(analyze_torque_of_engine)
-torque.__name__ = torque.__qualname__ = "torque"

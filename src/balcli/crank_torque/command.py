@@ -110,9 +110,9 @@ def torque(
     from . import answer, given_curve, show as pages
 
     rpm, asked = parse_speed(speed), parse_orders(orders)
-    allowed = None if fluctuation is None else read_share("--fluctuation", fluctuation, FLUCTUATION)
+    allowed = None if fluctuation is None else read_share("fluctuation", fluctuation, FLUCTUATION)
     if curve is not None:
-        own = None if inertia is None else read_inertia("--inertia", inertia, units)
+        own = None if inertia is None else read_inertia("inertia", inertia, units)
         given = given_curve.read_curve(curve)
         warn_each(given_curve.doubt_period(given), str(curve))
         taken = None if load is None else given_curve.read_curve(load)
@@ -124,7 +124,7 @@ def torque(
         require_gas(source.engine, path or "")
         engine = named_by_file(source.engine, path or "")
         engine = silence_cylinders(engine, misfire or (), path or "")
-        found = answer.analyze_torque_of_engine(
+        found = answer.torque(
             engine,
             asked,
             cylinder=None if cylinder is None else parse_cylinder(cylinder),

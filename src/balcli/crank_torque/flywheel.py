@@ -17,7 +17,7 @@ from ..core.speed_ripple import (
     small_fluctuation,
     speed_variation,
 )
-from ..errors import BalcliError
+from ..errors import ArgumentError
 from ..file.fields import order_number
 from ..limits import FLUCTUATION, HIGHEST_RIPPLE_ORDER, MOST_RIPPLES, SMALLEST_FLUCTUATION
 
@@ -76,7 +76,7 @@ def find_flywheel(
         fluctuation: Largest allowed fluctuation; None: not requested.
 
     Raises:
-        BalcliError: A requested fluctuation is not between 1e-9 and 2, or a fluctuation is
+        ArgumentError: A requested fluctuation is not between 1e-9 and 2, or a fluctuation is
             requested and the mean speed is not known.
     """
     if constant is None and fluctuation is None:
@@ -85,9 +85,11 @@ def find_flywheel(
     needed = None
     if fluctuation is not None:
         if not SMALLEST_FLUCTUATION <= fluctuation < 2:
-            raise BalcliError(f"--fluctuation {fluctuation:g}: give {FLUCTUATION}")
+            raise ArgumentError(
+                "{fluctuation} {value:g}: give {wanted}", value=fluctuation, wanted=FLUCTUATION
+            )
         if mean_speed is None:
-            raise BalcliError("--fluctuation needs the mean speed; give it, such as --speed 300")
+            raise ArgumentError("{fluctuation} needs the mean speed; give it, such as {speed} 300")
         needed = course.mean + needed_inertia(torque, mean_speed, fluctuation, course.at)
     mean = (constant or 0.0) + course.mean
     found = Flywheel(None if constant is None else mean, course.mean, needed_kg_m2=needed)

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ..core.phases import RPM
 from ..core.piecewise import PiecewiseCurve, merged_breaks, polyline, resolved
 from ..core.speed_ripple import surplus
-from ..errors import BalcliError
+from ..errors import ArgumentError, BalcliError
 from ..file.csv_columns import ANGLE_SYMBOLS, Head, read_columns
 from ..file.units import ANGLE, TORQUE
 from ..forces.spectrum import check_orders
@@ -151,6 +151,8 @@ def _choose_harmonics(turns: float, orders: list[float] | None) -> NDArray[np.in
 def _subtract(torque: PiecewiseCurve, load: PiecewiseCurve) -> PiecewiseCurve:
     if abs(torque.period - load.period) > _SAME:
         periods = f"{np.degrees(load.period):g} deg, the torque {np.degrees(torque.period):g} deg"
-        raise BalcliError(f"--load: has a period of {periods}; give both over the same angle")
+        raise ArgumentError(
+            "{load}: has a period of {periods}; give both over the same angle", periods=periods
+        )
     breaks = merged_breaks([(torque.breaks, 0.0), (load.breaks, 0.0)], torque.period)
     return resolved(lambda angle: torque.at(angle) - load.at(angle), breaks)

@@ -14,7 +14,7 @@ from ..errors import BalcliError
 from ..file.model import EngineFile
 from ..forces.curves import find_constant_inertia, find_torque_curves
 from ..forces.quantity import TargetQuantity
-from .answer import analyze_torque_of_engine as torque
+from .answer import torque
 
 _NAMES = ("torque.mean", "torque.max", "torque.min", "fluctuation")
 NO_INERTIA = "fluctuation: the file gives no inertia; give inertia in [crank] or [flywheel]"

@@ -296,8 +296,12 @@ def read_fraction(text: str) -> float:
     return number / 100 if percent else number
 
 
+class ThousandsError(ValueError):
+    """A point in a figure probably separates thousands."""
+
+
 def refuse_thousands(text: str, value: float | Fraction, dimension: Dimension) -> None:
-    """Raise ValueError for a figure whose point probably separates thousands: "6.000 rpm".
+    """Raise ThousandsError for a figure whose point probably separates thousands: "6.000 rpm".
 
     Args:
         text: Figure as it is typed, with or without a unit.
@@ -307,7 +311,7 @@ def refuse_thousands(text: str, value: float | Fraction, dimension: Dimension) -
     point = re.match(r"\s*[+-]?([1-9]\d{0,2})\.(\d{3})(?![\d.,/eE])", text)
     if point and abs(float(value)) < _LEAST_WITH_DECIMALS.get(dimension, 0):
         decimals, thousands = f"{point[1]}.{point[2]}0", point[1] + point[2]
-        raise ValueError(
+        raise ThousandsError(
             f"has three decimals, or a point between thousands: write {decimals} or {thousands}; "
             f"{wanted(dimension)}"
         )

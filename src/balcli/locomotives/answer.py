@@ -32,14 +32,13 @@ from ..core.peaks import find_longest
 from ..core.phasors import Array, Complex, unit, wrap_degrees
 from ..core.records import HIDDEN, INLINE, Polar, angle_deg
 from ..engine.engine import Engine, check_engine, refuse_geared, take_model
-from ..errors import MOMENTS_UNKNOWN, BalcliError, InputError, Problem
+from ..errors import MOMENTS_UNKNOWN, Argument, ArgumentError, InputError, Problem
 from ..file.edit import set_keys, set_speed
 from ..file.fields import Number
 from ..file.locomotive_tables import FACTOR, Axle, Locomotive
 from ..file.model import Counterweight, EngineFile
 from ..file.units import FORCE, SPEED, VELOCITY, convert
 from ..forces.spectrum import compute_spectra, find_relevant_orders
-from ..shell.arguments import tell_arguments
 from ..show.result import Result
 from ..sizing.remedy import Remedy, fit_devices
 
@@ -209,7 +208,7 @@ def find_unbalances(engine: Engine, axles: Sequence[Axle], planes_m: Array) -> U
     )
 
 
-def analyze_locomotive_of_engine(
+def locomotive(
     engine: Engine,
     factor: float | str | None = None,
     *,
@@ -243,13 +242,13 @@ def analyze_locomotive_of_engine(
     square = float(engine.omega) ** 2
     unbalances = find_unbalances(engine, axles, np.array(table.planes) / 1e3)
     if hammer_blow is not None and factor is not None:
-        raise BalcliError("--hammer-blow determines the factor; leave --factor out")
+        raise ArgumentError("{hammer_blow} determines the factor; leave {factor} out")
     if hammer_blow is not None:
-        limit = _read(Number(FORCE, above=0), "--hammer-blow", hammer_blow) / square
+        limit = _read(Number(FORCE, above=0), "hammer_blow", hammer_blow) / square
         largest = float(np.abs(unbalances.reciprocating).max())
         c: float | None = min(limit / largest, 1.0) if largest else 1.0
     else:
-        c = table.factor if factor is None else _read(FACTOR, "--factor", factor)
+        c = table.factor if factor is None else _read(FACTOR, "factor", factor)
     left = unbalances.revolving if c is None else -c * unbalances.reciprocating
     left = unbalances.drop_noise(left)
     added = unbalances.drop_noise(left - unbalances.revolving)
@@ -284,11 +283,6 @@ def analyze_locomotive_of_engine(
     )
 
 
-locomotive = tell_arguments()(analyze_locomotive_of_engine)
-locomotive.__name__ = locomotive.__qualname__ = "locomotive"
-locomotive.__module__ = __name__  # where pickle finds it
-
-
 def _take_table(engine: Engine, model: EngineFile, *, speed_given: bool) -> Locomotive:
     """Return [locomotive] of a file; InputError if a key that all results need is missing."""
     if (table := model.locomotive) is None:
@@ -303,12 +297,14 @@ def _take_table(engine: Engine, model: EngineFile, *, speed_given: bool) -> Loco
     return table
 
 
-def _read(number: Number, option: str, value: object) -> float:
-    """Return an argument, read like a key of a file; an error names its option (BalcliError)."""
+def _read(number: Number, argument: str, value: object) -> float:
+    """Return an argument, read like a key of a file (ArgumentError)."""
     try:
         return number.read(value)
     except ValueError as error:
-        raise BalcliError(f"{option}: {error}") from None
+        raise ArgumentError(
+            "{argument}: {error}", argument=Argument(argument), error=str(error)
+        ) from None
 
 
 def _read_speed(table: Locomotive, speed: float | str) -> float:
@@ -317,7 +313,7 @@ def _read_speed(table: Locomotive, speed: float | str) -> float:
         rpm: object = table.find_rpm(convert(str(speed), VELOCITY))
     except ValueError:
         rpm = speed
-    return _read(Number(SPEED, above=0, most=1e9), "--speed", rpm)
+    return _read(Number(SPEED, above=0, most=1e9), "speed", rpm)
 
 
 def _list_wheels(

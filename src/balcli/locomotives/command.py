@@ -62,8 +62,7 @@ def locomotive(
     engine, asked = named_by_file(source.engine, path), [_read_bare(hammer_blow), _read_bare(speed)]
     with naming_file(name_file(path)):
         results = [
-            answer.analyze_locomotive_of_engine(engine, one, hammer_blow=asked[0], speed=asked[1])
-            for one in factors
+            answer.locomotive(engine, one, hammer_blow=asked[0], speed=asked[1]) for one in factors
         ]
     warn_each(results[0].doubts, name_file(path))
     if hammer_blow is not None and results[0].factor == 1:

@@ -19,7 +19,7 @@ from ..file.plain_tables import choose_assumed, list_chapter_defaults, take_tabl
 from ..file.read import check_tables
 from ..forces.spectrum import check_orders
 from ..process import Tell, tell_nobody
-from ..shell.arguments import check_speeds, tell_arguments
+from ..shell.arguments import check_speeds
 from ..show.sheet import tell_assumed
 from ..sizing.options import SchemeOptions
 from ..sizing.remedy import fit_devices
@@ -94,7 +94,7 @@ def report_mounts(
             found.append(respond(mounted, running, rpm, ranged=ranged))
             tell(len(found) / len(engines))
     except BalcliError as error:
-        raise BalcliError(f"{name}: {error}" if name else str(error)) from None
+        raise error.within(name) from None
     idle = () if speeds_rpm is None else ("operation.speed",)
     assumed = [*((engine and engine.list_assumed("gas", without=idle)) or ())]
     assumed += choose_assumed(list_chapter_defaults(model), _OF_BODY)
@@ -127,10 +127,9 @@ def report_mounts(
     )
 
 
-@tell_arguments(speeds="speeds_rpm")
 def mounts(
     source: Engine | str | Path | Mapping[str, object],
-    speeds_rpm: ArrayLike | None = None,
+    speeds: ArrayLike | None = None,
     *,
     orders: Iterable[float] | None = None,
     scheme: str | None = None,
@@ -142,7 +141,7 @@ def mounts(
     Args:
         source: Engine whose file has [body] and [[mount]]; or the path of such a file, its text or
             a dict of its tables. A file may also describe body and mounts without an engine.
-        speeds_rpm: Speeds in any order; default: from an eighth of the file's speed to this speed.
+        speeds: Speeds, rpm, in any order; default: from an eighth of the file's speed to it.
             Three or more speeds at equal steps are a range, within which no order may drive an
             undamped mode at its natural frequency.
         orders: Orders of the load; default: all that contribute to the response.
@@ -162,15 +161,15 @@ def mounts(
     Example:
         >>> [mode.frequency_Hz for mode in mounts("i4_mounts.toml").modes]
     """
-    speeds = check_speeds("mounts", speeds_rpm)
+    rpm = check_speeds("mounts", speeds)
     beside = others or {}
     check_type("mounts", beside, Mapping, 'give a dict, such as {"V8": engine}')
     engines = [(str(name), check_engine("mounts", one)) for name, one in beside.items()]
     check_type("scheme", scheme, (str, NoneType), 'give its name, such as "counterweights"')
     model, engine, name = _read(source)
-    steps = np.diff([] if speeds is None else speeds)
-    ranged = speeds is None or (len(steps) > 1 and np.ptp(steps) <= 1e-9 * steps.max())
-    return report_mounts(model, engine, speeds, orders, scheme, engines, name, ranged=ranged)
+    steps = np.diff([] if rpm is None else rpm)
+    ranged = rpm is None or (len(steps) > 1 and np.ptp(steps) <= 1e-9 * steps.max())
+    return report_mounts(model, engine, rpm, orders, scheme, engines, name, ranged=ranged)
 
 
 def _read(source: object) -> tuple[EngineFile, Engine | None, str]:

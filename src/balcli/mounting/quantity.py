@@ -46,9 +46,8 @@ def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> N
     file has no body on mounts.
     """
     if model.body is None or not model.mount:
-        raise BalcliError(
-            f"{quantities[0].name}: the file has no [body] on a [[mount]]; see balcli mounts --help"
-        )
+        lacking = "the file has no [body] on a [[mount]]; give both"
+        raise BalcliError(f"{quantities[0].name}: {lacking}")
     for q in quantities:
         refuse_stranger(q, _name_targets(model)[q.kind])
 

@@ -23,7 +23,7 @@ from ..core.vibration import (
 )
 from ..engine.engine import Engine
 from ..engine.figures import find_first_largest
-from ..errors import BalcliError
+from ..errors import ArgumentError, BalcliError
 from ..file.fields import order_number
 from ..forces.spectrum import compute_spectra, follow_gas, list_gas_orders
 from ..limits import HIGHEST_GAS_ORDER_UNASKED, HIGHEST_ORDER_UNASKED, MOST_MOUNT_RESULTS
@@ -270,10 +270,15 @@ def respond(
     omega = rpm * RPM
     count = len(loads.orders) * len(rpm) * (len(mounts) + len(points))
     if count > MOST_MOUNT_RESULTS:
-        raise BalcliError(
-            f"{len(loads.orders)} orders at {len(rpm)} speeds of {len(mounts)} mounts and "
-            f"{len(points)} points are {count} results, and at most {MOST_MOUNT_RESULTS} are "
-            "computed; take fewer --speeds or --orders"
+        raise ArgumentError(
+            "{order_count} orders at {speed_count} speeds of {mounts} mounts and {points} points "
+            "are {count} results, and at most {most} are computed; take fewer {speeds} or {orders}",
+            order_count=len(loads.orders),
+            speed_count=len(rpm),
+            mounts=len(mounts),
+            points=len(points),
+            count=count,
+            most=MOST_MOUNT_RESULTS,
         )
     bounded = running.refuse_resonance(omega, ranged=ranged)
     motion = running.move(omega)

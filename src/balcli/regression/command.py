@@ -11,7 +11,7 @@ from xml.etree.ElementTree import Element, SubElement, indent, tostring
 import typer
 
 from ..core.records import to_document
-from ..errors import BalcliError, Exit, OtherKindError, legible
+from ..errors import BalcliError, Exit, OtherKindError, legible, name_option
 from ..file.fields import counted
 from ..shell.file_names import format_option
 from ..shell.inputs import exit_on_errors, find_engine_files, find_expected, read_engine, try_each
@@ -97,7 +97,7 @@ def _check_engine(path: Path, *, update: bool, tolerance: float) -> CheckedEngin
     except OtherKindError:
         raise
     except BalcliError as error:
-        return CheckedEngine(engine=str(path), differences=(), error=str(error))
+        return CheckedEngine(engine=str(path), differences=(), error=error.tell(name_option))
     return CheckedEngine(engine=str(path), differences=tuple(differences))
 
 

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
+from ..errors import warn
 from ..file.toml import name_file
 from ..shell import scheme_options
 from ..shell.file_names import choose_target, format_of, parse_output, picture_form
@@ -140,10 +142,24 @@ def plot(
     options = parse_scheme_options(
         order, at, position, planes, factor, measured, roll, units, small
     )
+    _warn_of_idle(pages, speed, speeds, cylinder)
     from .plot import Asked, make_figures, write_pages
 
     asked = Asked(speed, orders, speeds, cylinder, scheme, options, units)
     write_pages(make_figures(path, pages, asked), files, form)
+
+
+def _warn_of_idle(
+    pages: Sequence[str], speed: str | None, speeds: str | None, cylinder: int | None
+) -> None:
+    """Warn of options that change none of these pages."""
+    if cylinder is not None and "piston" not in pages:
+        warn("--cylinder has an effect only on the page piston")
+    of_torsion = {*pages}.intersection(OF_TORSION)
+    if speeds is not None and not of_torsion:
+        warn("--speeds has an effect only on pages of torsion; for other pages use --speed")
+    if speed is not None and of_torsion.issuperset(pages):
+        warn("--speed has no effect on pages of torsion; give a range, --speeds A:B")
 
 
 def parse_pages(text: str) -> tuple[str, ...]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ..errors import BalcliError
+from ..errors import ArgumentError
 from ..file.fields import nearest
 
 OF_GAS = ("pressure", "p-v", "torque", "pin", "main")
@@ -27,10 +27,15 @@ def check_page(what: str, known: Sequence[str] = PAGES) -> str:
         known: Names of the existing pages.
 
     Raises:
-        BalcliError: There is no page of this name.
+        ArgumentError: There is no page of this name.
     """
     if what not in known:
         near = nearest(what, known)
         hint = f"; did you mean {near}?" if near else ""
-        raise BalcliError(f'--what "{what[:60]}": choose from {", ".join(known)}{hint}')
+        raise ArgumentError(
+            '{what} "{page}": choose from {known}{hint}',
+            page=what[:60],
+            known=", ".join(known),
+            hint=hint,
+        )
     return what

@@ -26,7 +26,7 @@ from ..core.phasors import Array, Phasors, unit
 from ..core.records import Node
 from ..crank_torque.answer import choose_firing_cylinder
 from ..engine.engine import Engine, take_model
-from ..errors import BalcliError, warn
+from ..errors import BalcliError, name_option, warn
 from ..file.fields import order_number
 from ..file.model import EngineFile
 from ..forces.curves import find_torque_curves
@@ -246,7 +246,7 @@ def _warning(chapter: str) -> Iterator[None]:
     try:
         yield
     except BalcliError as error:
-        warn(f"the page does not show the {chapter}: {error}")
+        warn(f"the page does not show the {chapter}: {error.tell(name_option)}")
 
 
 def page(found: Answers, system: System, live: Node | None = None, tell: Tell = tell_nobody) -> str:

@@ -14,14 +14,14 @@ from ..analysis.answer import Analysis
 from ..balancing.answer import Balance
 from ..crank_torque.records import TorqueAnalysis
 from ..engine.engine import Engine, take_model
-from ..errors import check_number, check_type, warn, wrong_type
+from ..errors import check_number, check_type, wrong_type
 from ..field_balancing.answer import FieldBalance
 from ..field_balancing.show import make_field
 from ..forces.spectrum import check_orders
 from ..limits import SMALL
 from ..mounting.plot import make_mounts
 from ..mounting.records import MountReport
-from ..shell.arguments import check_count, check_speeds, check_torsion_orders, tell_arguments
+from ..shell.arguments import check_count, check_speeds, check_torsion_orders
 from ..shell.inputs import read_engine, require_gas
 from ..shell.options import parse_orders, parse_speed
 from ..shell.output import write_file
@@ -52,14 +52,13 @@ Shown: TypeAlias = (
 _DRAWN = "give an Engine, or a result of analyze, balance, sweep, torque, torsion, mounts or field"
 
 
-@tell_arguments(speeds="speeds_rpm")
 def plot(
     shown: Shown,
     what: str | None = None,
     *,
     orders: Iterable[float] | None = None,
     scheme: str | None = None,
-    speeds_rpm: ArrayLike | None = None,
+    speeds: ArrayLike | None = None,
     small: float = SMALL,
     cylinder: int = 1,
 ) -> Figure:
@@ -83,7 +82,7 @@ def plot(
             picture.
         orders: Orders of an engine to draw; default: all that are not negligible.
         scheme: Balance scheme; the page compares the engine without and with its devices.
-        speeds_rpm: Speeds for the pages of torsion; default: 0.5 to 1.5 times the engine's.
+        speeds: Speeds for the pages of torsion, rpm; default: 0.5 to 1.5 times the engine's.
         small: Share of one cylinder's first order below which the ladder of an engine ignores a
             force or moment.
         cylinder: Number of the cylinder whose piston is drawn.
@@ -104,7 +103,7 @@ def plot(
     match shown:
         case Engine():
             page = what or "overview"
-            return _plot_engine(shown, page, orders, scheme, options, speeds_rpm, cylinder)
+            return _plot_engine(shown, page, orders, scheme, options, speeds, cylinder)
         case Balance():
             study = Study(shown.after, shown.before, shown.remedy)
             return make_page(PageSubject(study), check_page(what or "overview", PAGES[:6]))
@@ -130,7 +129,7 @@ def _plot_engine(
     orders: Iterable[float] | None = None,
     scheme: str | None = None,
     options: SchemeOptions | None = None,
-    speeds_rpm: ArrayLike | None = None,
+    speeds: ArrayLike | None = None,
     cylinder: int = 1,
 ) -> Figure:
     if check_page(what) not in OF_TORSION:
@@ -139,10 +138,10 @@ def _plot_engine(
         return make_page(PageSubject(study, cylinder=cylinder), what)
     exciting = check_torsion_orders(orders)
     source = make_source(take_model(engine), engine, engine.name, exciting)
-    speeds = check_speeds("plot", speeds_rpm)
-    if speeds is None and what in ("response", "waterfall"):
-        speeds = np.asarray(choose_torsion_speeds(engine), dtype=float)
-    return _plot_torsion(answer_question(source, TorsionQuestion(speeds)), what)
+    rpm = check_speeds("plot", speeds)
+    if rpm is None and what in ("response", "waterfall"):
+        rpm = np.asarray(choose_torsion_speeds(engine), dtype=float)
+    return _plot_torsion(answer_question(source, TorsionQuestion(rpm)), what)
 
 
 def _plot_torsion(result: TorsionAnalysis, what: str) -> Figure:
@@ -174,20 +173,14 @@ def make_figures(path: str, pages: Sequence[str], asked: Asked) -> list[Figure]:
         BalcliError: An option does not suit a page, or the file lacks data for a page.
     """
     found: dict[str, Figure] = {}
-    if asked.cylinder is not None and "piston" not in pages:
-        warn("--cylinder has an effect only on the page piston")
     of_torsion = [page for page in pages if page in OF_TORSION]
     others = [page for page in pages if page not in OF_TORSION]
     if of_torsion:
         refuse_scheme(choose_beside(asked.scheme, asked.options), of_torsion[0])
         drawn = make_figures_of_torsion(path, of_torsion, asked.speeds, asked.orders, asked.units)
         found |= zip(of_torsion, drawn, strict=True)
-    elif asked.speeds is not None:
-        warn("--speeds has an effect only on pages of torsion; for other pages use --speed")
     if others:
         found |= zip(others, _make_pages(path, others, asked), strict=True)
-    elif asked.speed is not None:
-        warn("--speed has no effect on pages of torsion; give a range, --speeds A:B")
     return [found[page] for page in pages]
 
 

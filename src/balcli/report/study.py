@@ -14,7 +14,7 @@ from ..analysis.answer import DEFAULT_ORDERS, Analysis, analyze, find_inner_load
 from ..balancing.answer import balance_engine as balance
 from ..core.phasors import Array, Phasors, unit
 from ..engine.engine import Engine, refuse_geared
-from ..errors import BalcliError
+from ..errors import ArgumentError, Message
 from ..file.fields import counted
 from ..forces.crankshaft import InnerLoads
 from ..forces.kinds import VECTORS
@@ -163,11 +163,13 @@ def compute_study(
 
 
 def refuse_scheme(scheme: str | None, what: str) -> None:
-    """Raise BalcliError if a scheme is given for a page that shows the engine without one."""
+    """Raise ArgumentError if a scheme is given for a page that shows the engine without one."""
     if scheme is not None:
-        alone = "; bank takes only --scheme two-shaft with --order" if what == "bank" else ""
-        raise BalcliError(
-            f"--what {what} shows the engine as it is: leave --scheme and its options out{alone}"
+        hint = Message("; bank takes only {scheme} two-shaft with {order}")
+        raise ArgumentError(
+            "{what} {page} shows the engine as it is: leave {scheme} and its options out{hint}",
+            page=what,
+            hint=hint if what == "bank" else "",
         )
 
 
@@ -177,9 +179,11 @@ def _sweep_factors(
     """Return the peaks over the balance factor, ascending, including the best factor."""
     asked = options or SchemeOptions()
     if scheme not in (None, "factor"):
-        raise BalcliError(f"--what factor shows the scheme factor: leave --scheme {scheme} out")
+        raise ArgumentError(
+            "{what} factor shows the scheme factor: leave {scheme} {other} out", other=scheme
+        )
     if asked.factor is not None or asked.measured is not None:
-        raise BalcliError("--what factor shows all factors: leave --factor and --measured out")
+        raise ArgumentError("{what} factor shows all factors: leave {factor} and {measured} out")
     asked = asked._replace(factor=FACTORS)
     found = size(engine, "factor", asked)
     return tuple(sorted({*found.sweep, find_best_peaks(engine, asked, found)}))
@@ -190,15 +194,16 @@ def swing_banks(engine: Engine, order: float) -> Banks:
     unchanged crankshaft.
 
     Raises:
-        BalcliError: The engine is not a vee.
+        ArgumentError: The engine is not a vee.
     """
     c = engine.cylinders
     axes = np.ravel(c.axis_deg)
     if len(axes) != 2 or c.linkage is not None:
-        raise BalcliError(
-            "--what bank needs the two banks of a vee; this engine has "
-            f"{counted(len(axes), 'bank')}"
-            f"{' and articulated rods or turning cylinders' if c.linkage is not None else ''}"
+        others = " and articulated rods or turning cylinders"
+        raise ArgumentError(
+            "{what} bank needs the two banks of a vee; this engine has {banks}{others}",
+            banks=counted(len(axes), "bank"),
+            others=others if c.linkage is not None else "",
         )
     middle, side = axes.mean(), np.sign(axes - axes.mean())
     angles = np.arange(0.0, 180.5, 1.0)

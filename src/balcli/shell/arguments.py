@@ -14,13 +14,24 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..core.phasors import Array
-from ..errors import BalcliError, InputError, check_number, list_words, refuse_more, wrong_type
+from ..errors import (
+    Argument,
+    ArgumentError,
+    BalcliError,
+    InputError,
+    check_number,
+    list_words,
+    refuse_more,
+    wrong_type,
+)
 from ..file.fields import shorten
 from ..forces.spectrum import check_orders
 from ..limits import HIGHEST_TORSION_ORDER, LARGEST_INERTIA, MOST_SPEEDS, SMALLEST_POSITIVE
 
 Words = str | Iterable[str]  # names, or one text with names separated by commas
 _MOST_GIVEN = 1_000_000  # largest number of given speeds, including equal ones
+
+
 _OPTION = re.compile(r"`[^`]*`|(?<![\w-])--([a-z]+(?:-[a-z]+)*)")
 P = ParamSpec("P")
 Answer = TypeVar("Answer")
@@ -48,6 +59,8 @@ def tell_arguments(**others: str) -> Callable[[Callable[P, Answer]], Callable[P,
         def call(*args: P.args, **kwargs: P.kwargs) -> Answer:
             try:
                 return function(*args, **kwargs)
+            except ArgumentError:
+                raise
             except InputError as error:
                 told = [p._replace(message=name_all(p.message)) for p in error.problems]
                 raise InputError(told, error.file, error.more) from None
@@ -74,38 +87,42 @@ def join_names(function: str, words: Words | None) -> str | None:
     return ",".join(list_words(function, words, '["force.2.major", "moment.1.backward"]'))
 
 
-def check_speeds(function: str, speeds_rpm: ArrayLike | None) -> Array | None:
+def check_speeds(function: str, speeds: ArrayLike | None) -> Array | None:
     """Return speeds as a rising array without repetition, rpm; None if no speeds are given.
 
     Args:
         function: Name of the public function, for messages.
-        speeds_rpm: Speeds, rpm, shape () or (speeds,).
+        speeds: Speeds, rpm, shape () or (speeds,).
 
     Raises:
-        BalcliError: A speed is not above 0, there are too many speeds, or the array has more than
+        ArgumentError: A speed is not above 0, there are too many speeds, or the array has more than
             one axis.
         TypeError: The values are not numbers.
     """
-    if speeds_rpm is None:
+    if speeds is None:
         return None
-    refuse_more(
-        "speeds_rpm", speeds_rpm, MOST_SPEEDS if isinstance(speeds_rpm, range) else _MOST_GIVEN
-    )
+    refuse_more("speeds", speeds, MOST_SPEEDS if isinstance(speeds, range) else _MOST_GIVEN)
     try:
-        given = np.asarray(speeds_rpm)
+        given = np.asarray(speeds)
         if given.dtype.kind not in "iufO":  # numpy would convert texts to numbers
             raise TypeError
         found = np.unique(given.astype(float).ravel())
     except (TypeError, ValueError):
-        raise wrong_type(function, speeds_rpm, "give speeds in rpm, such as [1500, 2000]") from None
+        raise wrong_type(function, speeds, "give speeds in rpm, such as [1500, 2000]") from None
     except OverflowError:  # an integer with hundreds of digits
         found = np.array([math.inf])
     if given.ndim > 1:
-        raise BalcliError(f"speeds_rpm: has the shape {given.shape}; give speeds along one axis")
+        raise ArgumentError(
+            "{speeds}: has the shape {shape}; give speeds along one axis", shape=given.shape
+        )
     if found.size > MOST_SPEEDS:
-        raise BalcliError(f"speeds_rpm: {found.size} speeds; at most {MOST_SPEEDS} are computed")
+        raise ArgumentError(
+            "{speeds}: {count} speeds; at most {most} are computed",
+            count=found.size,
+            most=MOST_SPEEDS,
+        )
     if not found.size or not np.all((found >= SMALLEST_POSITIVE) & (found < 1e9)):
-        raise BalcliError("speeds_rpm: give crank speeds above 0 in rpm, such as [1500, 2000]")
+        raise ArgumentError("{speeds}: give crank speeds above 0 in rpm, such as [1500, 2000]")
     return found
 
 
@@ -114,14 +131,17 @@ def check_torsion_orders(orders: Iterable[float] | None) -> Array | None:
     are given.
 
     Raises:
-        BalcliError: There are no orders, or one is not a multiple of 1/2, not above 0, or too high.
+        ArgumentError: There are no orders, or one is not a multiple of 1/2, not above 0, or too
+            high.
         TypeError: The values are not numbers.
     """
     if orders is None:
         return None
     found = check_orders(orders)
     if not 0 < found[0] <= found[-1] <= HIGHEST_TORSION_ORDER:
-        raise BalcliError(f"orders: give orders above 0, to {HIGHEST_TORSION_ORDER} at most")
+        raise ArgumentError(
+            "{orders}: give orders above 0, to {highest} at most", highest=HIGHEST_TORSION_ORDER
+        )
     return found
 
 
@@ -133,14 +153,18 @@ def check_inertia(name: str, value: object) -> float | None:
         value: Value to check.
 
     Raises:
-        BalcliError: The value is not above 0, or too large to compute with.
+        ArgumentError: The value is not above 0, or too large to compute with.
         TypeError: The value is not a number.
     """
     if value is None:
         return None
     number = check_number(name, value, "give a moment of inertia in kg m2, such as 0.1")
     if not 0 < number < LARGEST_INERTIA:
-        raise BalcliError(f"{name}: {shorten(value)}; give a moment of inertia in kg m2, above 0")
+        raise ArgumentError(
+            "{argument}: {value}; give a moment of inertia in kg m2, above 0",
+            argument=Argument(name),
+            value=shorten(value),
+        )
     return number
 
 
@@ -154,15 +178,20 @@ def check_count(name: str, value: object, least: int = 1, most: int | None = Non
         most: Largest allowed number; None: no limit.
 
     Raises:
-        BalcliError: The value is too small or too large.
+        ArgumentError: The value is too small or too large.
         TypeError: The value is not a whole number.
     """
     if isinstance(value, bool) or not isinstance(value, (int, np.integer)):
         raise wrong_type(name, value, f"give a whole number from {least}")
     if value < least:
-        raise BalcliError(f"{name}: {shorten(value)} is less than {least}")
+        raise ArgumentError(
+            "{argument}: {value} is less than {least}",
+            argument=Argument(name),
+            value=shorten(value),
+            least=least,
+        )
     if most is not None and value > most:
-        raise BalcliError(f"{name}: give {most} at most")
+        raise ArgumentError("{argument}: give {most} at most", argument=Argument(name), most=most)
     return int(value)
 
 

@@ -19,8 +19,10 @@ from ..errors import (
     OtherKindError,
     is_verbose,
     legible,
+    name_option,
     note,
     say,
+    tell,
     warn,
 )
 from ..file.toml import find_near_file, name_file, read_bytes
@@ -110,7 +112,7 @@ def warn_each(doubts: Iterable[str], name: str) -> None:
         name: Name of the file.
     """
     for doubt in doubts:
-        warn(f"{name}: {doubt}")
+        warn(f"{name}: {tell(doubt, name_option)}")
 
 
 def try_each(
@@ -132,7 +134,7 @@ def try_each(
             if path in found and isinstance(error, OtherKindError):
                 note(f"{path}: skipped, a file of another kind")
             else:
-                errors.append(str(error))
+                errors.append(error.tell(name_option))
     return results, errors
 
 

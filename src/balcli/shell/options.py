@@ -201,7 +201,7 @@ def parse_small(text: str | None) -> float:
         BalcliError: The value is not a share from 0 to MOST_SMALL.
     """
     wanted = "a share of one cylinder's first order, such as 2%"
-    return check_small(SMALL if text is None else read_share("--small", text, wanted))
+    return check_small(SMALL if text is None else read_share("small", text, wanted))
 
 
 _SEVERAL_SPEEDS = re.compile(r"[\d.]+(:[\d.]+)+|\d\d[\d.]*(,[1-9]\d[\d.]*)+")
@@ -217,7 +217,7 @@ def parse_speed(text: str | None) -> float | None:
         return None
     if _SEVERAL_SPEEDS.fullmatch(text.replace(" ", "")):
         raise BalcliError(f'--speed "{text}": give one speed here, such as --speed 3000')
-    speed = read_figure("--speed", text, SPEED)
+    speed = read_figure("speed", text, SPEED)
     if not SMALLEST_POSITIVE <= speed < 1e9:
         raise BalcliError(f"--speed {speed:g}: give rpm above 0, below 1e9")
     return speed
@@ -235,7 +235,7 @@ def parse_guide_height(text: str | None, units: Units) -> float | None:
     """
     if text is None:
         return None
-    height = read_length("--guide-height", text, units)
+    height = read_length("guide_height", text, units)
     if not 0 < height < HIGHEST_GUIDE_M:
         raise BalcliError(f"--guide-height {text}: give above 0, below {HIGHEST_GUIDE_M:g} m")
     return height

@@ -81,11 +81,11 @@ def parse_scheme_options(
     """
     one = "one place along z in mm, such as 40"
     pair = "x,y of a shaft in mm, such as -40,60"
-    along = () if position is None else read_lengths("--position", position, one, units=units)
-    weighed = None if measured is None else read_figure("--measured", measured, SCALES, units)
+    along = () if position is None else read_lengths("position", position, one, units=units)
+    weighed = None if measured is None else read_figure("measured", measured, SCALES, units)
     return SchemeOptions(
         order=order,
-        at=tuple(complex(*read_lengths("--at", text, pair, 2, units)) for text in at or ()) or None,
+        at=tuple(complex(*read_lengths("at", text, pair, 2, units)) for text in at or ()) or None,
         position=along[0] if len(along) == 1 else along or None,
         planes=None if planes is None else _parse_planes(planes, units),
         factor=None if factor is None else parse_factors(factor),
@@ -127,7 +127,7 @@ def _parse_planes(text: str, units: Units) -> str | tuple[float, ...]:
     if text in ("ends", "throws"):
         return text
     wanted = "ends, throws, or places along z in mm, such as -200,200"
-    places = read_lengths("--planes", text, wanted, units=units)
+    places = read_lengths("planes", text, wanted, units=units)
     if len(places) > 2 and len(set(places)) < len(places):
         warn(f'--planes "{text[:60]}": names a place twice; decimals take a point, not a comma')
     return places
@@ -136,7 +136,7 @@ def _parse_planes(text: str, units: Units) -> str | tuple[float, ...]:
 def parse_factors(text: str) -> tuple[float, ...]:
     """Return the factors in `0.5`, `51%`, `0.4,0.5` or `0:1:0.1` (both ends are included)."""
     wanted = "a share of the reciprocating mass such as 51% or 0.51, or a range such as 50%:54%:1%"
-    parts = [read_share("--factor", part, wanted) for part in re.split("[:,]", text)]
+    parts = [read_share("factor", part, wanted) for part in re.split("[:,]", text)]
     if ":" not in text:
         if max(parts) > LARGEST_FACTOR and "," in text:
             raise BalcliError(f'--factor "{text}": decimals take a point, not a comma')

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ..errors import BalcliError, warn
+from ..errors import Argument, ArgumentError, Message, name_option, warn
 from ..file.units import (
     ANGLE,
     FORTRAN,
@@ -25,6 +25,7 @@ from ..file.units import (
     MASS,
     SPEED,
     Dimension,
+    ThousandsError,
     convert,
     read_fraction,
     refuse_thousands,
@@ -46,22 +47,22 @@ _IMPERIAL_AND_SI = {
 }
 
 
-def read_length(option: str, text: str, units: Units = Units.SI) -> float:
-    """Return a length, m. Errors name the option and the text.
+def read_length(argument: str, text: str, units: Units = Units.SI) -> float:
+    """Return a length, m. Errors name the argument and the text.
 
     Args:
-        option: Name of the option, for messages.
+        argument: Name of the argument, for messages.
         text: Number, with or without a unit.
         units: System of units of a bare number.
 
     Raises:
-        BalcliError: The text is not a length.
+        ArgumentError: The text is not a length.
     """
-    return read_figure(option, text, LENGTH, units) / 1e3
+    return read_figure(argument, text, LENGTH, units) / 1e3
 
 
 def read_lengths(
-    option: str, text: str, needed: str, count: int | None = None, units: Units = Units.SI
+    argument: str, text: str, needed: str, count: int | None = None, units: Units = Units.SI
 ) -> tuple[float, ...]:
     """Return the lengths (m) in a text, which commas separate; see `read_length`.
 
@@ -70,88 +71,97 @@ def read_lengths(
         count: Required number of lengths; None: one or more.
 
     Raises:
-        BalcliError: The text has another form, or only some of the lengths have a unit.
+        ArgumentError: The text has another form, or only some of the lengths have a unit.
     """
     parts = [part.strip() for part in text.split(",")]
     have_digits = all(any(map(str.isdigit, part)) for part in parts)
     if not have_digits or count not in (None, len(parts)):
-        raise BalcliError(f"{_shown(option, text)}: give {needed}")
+        raise _refuse(argument, text, f"give {needed}")
     bare = [_as_bare(part) for part in parts]
     if None in bare and any(bare):  # 0 is 0 in every unit
-        raise BalcliError(f"{_shown(option, text)}: give all numbers a unit, or none")
-    return tuple(read_length(option, part, units) for part in parts)
+        raise _refuse(argument, text, "give all numbers a unit, or none")
+    return tuple(read_length(argument, part, units) for part in parts)
 
 
-def read_inertia(option: str, text: str, units: Units = Units.SI) -> float:
+def read_inertia(argument: str, text: str, units: Units = Units.SI) -> float:
     """Return a moment of inertia, kg m2. If the text is not such a figure, or not above 0, raise
-    BalcliError with the option and the text.
+    ArgumentError with the argument and the text.
     """
-    found = read_figure(option, text, INERTIA, units) / 1e6
+    found = read_figure(argument, text, INERTIA, units) / 1e6
     if not 0 < found < LARGEST_INERTIA:
-        raise BalcliError(f"{_shown(option, text)}: {wanted(INERTIA)}, above 0")
+        raise _refuse(argument, text, f"{wanted(INERTIA)}, above 0")
     return found
 
 
-def as_bare_angles(option: str, text: str) -> str:
+def as_bare_angles(argument: str, text: str) -> str:
     """Return a range or list of angles converted to bare degrees: `0:180:5` for `0 deg:0.5 turn:5
     deg`. Angles without a unit are unchanged.
 
     Raises:
-        BalcliError: A text is not an angle; the error names the text and the option.
+        ArgumentError: A text is not an angle; the error names the text and the argument.
     """
     parts = re.split(r"([:,])", text)
     with_unit = [any(map(str.isalpha, part.replace("e", ""))) or "°" in part for part in parts]
     return "".join(
-        f"{read_figure(option, part, ANGLE):.15g}" if said else part
+        f"{read_figure(argument, part, ANGLE):.15g}" if said else part
         for part, said in zip(parts, with_unit, strict=True)
     )
 
 
-def read_number(option: str, text: str, needed: str) -> float:
-    """Return a finite number without a unit. If the text is anything else, raise BalcliError with
-    the option, the text and `needed`, which describes valid values.
+def read_number(argument: str, text: str, needed: str) -> float:
+    """Return a finite number without a unit. If the text is anything else, raise ArgumentError with
+    the argument, the text and `needed`, which describes valid values.
     """
     value = _as_bare(text)
     if value is None or not math.isfinite(value):
-        raise BalcliError(f"{_shown(option, text)}: give {needed}")
+        raise _refuse(argument, text, f"give {needed}")
     return value
 
 
-def read_share(option: str, text: str, needed: str) -> float:
+def read_share(argument: str, text: str, needed: str) -> float:
     """Return a share, given as a number, fraction or percentage; errors as for `read_number`."""
     try:
         return read_fraction(text)
     except ValueError:
-        raise BalcliError(f"{_shown(option, text)}: give {needed}") from None
+        raise _refuse(argument, text, f"give {needed}") from None
 
 
-def read_figure(option: str, text: str, dimension: Dimension, units: Units = Units.SI) -> float:
+def read_figure(argument: str, text: str, dimension: Dimension, units: Units = Units.SI) -> float:
     """Return a finite figure, converted to the default unit of its dimension (mm for a length).
 
     Args:
-        option: Name of the option, for messages.
+        argument: Name of the argument, for messages.
         text: Number, with or without a unit.
         dimension: Dimension of the figure.
         units: System of units of a bare number.
 
     Raises:
-        BalcliError: The text is not a figure of this dimension; the error names option and text.
+        ArgumentError: The text is not a figure of this dimension; the error names argument and
+            text.
+    """
+    if units is Units.IMPERIAL and _as_bare(text) and dimension in _IMPERIAL_AND_SI:
+        ways = " or ".join(f'"{text.strip()} {name}"' for name in _IMPERIAL_AND_SI[dimension])
+        needs = f"imperial {dimension.name} needs its unit: {ways}"
+        raise _refuse(argument, text, Message("with {units} {needs}", needs=needs))
+    try:
+        return _read(text, dimension)
+    except ValueError as error:
+        raise _refuse(argument, text, str(error)) from None
+
+
+def _read(text: str, dimension: Dimension) -> float:
+    """Return a finite figure in the default unit of its dimension.
+
+    Raises:
+        ValueError: The text is not such a figure.
     """
     value = _as_bare(text)
-    if units is Units.IMPERIAL and value and dimension in _IMPERIAL_AND_SI:
-        ways = " or ".join(f'"{text.strip()} {name}"' for name in _IMPERIAL_AND_SI[dimension])
-        raise BalcliError(
-            f"{_shown(option, text)}: with --units imperial {dimension.name} needs its unit: {ways}"
-        )
-    try:
-        if value is None:
-            return convert(text, dimension)
-        refuse_thousands(text, value, dimension)
-        if math.isfinite(value):
-            return value
+    if value is None:
+        return convert(text, dimension)
+    refuse_thousands(text, value, dimension)
+    if not math.isfinite(value):
         raise ValueError(f"is not a finite number; {wanted(dimension)}")
-    except ValueError as error:
-        raise BalcliError(f"{_shown(option, text)}: {error}") from None
+    return value
 
 
 def _as_bare(text: str) -> float | None:
@@ -162,8 +172,12 @@ def _as_bare(text: str) -> float | None:
         return None
 
 
-def _shown(option: str, text: str) -> str:
-    return f'{option} "{text[:LONGEST_SHOWN]}"'
+def _refuse(argument: str, text: str, wrong: str) -> ArgumentError:
+    """Return the error for the text of an argument."""
+    shown = text[:LONGEST_SHOWN]
+    return ArgumentError(
+        '{argument} "{text}": {wrong}', argument=Argument(argument), text=shown, wrong=wrong
+    )
 
 
 def optional(metavar: str, text: str, *names: str, **more: Any) -> object:
@@ -200,44 +214,46 @@ Speeds = Annotated[
 
 
 def parse_speeds(
-    text: str | None, option: str = "--speeds", most: int = MOST_SPEEDS
+    text: str | None, argument: str = "speeds", most: int = MOST_SPEEDS
 ) -> Real | None:
     """Return rising speeds, rpm, from a text such as `1000:2500:25` (first, last, step),
     `1000:2500` (100 steps) or `1500,2000`.
 
     Args:
-        option: Name of the option, for messages.
+        argument: Name of the argument, for messages.
         most: Largest number of speeds.
 
     Raises:
-        BalcliError: The text has another form.
+        ArgumentError: The text has another form.
     """
     if text is None:
         return None
     import numpy as np
 
     right = "give first:last:step in rpm, such as 1000:2500:25, or speeds such as 1500,2000"
-    start, ranged = f"{_shown(option, text)}: ", ":" in text
+    ranged = ":" in text
     try:
-        figures = [read_figure(option, part, SPEED) for part in text.split(":" if ranged else ",")]
-    except BalcliError as error:
-        hint = str(error).partition('": ')[2]
-        raise BalcliError(f"{start}{f'{hint}; ' * ('thousands:' in hint)}{right}") from None
+        figures = [_read(part, SPEED) for part in text.split(":" if ranged else ",")]
+    except ThousandsError as error:
+        raise _refuse(argument, text, f"{error}; {right}") from None
+    except ValueError:
+        raise _refuse(argument, text, right) from None
     if ranged and len(figures) > 3:
-        raise BalcliError(start + right)
+        raise _refuse(argument, text, right)
     if not all(SMALLEST_POSITIVE <= figure < 1e9 for figure in figures):
         wrong = "speeds and their step are" if ranged else "speeds are"
-        raise BalcliError(f"{start}{wrong} above 0 and below 1e9 rpm; {right}")
+        raise _refuse(argument, text, f"{wrong} above 0 and below 1e9 rpm; {right}")
     if figure := re.fullmatch(r"([1-9]),(\d00)", text.strip()):
         meant = f"{figure[1]}{figure[2]} rpm"
-        warn(f"{start}a comma separates speeds, not thousands: was {meant} meant?")
+        doubt = f"a comma separates speeds, not thousands: was {meant} meant?"
+        warn(f'{name_option(argument)} "{text}": {doubt}')
     if not ranged:
         return np.array(sorted(set(figures)))
     first, last, step = (*figures, (figures[1] - figures[0]) / 100)[:3]
     if not (first <= last and (step > 0 or first == last)):
-        raise BalcliError(f"{start}must rise; {right}")
+        raise _refuse(argument, text, f"must rise; {right}")
     count = int((last - first) / step + 1e-9) + 1 if step else 1
     if count > most:
-        raise BalcliError(f"{start}has {count} speeds; at most {most} are computed")
+        raise _refuse(argument, text, f"has {count} speeds; at most {most} are computed")
     speeds = np.round(first + step * np.arange(count), 9)
     return speeds if speeds[-1] >= last - 1e-9 * step else np.append(speeds, last)

@@ -26,7 +26,7 @@ from ..engine.figures import select_varied
 from ..engine.load import concerns_gas
 from ..engine.numbering import list_inferred
 from ..engine.parts import Parts
-from ..errors import BalcliError, InputError, naming_file
+from ..errors import BalcliError, naming_file
 from ..file.fields import RIGID, suggest_nearest
 from ..file.model import EngineFile
 from ..file.plain_tables import choose_assumed, join_assumed
@@ -189,10 +189,8 @@ def naming_variant(name: str) -> Iterator[None]:
     """Add the name of a variant, or of its file, to errors that are raised within this context."""
     try:
         yield
-    except InputError as error:
-        raise InputError(error.problems, ": ".join(filter(None, (name, error.file)))) from None
     except BalcliError as error:
-        raise BalcliError(": ".join(filter(None, (name, str(error))))) from None
+        raise error.within(name) from None
 
 
 def _list_variants(

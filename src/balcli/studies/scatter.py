@@ -15,7 +15,7 @@ from ..core.records import HIDDEN
 from ..engine.build import build
 from ..engine.engine import Engine, check_engine, take_model
 from ..engine.load import concerns_gas
-from ..errors import BalcliError, InputError, check_type
+from ..errors import Argument, ArgumentError, BalcliError, InputError, Message, check_type
 from ..file.fields import Number, shorten
 from ..file.model import EngineFile
 from ..file.units import ANGLE
@@ -23,7 +23,7 @@ from ..forces.kinds import DEFAULT_QUANTITIES, GAS_KINDS
 from ..forces.quantity import TargetQuantity, leave_out_unknown
 from ..limits import MOST_SINGLE_SAMPLES, MOST_TOLERANCE_SAMPLES
 from ..process import Tell, tell_nobody
-from ..shell.arguments import Words, check_count, join_names, tell_arguments
+from ..shell.arguments import Words, check_count, join_names
 from ..shell.values import read_figure, read_share
 from ..show.figures import EngineName
 from ..show.result import Result
@@ -45,11 +45,11 @@ _EQUAL = 1e-8  # effects that differ by less than this share of the largest are 
 _ROUNDING = 1e-12  # changes below this share of the nominal value are rounding errors
 _LEAST = -0.99  # least relative deviation, so that no mass or spring becomes negative
 _DEGREES = Number(ANGLE, least=0, most=90)
-# For each kind of quantities: name of the variants in tables, and an option with a tolerance.
+# For each kind of quantities: name of the variants in tables, and a tolerance that they need.
 _VARIED = {
-    ENGINE: ("engines", "--mass-scatter 0.5%"),
-    MOUNTS: ("sets of mounts", "--stiffness-scatter 15%"),
-    TORSION: ("crankshafts", "--stiffness-scatter 15%"),
+    ENGINE: ("engines", Message("{mass_scatter} 0.5%")),
+    MOUNTS: ("sets of mounts", Message("{stiffness_scatter} 15%")),
+    TORSION: ("crankshafts", Message("{stiffness_scatter} 15%")),
 }
 Shape = Literal["uniform", "normal"]
 
@@ -120,31 +120,36 @@ def read_tolerances(
     """Return tolerances from shares (`0.005` or `"0.5%"`) and an angle (`0.2` or `"0.2 deg"`).
 
     Raises:
-        BalcliError: A value cannot be read, is negative or too large; the error names the option.
+        ArgumentError: A value cannot be read, is negative or too large.
     """
     if isinstance(angle, str):
-        angle = read_figure("--angle-scatter", angle, ANGLE)
+        angle = read_figure("angle_scatter", angle, ANGLE)
     try:
         angle_deg = _DEGREES.read(angle)
     except ValueError as error:
-        raise BalcliError(f"--angle-scatter: {error}") from None
+        raise ArgumentError("{angle_scatter}: {error}", error=str(error)) from None
     return Tolerances(
-        _read_share("--mass-scatter", mass),
-        _read_share("--length-scatter", length),
+        _read_share("mass_scatter", mass),
+        _read_share("length_scatter", length),
         angle_deg,
-        None if stiffness is None else _read_share("--stiffness-scatter", stiffness),
+        None if stiffness is None else _read_share("stiffness_scatter", stiffness),
     )
 
 
-def _read_share(option: str, value: float | str) -> float:
+def _read_share(argument: str, value: float | str) -> float:
     """Return a share from 0 to 1, given as a number or as a percentage in a text."""
     wanted = "a percentage of 0 to 100, such as 0.5%"
     percent = isinstance(value, str) and "%" in value
-    share = read_share(option, str(value), wanted) if percent else value
+    share = read_share(argument, str(value), wanted) if percent else value
     is_number = isinstance(share, (int, float, np.number)) and not isinstance(share, bool)
     if is_number and 0 <= float(share) < 1:
         return float(share)
-    raise BalcliError(f"{option} {shorten(value)}: give {wanted}")
+    raise ArgumentError(
+        "{argument} {value}: give {wanted}",
+        argument=Argument(argument),
+        value=shorten(value),
+        wanted=wanted,
+    )
 
 
 # ------------------------------------------------------------------ random variants
@@ -179,9 +184,10 @@ class Variants:
                 "tolerances; ask for quantities of one of them at a time"
             )
         if within.stiffness is not None and not apart:
-            raise BalcliError(
-                f"--stiffness-scatter: {', '.join(q.name for q in asked)} depends on no mount and "
-                "no shaft; leave the option out, or give a quantity such as mode.roll.Hz"
+            raise ArgumentError(
+                "{stiffness_scatter}: {names} depends on no mount and no shaft; leave the option "
+                "out, or give a quantity such as mode.roll.Hz",
+                names=", ".join(q.name for q in asked),
             )
         if angles := [q.name for q in of_engine if q.unit == "deg"]:
             raise BalcliError(
@@ -193,7 +199,7 @@ class Variants:
         self.varied, give = _VARIED[chapter]
         self.model, self.sources = find_sources(model, chapter, within)
         if not self.sources:
-            raise BalcliError(f"all tolerances are 0; give one, such as {give}")
+            raise ArgumentError("all tolerances are 0; give one, such as {example}", example=give)
         self._evaluator = Evaluator(self.model, asked)
         paths = [path for source in self.sources for path in source.figures]
         of_gas = any(q.kind in GAS_KINDS for q in of_engine)
@@ -313,20 +319,14 @@ def _find_changes(nominal: Array, above: Array, below: Array) -> Array:
     return np.where(np.abs(change) <= _ROUNDING * np.abs(nominal), 0.0, change)
 
 
-@tell_arguments(
-    mass_scatter="mass",
-    length_scatter="length",
-    angle_scatter="angle_deg",
-    stiffness_scatter="stiffness",
-)
 def scatter(
     engine: Engine,
-    quantities: Words | None = None,
+    quantity: Words | None = None,
     *,
-    mass: float | str = 0.005,
-    length: float | str = 0.0,
-    angle_deg: float | str = 0.0,
-    stiffness: float | str | None = None,
+    mass_scatter: float | str = 0.005,
+    length_scatter: float | str = 0.0,
+    angle_scatter: float | str = 0.0,
+    stiffness_scatter: float | str | None = None,
     samples: int | None = None,
     seed: int | None = None,
     distribution: Literal["uniform", "normal"] = "uniform",
@@ -337,16 +337,17 @@ def scatter(
 
     Args:
         engine: Engine, from `load`.
-        quantities: Magnitudes of forces and moments (`force.1.major`, `couple.4.amplitude`),
+        quantity: Magnitudes of forces and moments (`force.1.major`, `couple.4.amplitude`),
             quantities of the cycle (`torque.max`, `fluctuation`, `guide.6.H`), of mounts
             (`mode.roll.Hz`, `mount.left.force`) or of torsion (`torsion.1.Hz`). Default: force and
             moment of orders 1 and 2, or only force if positions of throws are unknown.
-        mass: Tolerance of every piston, rod and throw mass, as a share (0.005) or a text ("0.5%").
-        length: Tolerance of every rod length, a share or a text; other figures of rods do not
-            change.
-        angle_deg: Tolerance of every throw angle, a number or a text with its unit.
-        stiffness: Tolerance of the stiffness of every mount (default: 15 %) or shaft (5 %), a share
-            or a text.
+        mass_scatter: Tolerance of every piston, rod and throw mass, as a share (0.005) or a text
+            ("0.5%").
+        length_scatter: Tolerance of every rod length, a share or a text; other figures of rods do
+            not change.
+        angle_scatter: Tolerance of every throw angle, in degrees or a text with its unit.
+        stiffness_scatter: Tolerance of the stiffness of every mount (default: 15 %) or shaft (5 %),
+            a share or a text.
         samples: Number of random engines; default: 100000, or 500 if quantities are computed for
             one engine after another (cycle, mounts and torsion).
         seed: Seed of the random numbers, for repeatable results.
@@ -362,14 +363,18 @@ def scatter(
         TypeError: An argument has the wrong type.
 
     Example:
-        >>> scatter(engine, "force.1.major", mass="1%", seed=1).quantities["force.1.major"].p95
+        >>> found = scatter(engine, "force.1.major", mass_scatter="1%", seed=1)
+        >>> found.quantities["force.1.major"].p95
     """
     model = take_model(check_engine("scatter", engine))
-    names = join_names("scatter", quantities)
+    names = join_names("scatter", quantity)
     count = None if samples is None else check_count("samples", samples)
     seed = None if seed is None else check_count("seed", seed, 0)
     check_type("distribution", distribution, str, 'give "uniform" or "normal"')
     if distribution not in ("uniform", "normal"):
-        raise BalcliError(f'distribution {distribution!r}: choose "uniform" or "normal"')
-    variants = Variants(model, names, read_tolerances(mass, length, angle_deg, stiffness))
+        raise ArgumentError(
+            '{distribution} {other!r}: choose "uniform" or "normal"', other=distribution
+        )
+    within = read_tolerances(mass_scatter, length_scatter, angle_scatter, stiffness_scatter)
+    variants = Variants(model, names, within)
     return variants.draw(count, seed, distribution)

@@ -27,7 +27,7 @@ from ..engine.engine import Engine, check_engine, take_model
 from ..engine.load import SPEED, concerns_gas
 from ..engine.numbering import doubt_firing
 from ..engine.parse import read
-from ..errors import BalcliError, InputError, check_type, naming_file
+from ..errors import ArgumentError, BalcliError, InputError, check_type, naming_file
 from ..file.doubts import find_suspicious
 from ..file.model import EngineFile
 from ..file.toml import name_file
@@ -36,7 +36,7 @@ from ..forces.quantity import find_orders, leave_out_unknown
 from ..forces.spectrum import count_engine_samples
 from ..limits import MOST_KEPT_FIGURES, MOST_PARAMETERS, MOST_THREADS
 from ..process import count_cores
-from ..shell.arguments import Words, check_count, join_names, tell_arguments
+from ..shell.arguments import Words, check_count, join_names
 from ..show.result import Result
 from ..show.sheet import count_name
 from .parameters import Parameter, choose_values, parse_parameter, tell_variant
@@ -278,7 +278,11 @@ def share_among_threads(
     try:
         yield from run_in_order(pool.submit, work, items, 2 * threads)
     except RuntimeError as error:
-        raise BalcliError(f"--jobs {threads}: {error}; give fewer, such as --jobs 1") from None
+        raise ArgumentError(
+            "{jobs} {threads}: {error}; give fewer, such as {jobs} 1",
+            threads=threads,
+            error=str(error),
+        ) from None
     finally:
         pool.shutdown(cancel_futures=True)
 
@@ -352,12 +356,11 @@ class Swept(Result):
         raise KeyError(f"{name}; there are {', '.join(self)}")
 
 
-@tell_arguments(quantity="quantities", jobs="threads")
 def sweep(
     engine: Engine,
     vary: Mapping[str, ArrayLike],
-    quantities: Words | None = None,
-    threads: int | None = None,
+    quantity: Words | None = None,
+    jobs: int | None = None,
 ) -> Swept:
     """Return quantities for many variants of an engine. Numbers of its file vary over ranges, which
     span a grid.
@@ -368,12 +371,12 @@ def sweep(
             `layout.bank_angle`): a one-dimensional array or list in the unit of the file (mm, kg,
             deg, rpm), texts with units, or a range from:to:step ("0:180:1"). Several
             names span a grid.
-        quantities: Names such as `force.2.major` (or minor, forward, backward, axis, x, y),
+        quantity: Names such as `force.2.major` (or minor, forward, backward, axis, x, y),
             `moment.1.backward`, `couple.4.amplitude`, `peak.force`; for engines with mounts,
             torsion or gas also `mode.3.Hz`, `mount.left.force`, `torsion.1.Hz`, `torque.mean`.
             Default: force and moment of orders 1 and 2, or only force if positions of throws are
             unknown.
-        threads: Number of threads for long sweeps, at most 64; default: one for each core.
+        jobs: Number of threads for long sweeps, at most 64; default: one for each core.
 
     Returns:
         The grid: `result["force.2.major"]` has an axis for each name in `vary` and is in SI units
@@ -395,15 +398,15 @@ def sweep(
     parameters = tuple(choose_values(str(path), values, model) for path, values in vary.items())
     if not parameters:
         raise BalcliError(f"sweep: nothing varies; give numbers and values, such as {example}")
-    wanted = min(count_cores(), MOST_THREADS) if threads is None else threads
-    share = partial(share_among_threads, threads=check_count("threads", wanted, most=MOST_THREADS))
-    asked = join_names("sweep", quantities)
+    wanted = min(count_cores(), MOST_THREADS) if jobs is None else jobs
+    share = partial(share_among_threads, threads=check_count("jobs", wanted, most=MOST_THREADS))
+    asked = join_names("sweep", quantity)
     plan = plan_sweep(model, parameters, asked, engine.name or "engine")
     count = plan.variants * len(plan.quantities)
     if count > MOST_KEPT_FIGURES:
         raise BalcliError(
             f"{count_name(count)} values are too many to keep; give at most "
-            f"{count_name(MOST_KEPT_FIGURES)}, or use balcli sweep -o FILE.parquet, which writes "
-            "them as they are computed"
+            f"{count_name(MOST_KEPT_FIGURES)}, or use the command balcli sweep, which writes them "
+            "into a file as they are computed"
         )
     return Swept(plan, tuple(join_chunks(plan, evaluate_chunks(plan, share))))

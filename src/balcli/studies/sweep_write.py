@@ -23,7 +23,7 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import BalcliError, tell_unwritable
+from ..errors import ArgumentError, BalcliError, tell_unwritable
 from ..files import replacing
 from ..limits import MOST_ROWS_READ, MOST_THREADS
 from ..process import count_cores
@@ -201,8 +201,9 @@ def _claim(folder: Path, manifest: str, force: bool) -> None:
             "empty or new folder"
         )
     if names and not force:
-        raise BalcliError(
-            f"{folder}/: holds another sweep; choose another folder, or --force to replace it"
+        raise ArgumentError(
+            "{folder}/: holds another sweep; choose another folder, or {force} to replace it",
+            folder=folder,
         )
     for name in sorted(names, key=MANIFEST.__eq__):  # manifest last: it shows that blocks are ours
         (folder / name).unlink()
@@ -229,7 +230,7 @@ def connect_cluster(address: str) -> Iterator[Share]:
     try:
         import distributed
     except ImportError:
-        raise BalcliError("--dask needs dask: install balcli[scale]") from None
+        raise ArgumentError("{dask} needs dask: install balcli[scale]") from None
     dask: Any = distributed
     options: dict[str, Any] = {"address": address, "timeout": 10}
     if address == "local":
@@ -239,7 +240,11 @@ def connect_cluster(address: str) -> Iterator[Share]:
     try:
         client = dask.Client(**options)
     except (OSError, ValueError, RuntimeError) as error:
-        raise BalcliError(f"--dask {address}: no cluster answers there ({error})") from None
+        raise ArgumentError(
+            "{dask} {address}: no cluster answers there ({error})",
+            address=address,
+            error=str(error),
+        ) from None
     with client as cluster:
         yield partial(run_on_cluster, cluster)
 
@@ -259,7 +264,8 @@ def run_on_cluster(
     try:
         yield from run_in_order(submit, work, items, ahead)
     except (KilledWorker, CancelledError) as error:
-        raise BalcliError(
-            f"--dask: the cluster has lost its workers ({type(error).__name__}) and their results; "
-            "start it again, or leave --dask out"
+        raise ArgumentError(
+            "{dask}: the cluster has lost its workers ({error}) and their results; start it again, "
+            "or leave {dask} out",
+            error=type(error).__name__,
         ) from None

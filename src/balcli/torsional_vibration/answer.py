@@ -18,13 +18,13 @@ from ..core.records import HIDDEN
 from ..core.vibration import Real
 from ..engine.engine import CylinderNumber, Engine, take_model
 from ..engine.load import build_tables
-from ..errors import BalcliError, check_type
+from ..errors import Argument, ArgumentError, check_type
 from ..file.fields import counted, order_number, printable
 from ..file.plain_tables import take_tables
 from ..file.units import SPEED, convert
 from ..limits import HIGHEST_TORSION_ORDER
 from ..process import Tell, tell_nobody
-from ..shell.arguments import check_inertia, check_speeds, check_torsion_orders, tell_arguments
+from ..shell.arguments import check_inertia, check_speeds, check_torsion_orders
 from ..shell.options import read_orders
 from ..shell.values import parse_speeds, read_inertia
 from ..show.formats import Units
@@ -240,11 +240,13 @@ def answer_question(
     kind, node, inertia = question.damper
     if kind is None:
         if node is not None or inertia is not None:
-            option = "--damper-inertia" if node is None else "--damper-at"
-            raise BalcliError(f"{option}: give the kind of damper, with --damper")
+            needless = Argument("damper_inertia" if node is None else "damper_at")
+            raise ArgumentError(
+                "{needless}: give the kind of damper, with {damper}", needless=needless
+            )
         return _analyze_system(source.system(NO_DAMPERS), question, tell)
     if question.speeds_rpm is None:
-        raise BalcliError("--damper: give the speeds over which to size it, with --speeds")
+        raise ArgumentError("{damper}: give the speeds over which to size it, with {speeds}")
     sized = size_damper(source, question.damper, question.speeds_rpm, tell)
     fitted = source.system({sized.node: sized.damper})
     found = _analyze_system(fitted, question)  # one more response: no progress is reported
@@ -291,19 +293,23 @@ def _tabulate(
     if asked.mode is not None:
         if asked.mode > len(modes):
             count = counted(len(modes), "mode")
-            raise system.refusal(f"has {count}, but --holzer asks for mode {asked.mode}")
+            raise ArgumentError(
+                "has {count}, but {holzer} asks for mode {mode}", count=count, mode=asked.mode
+            ).within(system.file)
         omega, shape = modes[asked.mode - 1].omega, modes[asked.mode - 1].shape
     # Holzer's table begins with an angle of 1 at a free end; a clamped end comes last
     first, end = system.ends[::-1] if chain.clamped[0] else system.ends
     try:
         table = tabulate_holzer(chain, omega, first, end)
     except ValueError as error:
-        raise system.refusal(f"--holzer: {error}") from None
+        raise ArgumentError("{holzer}: {error}", error=str(error)).within(system.file) from None
     if shape is not None and np.abs(table.angle * shape[first] - shape).max() > _ASTRAY:
-        raise system.refusal(
-            f"--holzer: mode {asked.mode} cannot be followed from {system.nodes[first]}: this node "
-            "hardly moves in the mode, or a branch swings by itself"
-        )
+        raise ArgumentError(
+            "{holzer}: mode {mode} cannot be followed from {node}: this node hardly moves in the "
+            "mode, or a branch swings by itself",
+            mode=asked.mode,
+            node=system.nodes[first],
+        ).within(system.file)
     columns = (column.tolist() for column in (chain.inertia, *table[:5]))
     rows = tuple(map(HolzerRow, system.nodes, *columns))
     hertz, left = omega / (2 * np.pi), table.residual
@@ -341,7 +347,7 @@ def _parse_trial(text: str) -> HolzerAsked:
     except ValueError:
         omega = 0.0
     if not 0 < omega < 1e12:
-        raise BalcliError(f'--holzer "{text[:60]}": {right}')
+        raise ArgumentError('{holzer} "{text}": {right}', text=text[:60], right=right)
     return HolzerAsked(None, omega)
 
 
@@ -360,7 +366,7 @@ def parse_question(
     """
     inertia = None
     if damper_inertia is not None:
-        inertia = read_inertia("--damper-inertia", damper_inertia, units)
+        inertia = read_inertia("damper_inertia", damper_inertia, units)
     sized = DamperAsked(damper, damper_at, inertia)
     return TorsionQuestion(parse_speeds(speeds), list(map(_parse_trial, holzer)), sized)
 
@@ -372,16 +378,17 @@ def require_speeds(asked: TorsionQuestion, what: str) -> None:
         BalcliError: No range was given.
     """
     if asked.speeds_rpm is None and what in ("response", "waterfall"):
-        raise BalcliError(f"--what {what}: give the range of speeds, such as --speeds 1000:2500")
+        raise ArgumentError(
+            "{what} {page}: give the range of speeds, such as {speeds} 1000:2500", page=what
+        )
 
 
 # ------------------------------------------------------------------ in Python
 
 
-@tell_arguments(speeds="speeds_rpm")
 def torsion(
     source: Engine | str | Path | Mapping[str, object],
-    speeds_rpm: ArrayLike | None = None,
+    speeds: ArrayLike | None = None,
     *,
     orders: Iterable[float] | None = None,
     damper: Literal["viscous", "rubber", "pendulum"] | None = None,
@@ -394,12 +401,12 @@ def torsion(
     Args:
         source: Engine whose file has [torsion]; or the path, text or dict of tables of such a file
             or of a chain file.
-        speeds_rpm: Speeds of the forced vibration; default: only modes and criticals are computed.
+        speeds: Speeds of the forced vibration, rpm; default: only modes and criticals are computed.
         orders: Orders of the excitation to use, multiples of 1/2. Default for a chain: all orders.
             Default for an engine: all orders up to 32; if the engine fires more than 12 times per
             turn, also the order equal to this number and twice this order.
         damper: Kind of damper to size. The sized damper minimises the largest stress over
-            `speeds_rpm`, which must be given; the other results include the damper.
+            `speeds`, which must be given; the other results include the damper.
         damper_at: Name of the node that carries the damper; default: the foremost part, or for
             pendulums the throw with the largest amplitude.
         damper_inertia: Inertia of the damper's ring, or of its pendulums about the axis, kg m2;
@@ -423,12 +430,14 @@ def torsion(
     """
     check_type("damper", damper, (str, NoneType), 'give a kind of damper, such as "viscous"')
     if damper not in (None, *FIGURES):
-        raise BalcliError(f"damper {damper!r}: choose from {', '.join(FIGURES)}")
+        raise ArgumentError(
+            "{damper} {kind!r}: choose from {kinds}", kind=damper, kinds=", ".join(FIGURES)
+        )
     asked = check_torsion_orders(orders)
     inertia = check_inertia("damper_inertia", damper_inertia)
     check_type("damper_at", damper_at, (str, NoneType), 'give the name of a part, such as "hub"')
-    speeds = check_speeds("torsion", speeds_rpm)
-    question = TorsionQuestion(speeds, (), DamperAsked(damper, damper_at, inertia))
+    rpm = check_speeds("torsion", speeds)
+    question = TorsionQuestion(rpm, (), DamperAsked(damper, damper_at, inertia))
     return answer_question(_read_source(source, asked), question)
 
 

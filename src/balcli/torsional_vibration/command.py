@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 
 import typer
 
-from ..errors import BalcliError
+from ..errors import BalcliError, warn
 from ..file.toml import name_file
 from ..shell.file_names import picture_form, require_ending, text_format
 from ..shell.inputs import warn_each
@@ -88,7 +88,10 @@ def torsion(
     with reporting("work") as tell:
         result = answer.answer_question(source, asked, tell)
     sized = result.damper
-    warn_each((sized and sized.doubts) or (), "--damper")
+    doubts = (sized and sized.doubts) or ()
+    warn_each(doubts, "--damper")
+    if doubts and damper_inertia is not None:
+        warn("--damper-inertia without a unit is in kg mm2")
     warn_each(result.doubts, name_file(path))
     if write is not None and sized is not None:
         refuse_leaving_files(source.text, path, write)

@@ -24,7 +24,7 @@ from ..core.peaks import ROUNDS, find_least
 from ..core.phases import RPM
 from ..core.records import HIDDEN
 from ..core.vibration import Real
-from ..errors import BalcliError
+from ..errors import ArgumentError, BalcliError, Message
 from ..file.edit import format_value, set_keys
 from ..file.fields import printable
 from ..file.torsion_tables import Damper
@@ -220,8 +220,11 @@ def _find_carrier(source: Source, asked: DamperAsked, speeds: Real) -> str:
     carriers = source.dampers
     if asked.node is not None:
         if asked.node not in carriers:
-            wrong = f'--damper-at "{printable(asked.node)}": cannot carry a damper'
-            raise BalcliError(f"{wrong}; choose from {', '.join(map(printable, carriers))}")
+            raise ArgumentError(
+                '{damper_at} "{node}": cannot carry a damper; choose from {carriers}',
+                node=printable(asked.node),
+                carriers=", ".join(map(printable, carriers)),
+            )
         return asked.node
     system = source.system(NO_DAMPERS)
     if asked.kind == "pendulum" and source.throws:
@@ -242,8 +245,8 @@ def _limit_swing(
     to the mass. `inertia` (kg m2) is the inertia of the node that carries the pendulums.
 
     Raises:
-        BalcliError: The pendulums would need more than half of the inertia of their node, and more
-            mass than the proposed pendulums have.
+        ArgumentError: The pendulums would need more than half of the inertia of their node, and
+            more mass than the proposed pendulums have.
     """
     start, width = proposed.swinging_length, _WIDTH["pendulum"]
     mass = given = proposed.mass or 0.0
@@ -259,10 +262,14 @@ def _limit_swing(
             break
         mass *= _HEAVIER * min(least / WIDE_SWING, _MOST_AT_ONCE)
     if mass > max(most, given) or least > WIDE_SWING:
-        raise BalcliError(
-            f"--damper pendulum: at {printable(node)}, pendulums need {mass:.3g} kg to swing by at "
-            f"most {WIDE_SWING:g} deg; with {most:.3g} kg they already have half of the inertia of "
-            "the node; choose another place (--damper-at) or give the inertia (--damper-inertia)"
+        raise ArgumentError(
+            "{damper} pendulum: at {node}, pendulums need {mass:.3g} kg to swing by at most "
+            "{wide:g} deg; with {most:.3g} kg they already have half of the inertia of the node; "
+            "choose another place ({damper_at}) or give the inertia ({damper_inertia})",
+            node=printable(node),
+            mass=mass,
+            wide=WIDE_SWING,
+            most=most,
         )
     return proposed
 
@@ -321,7 +328,7 @@ def _find_mode_to_damp(
     """
     modes = find_natural_modes(system)
     if not modes:
-        raise BalcliError("--damper: the system has no mode that could be damped")
+        raise ArgumentError("{damper}: the system has no mode that could be damped")
     try:
         worst, rpm, _ = _find_hardest(system, speeds)
     except BalcliError:  # nothing damps a resonance
@@ -357,11 +364,15 @@ def _propose(
     of freedom. The pivots of pendulums are at the radius of the file, else at the crank radius (m).
 
     Raises:
-        BalcliError: The node is at rest in the mode, the radius of pendulums is unknown, or the
+        ArgumentError: The node is at rest in the mode, the radius of pendulums is unknown, or the
             tuning is impossible.
     """
     if mode.shape[node] == 0:
-        raise BalcliError(f"--damper: {system.nodes[node]} does not move in mode {mode.number}")
+        raise ArgumentError(
+            "{damper}: {node} does not move in mode {mode}",
+            node=system.nodes[node],
+            mode=mode.number,
+        )
     kind, there = str(asked.kind), _find_inertia_in(mode, system, node)
     given = {} if own is None else own.model_dump(exclude_none=True)
     usual = given["inertia"] / 1e6 if "inertia" in given else None
@@ -375,9 +386,10 @@ def _propose(
     else:
         radius = given["radius"] / 1e3 if "radius" in given else crank_radius
         if radius is None:
-            raise BalcliError(
-                "--damper pendulum: a chain has no crank radius; give the node a damper = "
-                '{ kind = "pendulum", mass = 2, radius = 60, length = 5 }'
+            raise ArgumentError(
+                "{damper} pendulum: a chain has no crank radius; give the node a damper = "
+                "{example}",
+                example='{ kind = "pendulum", mass = 2, radius = 60, length = 5 }',
             )
         length = radius * (system.gears[node] / order) ** 2
         mass = float(f"{inertia / (radius + length) ** 2:.4g}")
@@ -387,8 +399,11 @@ def _propose(
     try:
         return Damper.model_validate(figures)
     except ValidationError:
-        wrong = "the best damper is impossible; check the units of inertias and stiffnesses"
-        raise BalcliError(f"--damper {kind}: {wrong}") from None
+        raise ArgumentError(
+            "{damper} {kind}: the best damper is impossible; check the units of inertias and "
+            "stiffnesses",
+            kind=kind,
+        ) from None
 
 
 # ------------------------------------------------------------------ doubts
@@ -404,16 +419,27 @@ def _doubt(found: SizedDamper, bare: TorsionalSystem, *, given: bool) -> Iterato
     sized = float(getattr(found.damper, FIGURES[found.kind]))
     if found.after > _HARDLY * found.before:
         does = "raises" if found.after > found.before else "hardly lowers"
-        yield (
-            f"a {found.kind} damper of {inertia:.4g} kg m2 at {node} {does} the largest "
-            f"{found.measure}; the whole system has {whole:.4g} kg m2; check place and inertia of "
-            "the damper (--damper-inertia without a unit is in kg mm2)"
+        yield Message(
+            "a {kind} damper of {inertia:.4g} kg m2 at {node} {does} the largest {measure}; the "
+            "whole system has {whole:.4g} kg m2; check {damper_at} and {damper_inertia}",
+            kind=found.kind,
+            inertia=inertia,
+            node=node,
+            does=does,
+            measure=found.measure,
+            whole=whole,
         )
     elif inertia > (whole if given else _HEAVY * carrier) > 0:
-        yield (
-            f"the damper has {inertia:.4g} kg m2, its node {node} {carrier:.4g} and the whole "
-            f"system {whole:.4g} kg m2: choose a smaller damper, such as --damper-inertia "
-            f'"{float(f"{carrier or whole / _HEAVY:.2g}"):.12g} kg m^2"'
+        smaller = float(f"{carrier or whole / _HEAVY:.2g}")
+        yield Message(
+            "the damper has {inertia:.4g} kg m2, its node {node} {carrier:.4g} and the whole "
+            "system {whole:.4g} kg m2: choose a smaller damper, such as {damper_inertia} "
+            '"{smaller:.12g} kg m^2"',
+            inertia=inertia,
+            node=node,
+            carrier=carrier,
+            whole=whole,
+            smaller=smaller,
         )
     elif abs(math.log(sized / found.start)) > _END * math.log(width):
         ends = f"{1 / width:.2g} to {width:g} times the optimum for mode {found.mode} alone"

@@ -10,7 +10,7 @@ from ..core.vibration import Real
 from ..engine.engine import Engine, refuse_geared
 from ..engine.load import build_named
 from ..engine.parse import parse
-from ..errors import BalcliError
+from ..errors import ArgumentError
 from ..file.doubts import doubt_losses, walk_figures
 from ..file.messages import CHAIN, ENGINE, refuse_other_kind
 from ..file.model import EngineFile
@@ -93,7 +93,7 @@ def load_source(path: str, orders: Real | None = None, misfires: Sequence[str] =
     data: Mapping[str, object] = parse_toml(text, name)
     if describes_chain(data):
         if misfires:
-            raise BalcliError("--misfire: a chain has no cylinders")
+            raise ArgumentError("{misfire}: a chain has no cylinders")
         return make_chain_source(read_chain_tables(data, name), name, orders, text)
     refuse_other_kind(data, name, ENGINE, CHAIN)
     model = parse(text, name)

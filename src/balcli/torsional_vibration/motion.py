@@ -223,11 +223,11 @@ def _move(system: TorsionalSystem, rpm: Real) -> tuple[Complex, Real]:
     except UndampedResonanceError as error:
         row, _ = np.unravel_index(np.abs(w - error.frequency).argmin(), w.shape)
         order, omega = excitation.orders[row], error.frequency
-        raise system.refusal(
+        raise BalcliError(
             f"the natural frequency of {omega / (2 * np.pi):.6g} Hz is excited by order {order:g} "
             f"at {omega / (RPM * order):.6g} rpm and nothing damps it: its vibration has no bound; "
             "give a loss factor (loss = 0.02), or damping"
-        ) from None
+        ).within(system.file) from None
     swings = system.swing_pendulums(excitation.orders, twist.angle)
     parts = twist.torque, twist.angle[:, :, system.ends[:1]], swings
     return np.concatenate(parts, axis=-1), _find_heat(system, w, *twist).sum(axis=0)

@@ -12,7 +12,7 @@ import numpy as np
 
 from ..core.peaks import find_swing
 from ..core.vibration import Complex, Indices, Real
-from ..errors import BalcliError
+from ..errors import ArgumentError
 from ..file.fields import counted
 from ..show.formats import Units
 from ..show.plot_style import (
@@ -106,7 +106,7 @@ def make_torsion(
         BalcliError: A waterfall needs a shaft, and there is none.
     """
     if what == "waterfall" and not result.shafts:
-        raise BalcliError("--what waterfall: there is no shaft whose torque could be drawn")
+        raise ArgumentError("{what} waterfall: there is no shaft whose torque could be drawn")
     parts = list(_choose_parts(result, what, system))
     columns = 2 if what == "all" else 1
     rows = -(-len(parts) // columns)

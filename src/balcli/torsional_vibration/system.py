@@ -115,10 +115,6 @@ class TorsionalSystem:
     assumed: tuple[str, ...] = ()
     file: str = ""
 
-    def refusal(self, message: str) -> BalcliError:
-        """Return an error whose text begins with the name of the file."""
-        return BalcliError(f"{self.file}: {message}" if self.file else message)
-
     def require_excitation(self) -> Excitation:
         """Return the excitation.
 
@@ -126,9 +122,10 @@ class TorsionalSystem:
             BalcliError: The system has no excitation, or none at the requested orders.
         """
         if self.excitation is None:
-            raise self.refusal("has no excitation; give an [[excitation]] with node, order and cos")
+            wanted = "give an [[excitation]] with node, order and cos"
+            raise BalcliError(f"has no excitation; {wanted}").within(self.file)
         if not len(self.excitation.orders):
-            raise self.refusal("has no excitation at the requested orders")
+            raise BalcliError("has no excitation at the requested orders").within(self.file)
         return self.excitation
 
     @property

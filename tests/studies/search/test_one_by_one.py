@@ -281,7 +281,7 @@ def test_on_a_line_on_which_limits_are_kept_only_its_optima_are_results():
     """
     engine = balcli.load_example("v6_90_split")
     over, goal = ["bank_angle", "splay"], "moment.1.major"
-    found = balcli.search(engine, over, goal, even_firing=True)
+    found = balcli.search(engine, over, goal, require="even-firing")
     reached = sorted(one.objective for one in found.results)
     banks, least = np.arange(0, 181, 5.0), []
     for turn in (0, 120, 240):

@@ -8,6 +8,7 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import islice
+from types import NoneType
 from typing import Annotated, Literal
 
 import numpy as np
@@ -18,12 +19,12 @@ from ...engine.build import build
 from ...engine.engine import Engine, check_engine, refuse_geared, take_model
 from ...engine.layout import plan_cylinders
 from ...engine.load import vary_engine
-from ...errors import BalcliError, InputError, check_type, wrong_type
+from ...errors import ArgumentError, BalcliError, InputError, check_type, wrong_type
 from ...file.fields import counted, suggest_nearest
 from ...file.model import EngineFile
 from ...limits import MOST_FOUND
 from ...process import Tell, tell_nobody
-from ...shell.arguments import Words, check_count, join_names, tell_arguments
+from ...shell.arguments import Words, check_count, join_names
 from ...show.figures import name_engine
 from ...show.result import Result
 from ..parameters import Parameter, find_numbers, parse_parameter
@@ -187,15 +188,17 @@ def read_ranges(model: EngineFile, over: Sequence[str]) -> dict[str, Parameter]:
         return {}
     if arranged:
         other = next((text for text in over if text != arranged[0]), arranged[0])
-        raise BalcliError(
-            f"--over {arranged[0]} cannot be combined with another --over ({other}); only numbers "
-            "and angles can be searched together"
+        raise ArgumentError(
+            "{over} {first} cannot be combined with another {over} ({other}); only numbers and "
+            "angles can be searched together",
+            first=arranged[0],
+            other=other,
         )
     ranges: dict[str, Parameter] = {}
     for text in over:
         number = _read_range(model, text)
         if number.path in [other.path for other in ranges.values()]:
-            raise BalcliError(f"--over {number.path} is given twice; give one range")
+            raise ArgumentError("{over} {path} is given twice; give one range", path=number.path)
         ranges[text if text in ANGLES else number.path] = number
     return ranges
 
@@ -209,11 +212,13 @@ def _read_range(model: EngineFile, text: str) -> Parameter:
         ranged = "or give a number of the file with its range, such as mount.left.loss=0.05:0.3"
         known = (*ARRANGED, *ANGLES)
         hint = suggest_nearest(text, known, f"choose from {', '.join(known)}, {ranged}")
-        raise BalcliError(f'--over "{text}": {hint}')
+        raise ArgumentError('{over} "{text}": {hint}', text=text, hint=hint)
     if ends.count(":") != 1:
-        raise BalcliError(
-            f'--over "{text}": give the ends of a range, such as {path}=from:to; balcli sweep '
-            "takes steps and lists"
+        raise ArgumentError(
+            '{over} "{text}": give the ends of a range, such as {path}=from:to; balcli sweep takes '
+            "steps and lists",
+            text=text,
+            path=path,
         )
     number = parse_parameter(f"{path}={ends.replace(':', ',')}", model)
     return replace(number, values=np.sort(number.values))
@@ -284,16 +289,15 @@ def _choose_effort(box: Box, objective: Objective) -> Effort:
     return Effort(max(_GRID, 16 * (math.ceil(highest) + 1)), _GRID, 1e-13)
 
 
-@tell_arguments()
 def search(
     engine: Engine,
     over: Words,
     minimise: Words | Mapping[str, float] | None = None,
     *,
     maximise: Words | Mapping[str, float] | None = None,
-    limits: Mapping[str, float] | None = None,
+    limit: Mapping[str, float] | None = None,
+    require: Literal["even-firing"] | None = None,
     top: int = 10,
-    even_firing: bool = False,
 ) -> Search:
     """Find the best crank, firing order, bank angle, splay or values of any numbers of an engine.
     Equivalent mirror images and rotations appear once.
@@ -308,9 +312,9 @@ def search(
             or a dict of weights by quantity.
         maximise: Quantities to maximise, in the same form; give exactly one of `minimise` and
             `maximise`.
-        limits: Upper limits by quantity, in SI units.
+        limit: Upper limits by quantity, in SI units.
+        require: "even-firing": only arrangements with even firing intervals are considered.
         top: Largest number of results, at most 1000.
-        even_firing: Whether only arrangements with even firing intervals are considered.
 
     Returns:
         The arrangements, best first: `result.results[0]` has `design`, `objective` and
@@ -328,16 +332,17 @@ def search(
     if not isinstance(over, (str, list, tuple)):
         raise wrong_type("search", over, 'give what to arrange, such as "throws"')
     texts = (join_names("search", over) or "").split(",")
-    bounds = {} if limits is None else limits
+    bounds = {} if limit is None else limit
     check_type("search", bounds, Mapping, 'give a dict, such as {"moment.2.major": 100}')
-    check_type("even_firing", even_firing, bool, "give True or False")
+    check_type("require", require, (str, NoneType), 'give "even-firing"')
+    if require not in (None, "even-firing"):
+        raise ArgumentError('{require} {other!r}: give "even-firing"', other=require)
     kept = [f"{name}<{bound}" for name, bound in bounds.items()]
     objective = parse_objective(
         _join_goal(minimise), kept, maximise=_join_goal(maximise), with_gas=model.gas is not None
     )
-    return search_arrangements(
-        model, texts, objective, check_count("top", top, most=MOST_FOUND), even_firing
-    )
+    count = check_count("top", top, most=MOST_FOUND)
+    return search_arrangements(model, texts, objective, count, require is not None)
 
 
 def _join_goal(goal: Words | Mapping[str, float] | None) -> str | None:

@@ -28,7 +28,7 @@ from ...engine.layout import TOLERANCE_DEG, cycle_deg, plan_cylinders
 from ...engine.load import vary_engine
 from ...engine.parse import parse, parse_dict
 from ...engine.parts import Parts
-from ...errors import BalcliError, InputError
+from ...errors import Argument, ArgumentError, BalcliError, InputError
 from ...file.edit import set_keys
 from ...file.model import EngineFile
 from ...file.plain_tables import change_tables
@@ -131,16 +131,17 @@ def write_design(text: bytes, design: Design, name: str = "") -> str:
     """
     if any(key not in PATHS for key in design):
         settings = ", ".join(f"{path} = {best:.9g}" for path, best in design.items())
-        raise BalcliError(
-            f"--write takes throws, firing orders and angles; edit the file: {settings}"
+        raise ArgumentError(
+            "{write} takes throws, firing orders and angles; edit the file: {settings}",
+            settings=settings,
         )
     new, changes = text.decode("utf-8-sig"), list_changes(design)
     try:
         engine = vary_engine(build(parse(new, name)), changes)
     except InputError:
-        raise BalcliError(
-            "--write: the firing order of the file does not fit the result, and [gas] needs a "
-            "firing order: search with --over firing_order, or leave [gas] out"
+        raise ArgumentError(
+            "{write}: the firing order of the file does not fit the result, and [gas] needs a "
+            "firing order: search with {over} firing_order, or leave [gas] out"
         ) from None
     if take_model(engine).layout.firing_order is None:
         changes |= {"layout.firing_order": None, "layout.firing_intervals": None}
@@ -212,7 +213,7 @@ def parse_objective(
             units and one of these quantities has no weight.
     """
     if (minimise is None) == (maximise is None):
-        raise BalcliError("give exactly one of --minimise and --maximise")
+        raise ArgumentError("give exactly one of {minimise} and {maximise}")
     terms = [term.partition("=") for term in (maximise or minimise or "").split(",")]
     weights: dict[AnyQuantity, float] = {}
     for name, _, weight in terms:
@@ -224,24 +225,27 @@ def parse_objective(
     for text in limits:
         name, less, bound = text.partition("<")
         if not less:
-            raise BalcliError(
-                f'--limit "{text}": give a quantity and its upper limit, such as '
-                '"moment.2.major<100"'
+            raise ArgumentError(
+                '{limit} "{text}": give a quantity and its upper limit, such as '
+                '"moment.2.major<100"',
+                text=text,
             )
         limited = _parse_sizes(name, with_gas)
         bounds |= dict.fromkeys(limited, _parse_positive(bound, text, limited[0].unit))
     return Objective(weights, bounds, maximise is not None)
 
 
-def _refuse_several_units(quantities: Iterable[AnyQuantity], option: str) -> None:
-    """Raise BalcliError if quantities to be added have different units."""
+def _refuse_several_units(quantities: Iterable[AnyQuantity], argument: str) -> None:
+    """Raise ArgumentError if quantities to be added have different units."""
     units = {q.name: q.unit or "1" for q in quantities}
     first, *others = dict.fromkeys(units.values())
     if others:
         weights = (f"{name}={1 if unit == first else 8}" for name, unit in units.items())
-        raise BalcliError(
-            f"--{option} adds up {' and '.join([first, *others])}; give weights, such as "
-            f"{','.join(weights)}"
+        raise ArgumentError(
+            "{argument} adds up {units}; give weights, such as {weights}",
+            argument=Argument(argument),
+            units=" and ".join([first, *others]),
+            weights=",".join(weights),
         )
 
 

@@ -22,7 +22,7 @@ from ...core.phasors import Array, Complex, Phasors
 from ...engine.build import assemble, build
 from ...engine.figures import ranked
 from ...engine.layout import plan_cylinders
-from ...errors import BalcliError
+from ...errors import ArgumentError, BalcliError
 from ...file.model import EngineFile
 from ...forces.quantity import Quantity
 from ...forces.spectrum import compute_spectra, with_only
@@ -89,9 +89,9 @@ def list_throws(model: EngineFile) -> Array:
             too many arrangements to compute one by one.
     """
     if model.gas is not None and model.layout.strokes == 4:
-        raise BalcliError(
+        raise ArgumentError(
             "with [gas], results of four-stroke engines depend on the firing order as well; use "
-            "--over firing_order (without crank.throws in the file it tries all cranks)"
+            "{over} firing_order (without crank.throws in the file it tries all cranks)"
         )
     sets = _find_sets(model)
     refuse_many(sum(_count_sequences(each.left) for each in sets))
