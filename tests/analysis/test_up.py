@@ -9,7 +9,8 @@ from support.paths import write
 
 from balcli.analysis.answer import analyze
 from balcli.analysis.curves import columns, curves
-from balcli.analysis.overview import verdict
+from balcli.analysis.verdict import judge
+from balcli.analysis.verdict_words import VerdictWords
 from balcli.core.phasors import Phasors
 from balcli.core.records import to_document
 from balcli.forces.spectrum import Spectra
@@ -17,6 +18,7 @@ from balcli.report.page import scene
 from balcli.report.pages import PageSubject, make_page
 from balcli.report.study import Study
 from balcli.show.units import SI
+from balcli.sizing.residual import Scales
 
 WORDS = ("vertical", "horizontal", "pitching", "yawing")
 # The bank of a slanted twin, and a bank beside it: force and moment of every order in both senses.
@@ -130,7 +132,8 @@ def test_csv_names_components_like_json():
 def test_the_verdict_names_the_direction(kind, axis_deg, up, words):
     side = 2 * np.exp(1j * np.radians([float(axis_deg)]))
     phasors = Phasors.of(np.array([2.0]), side, side, np.zeros(1))
-    (told,) = verdict(Spectra(np.array([2.0]), up, **{kind: phasors}), SI)
+    found, scales = Spectra(np.array([2.0]), up, **{kind: phasors}), Scales(0.0, 0.0, 0.0)
+    (told,) = VerdictWords(found, scales, SI).write(judge(found, scales))
     assert words in told
 
 

@@ -1,18 +1,26 @@
-"""The verdict: a sentence for each order, in words that need no key."""
+"""The verdict: a record of which orders matter, and a sentence for each order, in words that need no
+key.
+"""
 
 import numpy as np
 import pytest
 from support.cases import cases
 from support.engines import GOOD, build_text
+from support.paths import ENGINES as ENGINE_FILES
+from support.remedies import size_scheme
 
-from balcli import analyze, curves
-from balcli.analysis.overview import tell_couple, verdict
+from balcli import Engine, analyze, curves, load, load_example
+from balcli.analysis.couple import Couple
+from balcli.analysis.verdict import Cure, Finding, Part, Verdict, judge
+from balcli.analysis.verdict_words import VerdictWords
 from balcli.core.phasors import Phasors
 from balcli.forces.spectrum import Spectra
 from balcli.show.units import SI
+from balcli.sizing.remedy import fit_devices
 from balcli.sizing.residual import Scales
 
 SCALES = Scales(1000.0, 2000.0, 100.0)
+NO_SCALES = Scales(0.0, 0.0, 0.0)
 
 
 def spectra(order: float, forward: complex, backward: complex, kind: str = "force") -> Spectra:
@@ -22,9 +30,14 @@ def spectra(order: float, forward: complex, backward: complex, kind: str = "forc
     return Spectra(orders, **{kind: phasors})
 
 
+def write(found: Spectra, scales: Scales = NO_SCALES, engine: Engine | None = None, **options) -> tuple[str, ...]:
+    """The sentences of the verdict on some spectra."""
+    return VerdictWords(found, scales, SI, engine).write(judge(found, scales, engine=engine, **options))
+
+
 @cases("analysis/verdict", "each_order_in_words")
 def test_each_order_in_words(order: int, what: str, vectors: list[list[float]], text: str) -> None:
-    assert verdict(spectra(order, *(complex(*vector) for vector in vectors), what), SI) == (text,)
+    assert write(spectra(order, *(complex(*vector) for vector in vectors), what)) == (text,)
 
 
 @cases("analysis/verdict", "what_is_small_beside_one_cylinder")
@@ -37,7 +50,7 @@ def test_what_is_small_beside_one_cylinder(force: dict, moment: dict, told: list
         return Phasors.of(orders, v, v, np.zeros(5))
 
     found = Spectra(orders, force=phasors(force), moment=phasors(moment))
-    assert verdict(found, SI, SCALES) == tuple(told)
+    assert write(found, SCALES) == tuple(told)
 
 
 DEVICES = [
@@ -54,7 +67,7 @@ ENGINES = [build_text(GOOD + "".join(DEVICES[:k])) for k in range(4)]
     ],
 )
 def test_a_device_like_one_of_the_file_is_a_further_one(order: int, text: str) -> None:
-    (told,) = verdict(spectra(order, 50, 50), SI, engine=ENGINES[3])
+    (told,) = write(spectra(order, 50, 50), engine=ENGINES[3])
     assert told.endswith(text)
 
 
@@ -70,22 +83,22 @@ def test_a_sentence_has_at_most_25_words(seed):
 
     up = None if seed % 2 else float(random.integers(-180, 180))
     found = Spectra(orders, up, force=phasors(), moment=phasors())
-    told = verdict(found, SI, SCALES, engine=ENGINES[seed % 4])
+    told = write(found, SCALES, ENGINES[seed % 4])
     assert max(len(sentence.split()) for sentence in told) <= 25
 
 
 def test_small_is_what_is_asked_for():
     found = spectra(2, 10, 10)
-    assert verdict(found, SI, SCALES) == ("Small: force of 20 N (order 2).",)
+    assert write(found, SCALES) == ("Small: force of 20 N (order 2).",)
     told = "Second order: force of 20 N along x; shafts at +2 and -2 cancel it."
-    assert verdict(found, SI, SCALES, small=0.01) == (told,)
+    assert write(found, SCALES, small=0.01) == (told,)
 
 
 @pytest.mark.parametrize(("couple", "told"), [(0, "force, moment and couple"), (1, "force and moment")])
 def test_the_couple_is_judged_with_force_and_moment(couple: float, told: str) -> None:
     none, some = spectra(1, 0, 0).force, spectra(1, couple, couple).force
     found = Spectra(none.orders, force=none, moment=none, couple=some)
-    assert verdict(found, SI) == (f"Order 1: {told} balanced.",)
+    assert write(found) == (f"Order 1: {told} balanced.",)
 
 
 HEAVY = {"crank.stroke": 90, "rod.length": 200, "rod.mass": 2, "rod.cg": 50, "rod.inertia": 15000, "piston.mass": 1}
@@ -94,21 +107,146 @@ NO_H = "; a rod dynamically equivalent to two masses at its ends has none."
 
 
 @pytest.mark.parametrize(
-    ("changes", "told"),
+    ("changes", "causes", "told"),
     [
-        ({}, None),
-        ({"rod.inertia": 9000}, f"the rods{NO_H}"),
-        ({"piston.offset": 10}, "offset pistons."),
-        ({"rod.inertia": 9000, "piston.offset": 10}, "the rods and offset pistons."),
-        ({"frame.reference": [0, 80, 0]}, "forces whose lines miss the point of reference."),
-        ({"operation.speed_ripple": "[{ order = 2, amplitude = 0.05 }]"}, "the acceleration of turning parts."),
+        ({"rod.inertia": 9000}, ("rods",), f"the rods{NO_H}"),
+        ({"piston.offset": 10}, ("offset_pistons",), "offset pistons."),
+        (
+            {"rod.inertia": 9000, "piston.offset": 10},
+            ("rods", "offset_pistons"),
+            "the rods and offset pistons.",
+        ),
+        (
+            {"frame.reference": [0, 80, 0]},
+            ("reference_point",),
+            "forces whose lines miss the point of reference.",
+        ),
+        (
+            {"operation.speed_ripple": "[{ order = 2, amplitude = 0.05 }]"},
+            ("angular_acceleration",),
+            "the acceleration of turning parts.",
+        ),
     ],
 )
-def test_the_causes_of_the_couple_are_named(changes: dict, told: str | None) -> None:
+def test_the_causes_of_the_couple_are_named(changes: dict, causes: tuple[str, ...], told: str) -> None:
     """Its size is the largest harmonic of the sampled couple."""
     engine = build_text("".join(f"{key} = {value}\n" for key, value in (HEAVY | changes).items()))
-    found = tell_couple(analyze(engine), SI)
+    found = analyze(engine)
     couple = np.abs(np.fft.rfft(curves(engine).curves["couple_Nm"][:360])) / 180
     order = int(couple[1:].argmax()) + 1
-    text = f"Transverse couple: up to {couple[order]:.4g} N·m (order {order}), from {told}"
-    assert found == ("" if told is None else text)
+    assert found.verdict.couple == Couple(order, causes)
+    text = VerdictWords(found.spectra, found.scales, SI, engine).write_couple(found.verdict.couple)
+    assert text == f"Transverse couple: up to {couple[order]:.4g} N·m (order {order}), from {told}"
+
+
+def test_several_cranks_have_a_couple_without_causes() -> None:
+    engine = load(ENGINE_FILES / "geared" / "napier_deltic.toml")
+    assert analyze(engine).verdict.couple == Couple(6)
+
+
+def test_a_negligible_couple_is_not_named() -> None:
+    engine = build_text("".join(f"{key} = {value}\n" for key, value in HEAVY.items()))
+    assert analyze(engine).verdict.couple is None
+
+
+# ------------------------------------------------------------------ the record
+COUNTERWEIGHTS, SHAFT = Cure(1, on_crank=True), Cure(-1)
+
+
+@pytest.mark.parametrize(
+    ("order", "forward", "backward", "cures"),
+    [
+        (1, 50, 50, (COUNTERWEIGHTS, SHAFT)),
+        (1, 49.9, 50, (SHAFT,)),
+        (1, 50, 49.9, (COUNTERWEIGHTS,)),
+        (2, 50, 50, (Cure(2), Cure(-2))),
+        (1.5, 50, 50, ()),
+    ],
+)
+def test_a_device_for_each_direction_of_a_large_vector(order, forward, backward, cures):
+    """A cylinder makes 1000 N: from 50 N on a vector is large."""
+    verdict = judge(spectra(order, forward, backward), SCALES)
+    assert verdict == Verdict(matter=(Finding(order, ("force",), cures),))
+
+
+def test_a_mean_force_is_no_order():
+    assert judge(spectra(0, 100, 0), SCALES) == Verdict()
+
+
+def test_a_small_vector_is_listed_as_small():
+    assert judge(spectra(2, 49.9, 49.9), SCALES) == Verdict(small=(Part(2, "force"),))
+
+
+@pytest.mark.parametrize(
+    ("number", "further"),
+    [(0, (False, False)), (1, (True, False)), (2, (True, True)), (3, (True, True))],
+)
+def test_a_device_that_the_file_has_is_further(number, further):
+    (finding,) = judge(spectra(1, 50, 50), SCALES, engine=ENGINES[number]).matter
+    assert tuple(cure.further for cure in finding.cures) == further
+
+
+def test_a_slider_does_not_turn():
+    """So a shaft that turns beside it is the first of its kind."""
+    slider = build_text(GOOD + "[[slider]]\nunbalance = 9\norder = 2\ndirection = 30\n")
+    (finding,) = judge(spectra(2, 50, 50), SCALES, engine=slider).matter
+    assert finding.cures == (Cure(2), Cure(-2))
+
+
+def test_a_crank_that_turns_backwards_can_carry_weights():
+    (finding, *_) = analyze(load(ENGINE_FILES / "geared" / "napier_deltic.toml")).verdict.matter
+    assert finding.cures == (Cure(1, on_crank=True), Cure(-1, on_crank=True))
+
+
+@pytest.mark.parametrize(
+    ("forces", "balanced"),
+    [
+        ({}, (1, 2)),
+        ({1: 100}, (2,)),
+        ({1: 100, 2: 100}, ()),
+        ({1: 100, 2: 1}, ()),
+        ({2: 1}, (1,)),
+    ],
+)
+def test_only_balanced_orders_that_are_worth_naming(forces, balanced):
+    orders = np.array([0.5, 1, 2, 3])
+    sizes = np.array([forces.get(order, 0) for order in orders], complex)
+    found = Spectra(orders, force=Phasors.of(orders, sizes, sizes, np.zeros(4)))
+    assert judge(found, SCALES).balanced == balanced
+
+
+@pytest.mark.parametrize(("orders", "force", "balanced"), [([0.5, 3], 0, (0.5,)), ([3, 4], 0, (3, 4)), ([3, 4], 1, ())])
+def test_other_balanced_orders_only_if_no_order_is_named(orders, force, balanced):
+    sizes = np.array([0, force], complex)
+    found = Spectra(np.array(orders, float), force=Phasors.of(np.array(orders, float), sizes, sizes, np.zeros(2)))
+    assert judge(found, SCALES).balanced == balanced
+
+
+@pytest.mark.parametrize(("places", "introduced"), [((3.0,), True), ((-2.0, 3.0), False)])
+def test_what_compensators_leave(places, introduced):
+    """A pair introduces no force; a single compensator does."""
+    drawn = load_example("i3")
+    position = places if len(places) > 1 else places[0]
+    fitted = fit_devices(drawn, size_scheme(drawn, "compensator", order=2, position=position))
+    (found,) = analyze(fitted).verdict.compensated
+    assert (found.order, found.at_m, found.vertical_Nm) == (2, places, 0)
+    assert bool(found.introduced_N) == introduced
+    half = analyze(fitted.vary({"shaft.1.unbalance": 0})).verdict.compensated[0]
+    assert half.vertical_Nm > 10
+
+
+def test_no_device_is_named_at_uneven_speed():
+    uneven = build_text(GOOD.replace("[operation]", "[operation]\nspeed_ripple = [{ order = 2, amplitude = 0.05 }]"))
+    verdict = judge(spectra(1, 50, 50), SCALES, engine=uneven)
+    assert (verdict.uneven, verdict.matter) == (True, (Finding(1, ("force",)),))
+
+
+def test_a_document_has_the_verdict():
+    found = analyze(ENGINES[3], only=["force", "moment"]).to_dict()["verdict"]
+    assert [finding["order"] for finding in found["matter"]] == [2]
+    assert found["matter"][0]["large"] == ["force"]
+    assert found["matter"][0]["cures"] == [
+        {"ratio": 2, "on_crank": False, "further": True},
+        {"ratio": -2, "on_crank": False, "further": False},
+    ]
+    assert "verdict" not in analyze(ENGINES[3], only=["roll"]).to_dict()

@@ -8,7 +8,7 @@ import pytest
 from support.cases import cases
 from support.commands import ask_csv, ask_json, refusal, run_here
 from support.engines import GOOD, SINGLE, build_text, changed
-from support.paths import write
+from support.paths import ENGINES, write
 
 from balcli.balancing.answer import balance_engine as balance
 from balcli.core.unbalance import STEEL, find_drill_depth
@@ -48,6 +48,15 @@ def test_csv_has_one_figure_a_line(file):
     (step,) = (r["value"] for r in rows if r["part"] == "step")
     assert after["main_N"] == ladder[step, "main_bearing"]
     assert devices["shaft 2", "speed_rpm"] == "6000.0"
+
+
+@pytest.mark.parametrize(("place", "named"), [("0,0", True), ("0,80", False)])
+def test_a_couple_that_the_devices_do_not_change_is_named(place, named):
+    """A shaft beside the crank axis has a couple of its own; one on the axis has none."""
+    printed = run_here("balance", ENGINES / "vtwin45.toml", "--scheme", "single-shaft", "--at", place).out
+    note = " ".join(printed.split())
+    assert ("Transverse couple: up to 103.9 N·m (order 1), from the rods" in note) is named
+    assert ("No scheme changes the couple." in note) is named
 
 
 @pytest.mark.slow

@@ -8,8 +8,8 @@ from support.gas_engines import FOUR, WIEBE
 from support.paths import ENGINES
 
 from balcli.analysis.answer import analyze
-from balcli.analysis.order_tables import tell_rocking
 from balcli.analysis.two_engines import Arrangement, combine_engines
+from balcli.analysis.verdict import Rocking
 from balcli.core.phasors import Phasors
 from balcli.crank_torque.answer import torque
 from balcli.engine.engine import take_model
@@ -18,7 +18,6 @@ from balcli.errors import BalcliError
 from balcli.forces.guide import compute_guide_moments
 from balcli.forces.spectrum import Spectra, choose_orders, is_order, mark_considerable, parse_order
 from balcli.mounting.loads import find_loads
-from balcli.show.units import SI
 from balcli.torsional_vibration.build import excite_engine
 
 
@@ -71,8 +70,7 @@ def test_orders_of_firing_are_shown_however_high():
     twice = combine_engines(subject, subject, Arrangement()).spectra.gas
     assert twice.major[twice.orders == 14] == pytest.approx(2 * count * one.major[0], rel=1e-9)
     assert {14, 28} <= set(excite_engine(take_model(subject), subject, None).orders.tolist())
-    told = tell_rocking(analyze(subject).spectra, SI, "the crank axis")
-    assert told.startswith("Order 14 rocks the engine most")
+    assert analyze(subject).verdict.rocking == Rocking("total", 14)
 
 
 def test_half_orders_take_gas_in_four_strokes():

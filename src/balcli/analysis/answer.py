@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated, Literal
 
 from ..core.cylinders import find_travel
@@ -54,6 +54,7 @@ from .records import (
     describe_inner,
     name_devices,
 )
+from .verdict import Verdict, judge
 
 UNASKED = (*KINDS, "peak")  # default quantities of every engine
 QUANTITIES = (*UNASKED, "sizing", "ladder")
@@ -91,6 +92,7 @@ class Analysis(OrdersAndPeaks, Result):
         state: Speed, which cylinders have no gas, and point of reference of the moments.
         spectra: Orders shown.
         assumed: Values that are used because the engine file leaves them out.
+        verdict: What the forces and moments of the orders shown amount to.
         peak: Largest force and moment over a revolution, all orders added up.
         sizing: Devices of the scheme `auto`, the default of `balance`, and the forces and moments
             that remain with them.
@@ -116,6 +118,7 @@ class Analysis(OrdersAndPeaks, Result):
     state: Annotated[EngineState, INLINE]
     spectra: Annotated[Spectra, WrittenAs(list_orders, "orders")]
     assumed: tuple[str, ...] | None = None
+    verdict: Verdict | None = None
     peak: Peaks | None = None
     sizing: Sizing | None = None
     ladder: Ladder | None = None
@@ -252,6 +255,7 @@ def analyze(
         state=describe_state(engine),
         spectra=visible,
         assumed=engine.list_assumed("gas", without=list_idle_defaults(engine, wanted)),
+        verdict=_judge(engine, visible, small) if visible.vectors() else None,
         peak=find_peaks(everything) if peaked else None,
         sizing=_size(engine, ladder, asked, wanted) if ladder and "sizing" in wanted else None,
         ladder=ladder if "ladder" in wanted else None,
@@ -328,6 +332,13 @@ def _analyze_cylinders(
     own = compute_spectra(engine, orders, kinds, each=True)
     rows = ((n, engine.numbers.index(n)) for n in engine.rising_numbers)
     return tuple(CylinderShare(n, own.select_place(row)) for n, row in rows)
+
+
+def _judge(engine: Engine, spectra: Spectra, small: float) -> Verdict:
+    """Return the verdict; if the positions of the throws are not known, only on forces."""
+    if not engine.places_known:
+        spectra = replace(spectra, moment=None)
+    return judge(spectra, find_scales(engine), small=small, engine=engine)
 
 
 def _size(engine: Engine, ladder: Ladder, asked: Array | None, wanted: Collection[str]) -> Sizing:

@@ -136,7 +136,7 @@ def _ask(asked: Request, engine: Engine, for_people: bool) -> Callable[..., Anal
             wanted.append("guide")
     else:
         wanted = list(asked.quantities)
-        if "verdict" in asked.parts and for_people:
+        if "verdict" in asked.parts:
             wanted.append(COUPLE.name)
             wanted += [] if engine.gas is None else [ROLL.name, GAS.name]  # for the verdict on roll
     return partial(

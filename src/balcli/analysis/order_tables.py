@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..engine.engine import CylinderNumber
-from ..engine.figures import find_first_largest
 from ..file.fields import order_number
 from ..forces.kinds import FORCE, GAS_KINDS, KINDS, MOMENT, ROLL, Kind
 from ..show.figures import peak_deg, phase_deg, size_or_mean
@@ -327,28 +326,4 @@ def gas_grid(spectra: Spectra, system: System, pivot: str, view: View) -> Iterat
         ("order", "inertia torque", "gas torque", "torque", "roll of the frame", "peak, deg"),
         rows,
         "Torque = inertia + gas." + " Mean torque, flywheel and more: balcli torque." * view.hints,
-    )
-
-
-def tell_rocking(spectra: Spectra, system: System, pivot: str) -> str:
-    """Return a sentence on the order with the largest roll; empty if no roll with gas is known.
-
-    Args:
-        spectra: Spectra with roll.
-        system: System of units.
-        pivot: Axis of the roll, in words.
-    """
-    roll, gas, inertia = spectra.roll_total, spectra.gas, spectra.roll
-    if roll is None or gas is None or inertia is None:
-        return ""
-    size = np.where(roll.orders > 0, roll.major, 0)
-    if not size.any():
-        return f"No order rocks the engine about {pivot}."
-    k = int(find_first_largest(size))
-    parts = [("gas", float(gas.major[k])), ("inertia", float(inertia.major[k]))]
-    there = [f"{name} {size_text(value, system.moment)}" for name, value in parts if value]
-    most = size_text(float(size[k]), system.moment)
-    return (
-        f"Order {order_name(roll.orders[k])} rocks the engine most: roll of {most} "
-        f"({', '.join(there)})."
     )

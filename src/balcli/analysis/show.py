@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator
-from dataclasses import replace
 from typing import TypeAlias
 
 import numpy as np
@@ -32,6 +31,7 @@ from ..show.units import System
 from ..sizing.ladder import name_step
 from . import crank_drive, sections
 from .answer import EXTRAS, Analysis, Sizing
+from .couple import select_couple
 from .devices_show import device_grid, device_rows, ladder_grid, list_ladder, number_devices
 from .order_tables import (
     cylinder_tables,
@@ -39,19 +39,16 @@ from .order_tables import (
     gas_grid,
     order_tables,
     peak_facts,
-    tell_rocking,
     textbook_tables,
 )
 from .overview import (
-    find_couple,
     find_orders_that_matter,
     roll_and_peaks,
-    tell_couple,
     tell_others,
     vectors_grid,
-    verdict,
 )
 from .parts import lay_out_parts, list_part_rows
+from .verdict_words import VerdictWords
 
 _UNCOUNTED = (
     "Couple and torque include only pistons, rods and throw masses; give [crank] inertia and "
@@ -156,7 +153,8 @@ def _order_parts_in_brief(result: Analysis, system: System, view: View) -> Itera
         shown = find_orders_that_matter(vectors, result.of_one_cylinder)
     if vectors.vectors():
         yield vectors_grid(vectors, shown, system, hints=view.hints)
-    if (couple := find_couple(result)) is not None:
+    couple = select_couple(result.spectra.couple, result.scales)
+    if couple is not None:
         alone = Spectra(couple.orders, couple=couple)
         yield from order_tables(alone, system, tell_pivot(result.engine))
     facts = roll_and_peaks(result, system, every_order=view.every_order)
@@ -174,16 +172,14 @@ def _tell_uncounted(result: Analysis) -> Iterator[Text]:
 
 def _judge(result: Analysis, system: System) -> Iterator[Text]:
     """Yield the verdict. If moments are not known, it covers only forces and states this."""
-    if not result.spectra.vectors():
+    if result.verdict is None:
         return
-    spectra, known = result.spectra, result.moments_known
-    spectra = spectra if known else replace(spectra, moment=None)
-    told = verdict(spectra, system, result.scales, small=result.small, engine=result.engine)
-    rocking = tell_rocking(spectra, system, tell_pivot(result.engine))
-    unknown = "" if known else sentence(MOMENTS_UNKNOWN)
-    couple = tell_couple(result, system)
-    if told := tuple(filter(None, (*told, couple, rocking, unknown))):  # order 0 needs no verdict
-        yield Text("Verdict", told)
+    words = VerdictWords(result.spectra, result.scales, system, result.engine)
+    sentences = words.write(result.verdict)
+    if not result.moments_known:
+        sentences = (*sentences, sentence(MOMENTS_UNKNOWN))
+    if sentences:  # order 0 needs no verdict
+        yield Text("Verdict", sentences)
 
 
 def _sizing_parts(sizing: Sizing, system: System) -> Iterator[Part]:

@@ -18,8 +18,9 @@ from ..analysis.devices_show import (
     practical_grid,
 )
 from ..analysis.order_tables import fit_largest
-from ..analysis.overview import name_column, name_orders, tell_couple
+from ..analysis.overview import name_column
 from ..analysis.parts import lay_out_parts
+from ..analysis.verdict_words import VerdictWords, name_orders
 from ..core.peaks import Peak
 from ..core.records import Node, list_figures, remove_unit, to_document, write_each
 from ..errors import MOMENTS_UNKNOWN, BalcliError
@@ -62,6 +63,7 @@ _TURNING_WEIGHTS = (
     "The pin stands still; the cylinders turn and carry the counterweights. Angles count from the "
     "axis of cylinder 1, which is over pin 1 at crank angle 0."
 )
+_ROUNDING = 1e-9  # a smaller share of the largest couple is rounding
 _SIGNED = "Weighed by ____________________   Date ______________   Checked ________________"
 
 
@@ -137,8 +139,19 @@ def _tell_couple(result: Balance, system: System) -> str:
     """Return words on the transverse couple if the devices do not change it; empty if the couple
     is negligible, or if the devices change it.
     """
-    before, after = (tell_couple(one, system) for one in (result.before, result.after))
-    return f"{after} No scheme changes the couple." if after and after == before else ""
+    after = result.after
+    if after.verdict is None or after.verdict.couple is None or _changes_couple(result):
+        return ""
+    words = VerdictWords(after.spectra, after.scales, system, after.engine)
+    return f"{words.write_couple(after.verdict.couple)} No scheme changes the couple."
+
+
+def _changes_couple(result: Balance) -> bool:
+    """Return whether the devices change the transverse couple of any order."""
+    before = result.before.spectra["couple"].x
+    after = result.after.spectra["couple"].x
+    largest = np.abs(before).max(initial=0.0)
+    return bool(np.any(np.abs(after - before) > _ROUNDING * largest))
 
 
 def _tell_bearings(result: Balance, system: System) -> str:

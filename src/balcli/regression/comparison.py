@@ -188,6 +188,7 @@ def _describe(engine: Engine, orders: Iterable[float] | None = None) -> tuple[No
     only = RECORDED if engine.gas is None else (*RECORDED, GAS.name)
     found = analyze(engine, orders, only)
     document = to_document(found) | _describe_chapters(engine)
+    del document["verdict"]  # it follows from the orders, and would change with every rule of words
     return document, found.spectra
 
 
