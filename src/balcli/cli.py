@@ -156,7 +156,8 @@ def _share(
         if option.name in ("quiet", "verbose") or (option.name == "digits" and tables):
             shared = copy(option)
             shared.opts = [word for word in option.opts if word not in taken]
-            shared.expose_value, shared.envvar = False, None  # the group reads BALCLI_DIGITS
+            shared.expose_value = False
+            shared.envvar = None  # the group reads BALCLI_DIGITS
             if shared.opts:
                 yield shared
 

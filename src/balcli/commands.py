@@ -143,7 +143,8 @@ def _describe_file(kind: File) -> Node:
     if kind is File.FIELD:
         return files.describe_file(runs.RunsFile, [runs.Run], "runs-file", "balcli file of runs")
     if kind is File.TORSION:
-        name, title = "chain-file", "balcli chain file"
+        name = "chain-file"
+        title = "balcli chain file"
         return files.describe_file(chain.ChainFile, [Damper, *chain.LISTS], name, title)
     return files.describe_engine_file()
 

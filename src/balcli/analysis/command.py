@@ -111,7 +111,9 @@ def compare(
     form = text_format(output, form)
     from .comparison import RENDERER, compare as compare_engines
 
-    rpm, asked, chosen = parse_speed(speed), parse_orders(orders), parse_only(only)
+    rpm = parse_speed(speed)
+    asked = parse_orders(orders)
+    chosen = parse_only(only)
     _refuse_parts(chosen or (), paths)
     engines = [read_engine(path, rpm, chosen).engine for path in paths]
     names = name_engines([engine.name for engine in engines], paths)
@@ -169,7 +171,8 @@ def curves(
     form = format_of(output, form, SERIES, Format.CSV)
     from . import curves as chapter
 
-    asked, step_deg = parse_orders(orders), read_figure("step", step, ANGLE)
+    asked = parse_orders(orders)
+    step_deg = read_figure("step", step, ANGLE)
     engine = read_engine(path, parse_speed(speed), None if cylinder is None else ()).engine
     number = None if cylinder is None else parse_cylinder(cylinder)
     found = chapter.compute_curves_by_step(engine, number, step_deg, asked)
@@ -254,9 +257,11 @@ def sum(  # noqa: A001 (the command's name)
     require_ending(write, ".toml", "--write")
     from .two_engines import RENDERER, Arrangement, combine_engines, describe_file
 
-    rpm, asked = parse_speed(speed), parse_orders(orders)
+    rpm = parse_speed(speed)
+    asked = parse_orders(orders)
     x, y, z = read_lengths("at", at, "three numbers, X,Y,Z in mm, such as 0,300,0", 3, units)
-    lead, turned = read_figure("phase", phase, ANGLE), read_figure("turn", turn, ANGLE)
+    lead = read_figure("phase", phase, ANGLE)
+    turned = read_figure("turn", turn, ANGLE)
     arrangement = Arrangement(lead, (x, y, z), turned, reverse, load)
     engines = [named_by_file(read_engine(path, rpm).engine, path) for path in paths]
     result = combine_engines(engines[0], engines[1], arrangement, asked)

@@ -298,7 +298,8 @@ def balance(
     shapes = Shapes(*parse_shapes(units, bearings, sector))
     grade_mm_s = parse_grade(grade)
     mass_kg = None if mass is None else read_figure("mass", mass, MASS, units)
-    asked, rpm = parse_orders(orders), parse_speed(speed)
+    asked = parse_orders(orders)
+    rpm = parse_speed(speed)
     text, model, engine = read_engine(path, rpm, prepare=remove_to_fit)
     open_devices = [name for name, _ in list_to_fit(model)]
     usual = "factor" if form is Format.CARD else FIT if open_devices else "auto"
@@ -322,7 +323,8 @@ def balance(
     try:
         result = find(tools)
     except HolesDoNotFitError as error:
-        misfit, holes = error, ("drill", "max_depth", "slug", "width")
+        misfit = error
+        holes = ("drill", "max_depth", "slug", "width")
         result = find(tools._replace(**dict.fromkeys(holes)))
     permitted = answer.permit_unbalance(result.remedy, grade_mm_s, mass_kg, float(engine.speed_rpm))
     result = replace(result, permitted=permitted)

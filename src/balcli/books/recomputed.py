@@ -131,7 +131,8 @@ def deviates(value: Cell, text: str) -> bool:
     printed = parse_decimal(text)
     if printed is not None and isinstance(value, (int, float)):
         return round_like(value, printed) != printed
-    exact, fraction = parse_number(value), parse_number(text)
+    exact = parse_number(value)
+    fraction = parse_number(text)
     if exact is None or fraction is None:
         return False
     return abs(exact - fraction) > abs(fraction) / 10**12
@@ -146,7 +147,8 @@ def _derive(value: float, printed: Decimal) -> str | None:
         return ""
     if round_like(value, printed, ROUND_DOWN) == printed:
         return ", truncated"
-    x, y = str(rounded), str(printed)
+    x = str(rounded)
+    y = str(printed)
     swaps = (f"{x[:i]}{x[i + 1]}{x[i]}{x[i + 2 :]}" for i in range(len(x) - 1))
     return ", digits transposed" if y in swaps else None
 
@@ -197,8 +199,11 @@ class Print(NamedTuple):
         numbers = {identify(c): j for j, c in enumerate(self.columns)}
         places = [numbers.get(identify(c)) for c in columns]
         nothing = (None,) * len(self.columns)
-        found = [rows.get(identify(name), nothing) for name in stub]
-        return [tuple(None if j is None else row[j] for j in places) for row in found]
+        aligned = []
+        for name in stub:
+            row = rows.get(identify(name), nothing)
+            aligned.append(tuple(None if place is None else row[place] for place in places))
+        return aligned
 
     def compare_columns(
         self,
@@ -209,7 +214,8 @@ class Print(NamedTuple):
         """Return the table with a row of figures for each name in the first column of the print,
         and a column for each heading.
         """
-        stub, columns = self.column(self.columns[0]), (self.columns[0], *headings)
+        stub = self.column(self.columns[0])
+        columns = (self.columns[0], *headings)
         cells = self.align_cells(stub, columns)
         return self.compare(columns, head_rows(stub, body), cells, explanations)
 
@@ -381,7 +387,8 @@ def _read(text: str) -> Fraction:
 
 
 def _expand(start: str, stop: str | None = None, step: str = "1") -> list[str]:
-    first, stride = _read(start), _read(step)
+    first = _read(start)
+    stride = _read(step)
     if stop is None:
         return [start.strip()]
     count = (_read(stop) - first) / stride

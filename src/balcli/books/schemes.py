@@ -73,7 +73,8 @@ def tabulate_paths(printed: Print, ranges: Ranges) -> Table:
     grows from 0. For 180 degrees, the text of the source gives these lengths: 3 b and b.
     """
     headings = ranges.angle or printed.headings()
-    gamma, stub = as_numbers(headings), list(printed.column(printed.columns[0]))
+    gamma = as_numbers(headings)
+    stub = list(printed.column(printed.columns[0]))
     stub += _LENGTHS if ranges.angle else []
     columns = (printed.columns[0], *headings)
 
@@ -124,7 +125,8 @@ def _paths(gamma: Array, cosine: Cosine) -> Array:
     The ratios are computed without division by zero, with x = gamma/2, from -cos 3x/cos x = 3 - 4
     cos^2 x and -3 sin 3x/sin x = 3 - 12 cos^2 x.
     """
-    near, far = cosine(gamma / 2), cosine(3 * gamma / 2)
+    near = cosine(gamma / 2)
+    far = cosine(3 * gamma / 2)
     rates = 1.5 * cosine(3 * gamma / 2 - 90), -0.5 * cosine(gamma / 2 - 90)
     ratios = 3 - 4 * _cos(gamma / 2) ** 2, 3 - 12 * _cos(gamma / 2) ** 2
     lengths = _walk(3 * gamma / 2), _walk(gamma / 2)
@@ -140,13 +142,15 @@ def _walk(angle: Array) -> Array:
 def _sliders(
     names: Sequence[tuple[str, str | None]], alpha: Array, cosine: Cosine
 ) -> tuple[Row, ...]:
-    double, sine = cosine(2 * alpha), cosine(2 * alpha - 90)
+    double = cosine(2 * alpha)
+    sine = cosine(2 * alpha - 90)
     margin = {"2alpha_deg": 2 * alpha, "cos 2alpha": double, "sin 2alpha": sine}
 
     def line(label: str, gamma: float | None) -> Array:
         if gamma is None:
             return margin[label]
-        near, far = cosine(np.array(gamma / 2)), cosine(np.array(3 * gamma / 2))
+        near = cosine(np.array(gamma / 2))
+        far = cosine(np.array(3 * gamma / 2))
         return (far - near) * sine if label == "Zx" else (far + near) * double
 
     rows: list[Row] = []
@@ -225,7 +229,9 @@ def _half_cycle(lam: float) -> Row:
     """Return the result of the author's search: the smallest peak of |P|/J, its k and alpha, and
     the angle phi of P and the crank angle theta at this peak.
     """
-    k, alpha, theta = np.arange(11) / 10, np.arange(0.0, 91.0, 5.0), np.arange(181.0)
+    k = np.arange(11) / 10
+    alpha = np.arange(0.0, 91.0, 5.0)
+    theta = np.arange(181.0)
     th = np.radians(theta)
     weights = k[:, None, None] * np.exp(1j * (th + np.radians(alpha[:, None])))
     force = np.cos(th) + lam * np.cos(2 * th) - weights

@@ -48,17 +48,33 @@ GENERATED: dict[str, Generator] = {  # coefficients that are listed up to the re
     "rod angle": series.beta,
     "rod angular acceleration D_k": series.rod,
 }
+
+
+def _accelerate(order: int, power: int) -> series.Series:
+    """Return the coefficients of an acceleration in rod lengths."""
+    return {p: order * order * c for p, c in series.cos_beta(order, power).items()}
+
+
+def _lower_rod(order: int, power: int) -> series.Series:
+    """Return the coefficients of the rod's angular acceleration, divided by the rod ratio."""
+    return {p - 1: c for p, c in series.rod(order, power + 1).items()}
+
+
+def _expand_cos_beta(_: int, power: int) -> series.Series:
+    return series.cos_beta_in_sine(power)
+
+
+def _expand_beta(_: int, power: int) -> series.Series:
+    return series.beta_in_sine(power)
+
+
 # Other forms of coefficients, listed only if a source prints them.
 PRINTED: dict[str, Generator] = {
     "displacement (from shaft)/r": series.from_shaft,
-    "acceleration (l w^2)": lambda n, power: {
-        p: n * n * c for p, c in series.cos_beta(n, power).items()
-    },
-    "rod angular acceleration D_k / p": lambda k, power: {
-        p - 1: c for p, c in series.rod(k, power + 1).items()
-    },
-    "cos beta, power of sin^p": lambda _, power: series.cos_beta_in_sine(power),
-    "rod angle, power of sin^p": lambda _, power: series.beta_in_sine(power),
+    "acceleration (l w^2)": _accelerate,
+    "rod angular acceleration D_k / p": _lower_rod,
+    "cos beta, power of sin^p": _expand_cos_beta,
+    "rod angle, power of sin^p": _expand_beta,
 }
 
 
@@ -183,13 +199,13 @@ def _find_force(book: Textbook, order: int, axis: str) -> float:
 _QUANTITIES: dict[str, Callable[[Textbook], float]] = {
     **{f"force of order {n}": partial(_find_share, kind="force", order=n) for n in (2, 4, 6)},
     **{f"moment M_z of order {k}": partial(_find_share, kind="couple", order=k) for k in (3, 5)},
-    "lowest order of force": lambda book: _find_order(book, "force", 0),
-    "lowest order of force above 1": lambda book: _find_order(book, "force", 1),
-    "next order of force": lambda book: _find_order(book, "force", 2),
-    "lowest order of moment M_z": lambda book: _find_order(book, "couple", 0),
-    "lowest order of M_x, M_y": lambda book: _find_order(book, "moment", 0),
-    "force of order 1 along x": lambda book: _find_force(book, 1, "x"),
-    "force of order 1 along y": lambda book: _find_force(book, 1, "y"),
-    "force of order 2 along x": lambda book: _find_force(book, 2, "x"),
-    "force of order 2 along y": lambda book: _find_force(book, 2, "y"),
+    "lowest order of force": partial(_find_order, kind="force", place=0),
+    "lowest order of force above 1": partial(_find_order, kind="force", place=1),
+    "next order of force": partial(_find_order, kind="force", place=2),
+    "lowest order of moment M_z": partial(_find_order, kind="couple", place=0),
+    "lowest order of M_x, M_y": partial(_find_order, kind="moment", place=0),
+    "force of order 1 along x": partial(_find_force, order=1, axis="x"),
+    "force of order 1 along y": partial(_find_force, order=1, axis="y"),
+    "force of order 2 along x": partial(_find_force, order=2, axis="x"),
+    "force of order 2 along y": partial(_find_force, order=2, axis="y"),
 }

@@ -33,7 +33,8 @@ def tabulate_engines(printed: Print, ranges: Ranges) -> Table:
     """
     heads = ("r_mm", "l_mm", "e_mm", "stroke_mm", "rated_speed_rpm")
     lines = np.array([as_numbers(printed.column(head)) for head in heads]).T.tolist()
-    rows, supposed = [], []
+    rows = []
+    supposed = []
     for words, (r, length, e, stroke, rpm) in zip(printed.rows, lines, strict=True):
         given = dict(zip(printed.columns, map(_given, words), strict=True))
         exact = {"lambda": r / length, "Cm_m_per_s": stroke * rpm / 30e3, "xi": e / r}
@@ -62,7 +63,8 @@ def tabulate_two_terms(printed: Print, ranges: Ranges) -> Table:
     headings = ranges.lam or printed.headings()
     lam = as_numbers(headings)
     psi = np.radians(np.arange(1, 3600) / 20)[:, None]  # 0 and 180 degrees are exact
-    first, second = np.cos(psi), np.cos(2 * psi)
+    first = np.cos(psi)
+    second = np.cos(2 * psi)
     travel = _find_errors(1 + lam / 4 - first - lam / 4 * second, sc.displacement(psi, lam))
     speed = _find_errors(np.sin(psi) + lam / 2 * np.sin(2 * psi), sc.velocity(psi, lam))
     acceleration = _find_errors(first + lam * second, sc.acceleration(psi, lam))[:-1]
@@ -78,7 +80,8 @@ def _find_errors(approximate: Array, exact: Array) -> list[Array]:
         approximate: Approximate values, shape (angles, lambdas).
         exact: Exact values, of the same shape.
     """
-    error, size = np.abs(approximate - exact), np.abs(exact)
+    error = np.abs(approximate - exact)
+    size = np.abs(exact)
     largest = error.max(axis=0)
     there = np.where(error > largest * (1 - 1e-9), size, np.inf).min(axis=0)
     relative = (error / size).max(axis=0)

@@ -103,13 +103,15 @@ def torque(
     needed = "--curve; an engine file has its inertia in [crank] or [flywheel]"
     if curve is not None:
         misplaced = {"--misfire": misfire, "--write": write, "--loads": loads}
-        misplaced["--cylinder"], needed = cylinder, "an engine file"
+        misplaced["--cylinder"] = cylinder
+        needed = "an engine file"
     for option, value in misplaced.items():
         if value:
             raise BalcliError(f"{option} needs {needed}")
     from . import answer, given_curve, show as pages
 
-    rpm, asked = parse_speed(speed), parse_orders(orders)
+    rpm = parse_speed(speed)
+    asked = parse_orders(orders)
     allowed = None if fluctuation is None else read_share("fluctuation", fluctuation, FLUCTUATION)
     if curve is not None:
         own = None if inertia is None else read_inertia("inertia", inertia, units)

@@ -117,7 +117,8 @@ def _find_lines(speed: PiecewiseCurve, mean_speed: float) -> tuple[RippleLine, .
     turns = speed.period / (2 * np.pi)
     count = min(MOST_RIPPLES, int(HIGHEST_RIPPLE_ORDER * turns + 0.1))
     c: Complex = speed.harmonics(np.arange(1, count + 1)) / mean_speed
-    size, angle = np.abs(c), -np.degrees(np.angle(c))
+    size = np.abs(c)
+    angle = -np.degrees(np.angle(c))
     worth = np.flatnonzero(size > _WORTH * size.max(initial=0)).tolist()
     orders = (order_number(round(2 * (k + 1) / turns) / 2) for k in worth)
     return tuple(map(RippleLine, orders, size[worth].tolist(), angle[worth].tolist()))

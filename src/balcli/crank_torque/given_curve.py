@@ -48,7 +48,8 @@ def read_curve(path: Path) -> PiecewiseCurve:
     """
     angles = Head("angle_deg", ANGLE, symbols=ANGLE_SYMBOLS)
     columns = read_columns(path, (angles, Head("torque_Nm", TORQUE, symbols="moment|m|tq|t")))
-    angle, torque = np.array(columns.column(0)), np.array(columns.column(1))
+    angle = np.array(columns.column(0))
+    torque = np.array(columns.column(1))
     if len(angle) < 2 or not angle[-1] > angle[0]:
         raise BalcliError(f"{path}: needs two rising angles; the last row is the end of the period")
     if not np.abs(angle).max() <= FARTHEST_DEG:
@@ -99,16 +100,19 @@ def analyze_curve(
             of the period.
     """
     net = torque if load is None else _subtract(torque, load)
-    turns, speed = torque.period / (2 * np.pi), None if speed_rpm is None else speed_rpm * RPM
+    turns = torque.period / (2 * np.pi)
+    speed = None if speed_rpm is None else speed_rpm * RPM
     every = _choose_harmonics(turns, orders)
     found = torque.harmonics(every)
     found = np.where(np.abs(found) > _NOISE * np.abs(torque.series).max(), found, 0)
     shown = list_coefficients(every / turns, found, found == 0)
-    above, extremes = surplus(net), measure_curve(torque)
+    above = surplus(net)
+    extremes = measure_curve(torque)
     shares = None
     if load is not None:
         least = SAME_MEAN * max(abs(e.value) for c in (torque, load) for e in c.extremes())
-        mean, rest = load.mean, torque.mean - load.mean
+        mean = load.mean
+        rest = torque.mean - load.mean
         shares = (mean if abs(mean) > least else 0.0, rest if abs(rest) > least else 0.0)
     return TorqueAnalysis(
         speed_rpm=speed_rpm,

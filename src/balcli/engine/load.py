@@ -220,7 +220,8 @@ class FiguresOfVariants(EngineVariants, Generic[Asked]):
         quantities: Sequence[Asked],
     ) -> None:
         super().__init__(model)
-        self._evaluate, self._quantities = evaluate, quantities
+        self._evaluate = evaluate
+        self._quantities = quantities
 
     def evaluate(self, values: Mapping[str, float]) -> list[float]:
         """Return the value of each quantity for the variant with these figures (by dotted name).

@@ -189,17 +189,19 @@ def weigh_cylinders(parts: Parts) -> dict[int, CylinderMasses]:
             apart = (leads[n] - leads[number] for n in rods if n not in parts.masters)
             together = (np.abs((angle + 180) % 360 - 180) < 1e-9 for angle in apart)
             shared = oil_per_pin / sum((np.asarray(each, float) for each in together), 0.0)
-        weighed[number] = CylinderMasses(
+        masses = CylinderMasses(
             cell.throw,
             piston=gear.piston,
             piston_parts=piston if own is None else (("mass", own),),
             small_end=gear.small_end,
             big_end=gear.big_end,
             share=of_throws[cell.throw] / plan.rods_on_throw,
-            rod_bearing=0.0 if hung else rod_bearing,
-            oil=0.0 if hung else or_zero(oil) + shared,
+            rod_bearing=rod_bearing,
+            oil=or_zero(oil) + shared,
             crosshead=value_or(parts.override(number, "crosshead_mass"), crosshead),
         )
+        # The pin of an articulated rod is a knuckle pin, without bearing shells and oil.
+        weighed[number] = masses._replace(rod_bearing=0.0, oil=0.0) if hung else masses
     return weighed
 
 
@@ -295,25 +297,37 @@ def arrange_cylinders(parts: Parts) -> Cylinders:
         """Return a figure of all cylinders, as a single row if they are equal."""
         return shared_column([find(n) for n in (numbers[:1] if one else numbers)], rank)
 
+    def find_rotating(number: int) -> Figure:
+        """Return the mass on the crank pin, kg; that of an articulated rod is on a knuckle pin."""
+        share = weighed[number].share
+        return share if number in masters else share + weighed[number].rotating
+
     at_pistons = of_each(lambda n: weighed[n].reciprocating)
     linkage = _link(parts, at_pistons)
     turning = linkage is not None and linkage.turning
     banks = list(parts.banks.values())
+    radii = of_each(radius)
+    offsets = of_each(lambda n: gears[n].offset)
+    lengths = of_each(lambda n: gears[n].length)
+    couples = of_each(lambda n: gears[n].couple)
+    rotating = of_each(find_rotating)
+    first = next(k for k, bank in enumerate(banks) if 1 in bank)
+    axes_of_banks = [axes[bank[0]] for bank in banks]
+    pins_of_rows = [pins[n] for n in numbers]
+    places = [parts.places.z[n] for n in numbers]
     return Cylinders(
-        axis_deg=column([axes[bank[0]] for bank in banks], rank),
-        pin_deg=column([pins[n] for n in numbers], rank),
+        axis_deg=column(axes_of_banks, rank),
+        pin_deg=column(pins_of_rows, rank),
         starts=np.cumsum([0, *map(len, banks[:-1])]),
-        first=next(k for k, bank in enumerate(banks) if 1 in bank),
-        z=column([parts.places.z[n] for n in numbers], rank),
-        radius=of_each(radius),
-        offset=of_each(lambda n: gears[n].offset),
-        lam=of_each(lambda n: radius(n) / gears[n].length),
-        eps=of_each(lambda n: gears[n].offset / gears[n].length),
+        first=first,
+        z=column(places, rank),
+        radius=radii,
+        offset=offsets,
+        lam=radii / lengths,
+        eps=offsets / lengths,
         reciprocating=0 * at_pistons if turning else at_pistons,
-        rotating=of_each(
-            lambda n: (not turning) * (weighed[n].share + (n not in masters) * weighed[n].rotating)
-        ),
-        couple=of_each(lambda n: gears[n].couple),
+        rotating=0 * rotating if turning else rotating,
+        couple=couples,
         linkage=linkage,
     )
 

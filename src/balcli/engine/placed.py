@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
+from itertools import chain
 from typing import cast
 
 import numpy as np
@@ -40,7 +41,8 @@ def read_engines(draft: Draft, parse: Callable[[bytes, str], EngineFile]) -> Dra
         draft: The file, whose engines are not yet read.
         parse: Function that returns the model of one engine from the text and name of its file.
     """
-    model, problems = draft.model, list(draft.problems)
+    model = draft.model
+    problems = list(draft.problems)
     engines = tuple(filter(None, model.engine))
     if "engine" in draft.readable:
         problems += _check_engines(model)
@@ -55,7 +57,8 @@ def read_engines(draft: Draft, parse: Callable[[bytes, str], EngineFile]) -> Dra
     cranks = tuple(filter(None, (found[table.file] for table in engines)))
     _tell_ignored(engines, cranks)
     if not problems:
-        own, lent = model.operation, cranks[0].operation
+        own = model.operation
+        lent = cranks[0].operation
         keys = [k for k in ("speed", "speed_ripple") if lent.has(k) and not own.has(k)]
         operation = own.model_copy(update={key: getattr(lent, key) for key in keys})
         turning = {"operation": operation}
@@ -136,7 +139,8 @@ def build_geared(
 
     Figures of an engine's own file vary by names such as `engine.2.rod.length`.
     """
-    changes, problems = varied or {}, list[Problem]()
+    changes = varied or {}
+    problems = list[Problem]()
     engines: list[Engine] = []
     for k, (table, crank) in enumerate(zip(model.engine, model.cranks, strict=True), 1):
         own = dict(select_varied(changes, k))
@@ -149,7 +153,8 @@ def build_geared(
         wheels = [engines[0].flywheel_inertia, find_wheel(figures, model.flywheel)]
         engines[0] = replace(engines[0], flywheel_inertia=_add(wheels))
     whole = gear_engines([*_place_engines(model, figures, engines)])
-    given, power = model.frame.reference, model.operation.power
+    given = model.frame.reference
+    power = model.operation.power
     if given is not None:
         x, y, z = (each / 1e3 for each in figures.take_each("frame.reference", given))
         whole = replace(whole, reference_m=(x, y, z))
@@ -177,22 +182,28 @@ def gear_engines(placed: Sequence[Placed]) -> Engine:
     speed = placed[0].engine.speed_rpm
     placed = [one._replace(engine=one.engine.at_speed(speed)) for one in placed]
     engines = [one.engine for one in placed]
-    first, fired = placed[0], [engine for engine in engines if engine.gas is not None]
+    first = placed[0]
+    fired = [engine for engine in engines if engine.gas is not None]
     x, y, z = first.engine.reference_m
     place = first.find_place(place_in_plane(x, y))
     cylinders = tuple(f"{one.name}.{number}" for one in placed for number in one.engine.numbers)
+    strokes = max(engine.strokes for engine in fired or engines)
+    weighed = chain.from_iterable(engine.weighed for engine in engines)
+    places_known = all(engine.places_known for engine in engines)
+    crank_inertia = _add(engine.crank_inertia for engine in engines if not engine.rotary)
+    flywheel_inertia = _add(engine.flywheel_inertia for engine in engines)
     return replace(
         first.engine,
         numbers=cylinders,
         fires_deg={},
-        strokes=max(engine.strokes for engine in fired or engines),
+        strokes=strokes,
         reference_m=(place.real, place.imag, z + first.at_m[2]),
         devices=(),
-        weighed=tuple(masses for engine in engines for masses in engine.weighed),
-        places_known=all(engine.places_known for engine in engines),
+        weighed=tuple(weighed),
+        places_known=places_known,
         gas=_join_gas(placed),
-        crank_inertia=_add(engine.crank_inertia for engine in engines if not engine.rotary),
-        flywheel_inertia=_add(engine.flywheel_inertia for engine in engines),
+        crank_inertia=crank_inertia,
+        flywheel_inertia=flywheel_inertia,
         model=None,
         placed=tuple(placed),
     )
@@ -228,7 +239,8 @@ def _join_gas(placed: Sequence[Placed]) -> EngineGas | None:
         return None
     cylinders = list[CylinderGas]()
     for one in placed:
-        gas, start = one.engine.gas, len(cylinders)
+        gas = one.engine.gas
+        start = len(cylinders)
         if gas is None:
             idle = burning[0].cylinders[0]._replace(share=0.0, like=start)
             cylinders += [idle] * len(one.engine.numbers)
@@ -266,7 +278,8 @@ def share_state(whole: Engine) -> Iterator[Placed]:
     """
     start = 0
     for row, one in enumerate(whole.placed):
-        own, stop = one.engine, start + len(one.engine.numbers)
+        own = one.engine
+        stop = start + len(one.engine.numbers)
         x, y, z = whole.reference_m
         reference = one.find_own_place(place_in_plane(x, y))
         lines = (

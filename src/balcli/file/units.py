@@ -64,7 +64,8 @@ def read_rows(rows: str) -> dict[str, str]:
     return {name: meaning for names, meaning in parts for name in names.split()}
 
 
-DEFINITIONS, AMBIGUOUS = read_rows(_DEFINED), read_rows(_AMBIGUOUS)
+DEFINITIONS = read_rows(_DEFINED)
+AMBIGUOUS = read_rows(_AMBIGUOUS)
 
 _PREFIXES = (
     "G giga 9, M mega 6, k kilo 3, h hecto 2, da deca deka 1, d deci -1, c centi -2, "
@@ -198,21 +199,51 @@ _CYRILLIC = dict(
 )
 FORTRAN = r"(?<=[\d.])[dD]([+-]?\d{1,3})(?![\d.])"  # the exponent of 1.5D3
 _SUPERSCRIPTS = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
+
+
+def _spell_fraction(found: re.Match[str]) -> str:
+    """Return a figure with a fraction of one character, `3½`, as `3 1/2`."""
+    return f"{found[1]} {normalize('NFKC', found[2])}"
+
+
+def _spell_wide(found: re.Match[str]) -> str:
+    """Return characters of full width, units of one character and special blanks as plain ones."""
+    return normalize("NFKC", found[0])
+
+
+def _spell_exponent(found: re.Match[str]) -> str:
+    return "^" + found[0].translate(_SUPERSCRIPTS)
+
+
+def _spell_signs(found: re.Match[str]) -> str:
+    return found[0].translate(_SIGNS)
+
+
+def _spell_cyrillic(found: re.Match[str]) -> str:
+    """Return a Russian unit as balcli writes it; other words are returned unchanged."""
+    return _CYRILLIC.get(found[0]) or _CYRILLIC.get(found[0].lower(), found[0])
+
+
+def _join_thousands(found: re.Match[str]) -> str:
+    """Return a figure without the characters that separate its thousands."""
+    return found[1] + re.sub(r"[ '_]", "", found[2])
+
+
 _RESPELT: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
-    (r"(\d?)\s*([¼-¾⅐-⅞])", lambda m: f"{m[1]} {normalize('NFKC', m[2])}"),
-    (r"[\uff01-\uff5e\u3380-\u33df\u00a0\u2007\u2009\u202f]", lambda m: normalize("NFKC", m[0])),
-    (r"⁻?[⁰¹²³⁴⁵⁶⁷⁸⁹]+", lambda m: "^" + m[0].translate(_SUPERSCRIPTS)),
-    (r".+", lambda m: m[0].translate(_SIGNS)),
+    (r"(\d?)\s*([¼-¾⅐-⅞])", _spell_fraction),
+    (r"[\uff01-\uff5e\u3380-\u33df\u00a0\u2007\u2009\u202f]", _spell_wide),
+    (r"⁻?[⁰¹²³⁴⁵⁶⁷⁸⁹]+", _spell_exponent),
+    (r".+", _spell_signs),
     (r"(?i)\br\.p\.m\.?", "rpm"),
     (r"(?i)\blong tons?\b", "long_ton"),
     (r"M(?:PA|pa)\b", "MPa"),
     (r"(?<=[^\W\d_])\.(?=\s*$|/)", ""),  # "3.5 in.", "об./мин"
-    (r"[а-яёА-ЯЁ]+", lambda m: _CYRILLIC.get(m[0]) or _CYRILLIC.get(m[0].lower(), m[0])),
+    (r"[а-яёА-ЯЁ]+", _spell_cyrillic),
     (r"(?<=\d)\s*[x×·⋅*]\s*10\^([+-]?\d{1,3})\b", r"e\1"),
     (FORTRAN, r"e\1"),
     (
         r"^(\s*[+-]?[1-9]\d{0,2})((?:[ '_]\d{3})+)(?![\d/]| \d{3}|\s*/\s*\d)",
-        lambda m: m[1] + re.sub(r"[ '_]", "", m[2]),
+        _join_thousands,
     ),
     # A decimal comma, unless three digits behind it might be thousands
     (r"^(\s*[+-]?(?:0|\d{4,}|\d+(?=,(?:\d{1,2}|\d{4,})(?!\d)))),(\d+)(?![\d,.])", r"\1.\2"),
@@ -310,7 +341,8 @@ def refuse_thousands(text: str, value: float | Fraction, dimension: Dimension) -
     """
     point = re.match(r"\s*[+-]?([1-9]\d{0,2})\.(\d{3})(?![\d.,/eE])", text)
     if point and abs(float(value)) < _LEAST_WITH_DECIMALS.get(dimension, 0):
-        decimals, thousands = f"{point[1]}.{point[2]}0", point[1] + point[2]
+        decimals = f"{point[1]}.{point[2]}0"
+        thousands = point[1] + point[2]
         raise ThousandsError(
             f"has three decimals, or a point between thousands: write {decimals} or {thousands}; "
             f"{wanted(dimension)}"
@@ -453,7 +485,8 @@ def _find_pair(name: str) -> tuple[Unit, ...]:
     """Return the two units, a mass or force and a length, that are written as one word: ozin, gcm,
     Ncm, lbft. Return () if there are no such units, or several.
     """
-    length, loads = LENGTH.powers, ((0, 1, 0, 0), (1, 1, -2, 0))
+    length = LENGTH.powers
+    loads = ((0, 1, 0, 0), (1, 1, -2, 0))
     pairs = {
         (first, second)
         for cut in range(1, len(name))

@@ -115,15 +115,12 @@ def find_stars(
         for way, turns in enumerate(WAYS):
             if not each["force"].vectors[way, k].any():
                 continue
-            found = tuple(
-                Bank(
-                    axis_deg=float(axes[row_of(bank[0])]) if len(banks) == count else None,
-                    cylinders=tuple(Ray(n, **_pick(each, way, k, row_of(n))) for n in bank),
-                    **_pick(sums, way, k, row),
-                )
-                for row, bank in enumerate(banks)
-            )
-            yield Star(order, turns, banks=found, **_pick(total, way, k))
+            of_banks = []
+            for row, bank in enumerate(banks):
+                axis_deg = float(axes[row_of(bank[0])]) if len(banks) == count else None
+                rays = tuple(Ray(n, **_pick(each, way, k, row_of(n))) for n in bank)
+                of_banks.append(Bank(axis_deg=axis_deg, cylinders=rays, **_pick(sums, way, k, row)))
+            yield Star(order, turns, banks=tuple(of_banks), **_pick(total, way, k))
 
 
 def find_direction(vector: complex) -> float:

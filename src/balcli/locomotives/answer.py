@@ -258,7 +258,8 @@ def locomotive(
     remedy = Remedy("locomotive").add_devices(weights, f"{_WHY}{share}")
     fitted = fit_devices(engine, remedy)
     found = compute_spectra(fitted, find_relevant_orders(fitted), ("force", "moment"))
-    along, about_y = found["force"].x, found["moment"].y
+    along = found["force"].x
+    about_y = found["moment"].y
 
     def blow(some: Complex) -> float:
         """Return the hammer blow of several wheels together, N."""
@@ -321,20 +322,19 @@ def _list_wheels(
 ) -> tuple[WheelLoads, ...]:
     """Return both wheels of an axle, from added and remaining unbalances in their planes, kg m."""
     load = table.wheel_load if axle.wheel_load is None else axle.wheel_load
-    rpm, square, wheels = float(engine.speed_rpm), float(engine.omega) ** 2, []
+    rpm = float(engine.speed_rpm)
+    square = float(engine.omega) ** 2
+    wheels = []
     for z, new, rest in zip(table.planes, added.tolist(), left.tolist(), strict=True):
         blow = abs(rest) * square
-        lift = rpm * math.sqrt(load / blow) if load is not None and blow else None
-        wheel = WheelLoads(
-            plane_mm=z,
-            unbalance=new,
-            mass_kg=None if table.radius is None else abs(new) / table.radius * 1e3,
-            hammer_blow_N=blow,
-            least_rail_load_N=None if load is None else load - blow,
-            most_rail_load_N=None if load is None else load + blow,
-            lift_rpm=lift,
-            lift_km_h=None if lift is None else table.find_km_h(lift),
-        )
+        wheel = WheelLoads(z, new, None, blow, None, None, None, None)
+        if table.radius is not None:
+            wheel = wheel._replace(mass_kg=abs(new) / table.radius * 1e3)
+        if load is not None:
+            wheel = wheel._replace(least_rail_load_N=load - blow, most_rail_load_N=load + blow)
+        if load is not None and blow:
+            lift = rpm * math.sqrt(load / blow)
+            wheel = wheel._replace(lift_rpm=lift, lift_km_h=table.find_km_h(lift))
         wheels.append(wheel)
     return tuple(wheels)
 
@@ -351,7 +351,8 @@ def _list_weights(
     """
     for name, row in zip(names, added.tolist(), strict=True):
         for z, new in zip(table.planes, row, strict=True):
-            size, angle = abs(new) * 1e6, angle_deg(new)
+            size = abs(new) * 1e6
+            angle = angle_deg(new)
             if size:
                 yield Counterweight.model_construct(
                     unbalance=size, angle=angle, position=float(z), axle=name

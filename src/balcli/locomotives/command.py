@@ -59,7 +59,8 @@ def locomotive(
     from . import answer, show as pages
 
     source = read_engine(path, asked=())
-    engine, asked = named_by_file(source.engine, path), [_read_bare(hammer_blow), _read_bare(speed)]
+    engine = named_by_file(source.engine, path)
+    asked = [_read_bare(hammer_blow), _read_bare(speed)]
     with naming_file(name_file(path)):
         results = [
             answer.locomotive(engine, one, hammer_blow=asked[0], speed=asked[1]) for one in factors

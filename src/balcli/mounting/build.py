@@ -94,13 +94,7 @@ def build_mounted_body(model: EngineFile, name: str = "") -> MountedBody:
     tensor = 1e-6 * np.array([[xx, xy, zx], [xy, yy, yz], [zx, yz, zz]])  # kg mm2 to kg m2
     body = Body(table.mass, _MM * np.array(table.cg), tensor)
     down = np.array(table.gravity)
-    static = Mounts(
-        _MM * np.array([mount.at for mount in mounts]),
-        np.array([_find_axes(mount) for mount in mounts]),
-        1e3 * np.array([mount.stiffness for mount in mounts]),  # N/mm to N/m
-        np.array([[mount.loss] * 3 for mount in mounts]),
-        1e3 * np.array([mount.damping for mount in mounts]),
-    )
+    static = _read_mounts(mounts)
     free = find_free_motions(body, static)
     if len(free):
         message = (
@@ -109,6 +103,7 @@ def build_mounted_body(model: EngineFile, name: str = "") -> MountedBody:
         )
         raise InputError([Problem("mount", message)], name)
     factors = np.array([[mount.dynamic_factor] for mount in mounts])
+    places = np.array([point.at for point in model.point])
     return MountedBody(
         body,
         static,
@@ -116,9 +111,19 @@ def build_mounted_body(model: EngineFile, name: str = "") -> MountedBody:
         tuple(mount.name for mount in mounts),
         table.mass * STANDARD_GRAVITY * down / np.linalg.norm(down),
         tuple(point.name for point in model.point),
-        _MM * np.array([point.at for point in model.point]).reshape(-1, 3),
+        _MM * places.reshape(-1, 3),
         table.carries_load,
     )
+
+
+def _read_mounts(mounts: Sequence[Mount]) -> Mounts:
+    """Return the arrays of mounts at rest, SI."""
+    places = np.array([mount.at for mount in mounts])
+    axes = np.array([_find_axes(mount) for mount in mounts])
+    stiffness = np.array([mount.stiffness for mount in mounts])
+    loss = np.array([[mount.loss] * 3 for mount in mounts])
+    damping = np.array([mount.damping for mount in mounts])
+    return Mounts(_MM * places, axes, 1e3 * stiffness, loss, 1e3 * damping)  # N/mm to N/m
 
 
 def _find_axes(mount: Mount) -> Real:

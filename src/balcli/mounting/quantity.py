@@ -62,7 +62,8 @@ class Variants:
     """
 
     def __init__(self, model: EngineFile, quantities: Sequence[TargetQuantity]) -> None:
-        self._model, self._quantities = model, quantities
+        self._model = model
+        self._quantities = quantities
         targets = _name_targets(model)
         places = [(kind, name) for kind in ("mount", "point") for name in targets[kind]]
         self._place = {q: places.index((q.kind, q.target)) for q in quantities if q.kind != "mode"}
@@ -79,7 +80,8 @@ class Variants:
             InputError, BalcliError: No engine can have these figures.
         """
         mounted = build_mounted_body(change_figures(self._model, values, _TABLES))
-        modes, mean = find_mounted_modes(mounted), 0.0
+        modes = find_mounted_modes(mounted)
+        mean = 0.0
         largest = np.zeros(len(mounted.names) + len(mounted.points))  # N, mm
         if self._curves or self._leans:
             own = {k: v for k, v in values.items() if k.partition(".")[0] not in _TABLES}
@@ -95,12 +97,15 @@ class Variants:
         elif self._leans:
             mean = find_loads(engine, mounted.body.centre).mean
         rest = np.linalg.norm(settle(mounted, mean)[0], axis=-1)
-        return [
-            _read_mode(modes.each, q)
-            if q.kind == "mode"
-            else float((rest if q.part == "static" else largest)[self._place[q]])
-            for q in self._quantities
-        ]
+        values_found = []
+        for quantity in self._quantities:
+            if quantity.kind == "mode":
+                values_found.append(_read_mode(modes.each, quantity))
+            elif quantity.part == "static":
+                values_found.append(float(rest[self._place[quantity]]))
+            else:
+                values_found.append(float(largest[self._place[quantity]]))
+        return values_found
 
 
 def _read_mode(modes: Sequence[BodyMode], q: TargetQuantity) -> float:

@@ -138,7 +138,8 @@ class RunningBody(NamedTuple):
 
     def follow(self, orders: Real, omega: Real, load: Complex) -> Complex:
         """Return the motion of the body and its velocity under a load (orders, *speeds, 6)."""
-        w, own = np.multiply.outer(orders, omega), self.modes
+        w = np.multiply.outer(orders, omega)
+        own = self.modes
         try:
             motion = solve_response(own.stiffness, own.damping, own.mass, w, load)
         except UndampedResonanceError as error:  # true resonances were rejected before
@@ -163,7 +164,8 @@ class RunningBody(NamedTuple):
         one of the rising speeds (rad/s), or between two of them if they are a range. Return whether
         the motion is bounded at all speeds between the first and the last.
         """
-        modes, loads = self.modes, self.loads
+        modes = self.modes
+        loads = self.loads
         driven = find_resonances(modes.modes, modes.loss, loads.orders, omega, loads.at(omega))
         met = [one for one in driven if ranged or np.abs(omega / one.speed - 1).min() < _AT]
         if met:
@@ -206,7 +208,8 @@ def find_worst(
     """
     if not between:
         return omega[peaks.argmax(axis=0)], peaks.max(axis=0)
-    loss, met = running.modes.loss, list_meetings(running.modes, running.loads, omega / RPM)
+    loss = running.modes.loss
+    met = list_meetings(running.modes, running.loads, omega / RPM)
     about = [rpm * RPM * (1 + loss[k] * _BESIDE) for k, _, rpm in met if loss[k] > UNDAMPED]
     near = np.array(about).ravel()
     near = np.setdiff1d(near[(near > omega[0]) & (near < omega[-1])], omega)
@@ -228,8 +231,11 @@ def _find_causes(
     its value (N or m), the number (from 0) of the mode that contributes most to it, and the
     resonance: the largest of the orders that meet a mode at this speed, or None.
     """
-    own, orders, motion = running.modes, running.loads.orders, running.move(omega)
-    alone, w = largest_of_ellipse(running.read(motion)), np.multiply.outer(orders, omega)
+    own = running.modes
+    orders = running.loads.orders
+    motion = running.move(omega)
+    alone = largest_of_ellipse(running.read(motion))
+    w = np.multiply.outer(orders, omega)
     shapes = own.modes.shapes
     amplitudes = motion[..., :6] @ (shapes @ own.mass).T  # (orders, curves, modes)
     shares = np.moveaxis(amplitudes[..., None] * shapes, 2, 0)
@@ -266,7 +272,9 @@ def respond(
         BalcliError: There are too many results, or an order drives an undamped mode at the mode's
             natural frequency at one of the speeds or within their range.
     """
-    loads, mounts, points = running.loads, mounted.names, mounted.point_names
+    loads = running.loads
+    mounts = mounted.names
+    points = mounted.point_names
     omega = rpm * RPM
     count = len(loads.orders) * len(rpm) * (len(mounts) + len(points))
     if count > MOST_MOUNT_RESULTS:
@@ -287,7 +295,9 @@ def respond(
     at, highest = find_worst(running, omega, peak, between=bounded)
     numbers = [order_number(order) for order in loads.orders]
     scale = np.repeat([1.0, 1e3], [len(mounts), len(points)])  # N, and m to mm
-    by_order, peak, highest = scale * largest_of_ellipse(curves), scale * peak, scale * highest
+    by_order = scale * largest_of_ellipse(curves)
+    peak = scale * peak
+    highest = scale * highest
     places = []
     causes = zip((*mounts, *points), _find_causes(running, at), strict=True)
     for k, (name, (order, alone, *others)) in enumerate(causes):
@@ -298,7 +308,8 @@ def respond(
         places.append(place(name, each, peak[:, k], worst))
     arms = carry_points(mounted.dynamic.at, mounted.body.centre)
     on_mounts = np.abs(np.einsum("pij,nspi->nsj", arms, curves[:, :, : len(mounts)]))
-    rigid, arm = np.abs(loads.at(omega)), float(np.abs(arms).max(initial=1.0))
+    rigid = np.abs(loads.at(omega))
+    arm = float(np.abs(arms).max(initial=1.0))
     return BodyResponse(
         **silent_entries(loads.silent),
         orders=numbers,

@@ -86,7 +86,8 @@ def report(
     asked = parse_orders(orders)
     text, model, engine = read_engine(path, parse_speed(speed))
     found = pages.find_answers(model, engine, asked, scheme, options, name_file(path))
-    system, share = SYSTEMS[units], options.read_small()
+    system = SYSTEMS[units]
+    share = options.read_small()
     book = live.describe_one(model, engine, system, text.decode(), name_file(path), share)
     with reporting("pictures") as tell:
         page = pages.page(found._replace(cylinder=cylinder), system, book, tell)
@@ -132,7 +133,8 @@ def plot(
     """
     refuse_overwriting(reads=[path], writes={"OUT": target, "--output": output})
     output = choose_target(target, output, "X.svg")
-    form, pages = picture_form(output), parse_pages(what)
+    form = picture_form(output)
+    pages = parse_pages(what)
     files = [output]  # one page, or a PDF
     if len(pages) > 1 and form != "pdf":
         files = [output.with_stem(f"{output.stem}-{page}") for page in pages]

@@ -402,16 +402,24 @@ def _lay_out_inner(fig: Figure, subject: PageSubject) -> str:
     system = subject.system
     gas = [inner.with_gas for inner in bent if inner.with_gas is not None]
     # Title, curves, and how their points are joined.
-    pictures: list[tuple[str, Sequence[AlongCrank], str]] = [
-        ("Shear force along the crankshaft", [b.shear for b in bent], "steps-post"),
-        ("Bending moment", [b.bending for b in bent], "default"),
-        ("Inertia load of each main bearing", [b.bearings for b in bent if b.bearings], ""),
-    ]
+    pictures: list[tuple[str, Sequence[AlongCrank], str]]
     if gas:
+        bending = [inner.bending for inner in gas]
+        of_block = [inner.block_bending for inner in gas]
+        bearings = [inner.bearings for inner in gas]
         pictures = [
-            ("Bending moment in the crankshaft, with gas", [b.bending for b in gas], "default"),
-            ("Bending moment in the block, with gas", [b.block_bending for b in gas], "default"),
-            ("Load of each main bearing, with gas", [b.bearings for b in gas], ""),
+            ("Bending moment in the crankshaft, with gas", bending, "default"),
+            ("Bending moment in the block, with gas", of_block, "default"),
+            ("Load of each main bearing, with gas", bearings, ""),
+        ]
+    else:
+        shear = [inner.shear for inner in bent]
+        bending = [inner.bending for inner in bent]
+        bearings = [inner.bearings for inner in bent if inner.bearings]
+        pictures = [
+            ("Shear force along the crankshaft", shear, "steps-post"),
+            ("Bending moment", bending, "default"),
+            ("Inertia load of each main bearing", bearings, ""),
         ]
     shown = [picture for picture in pictures if picture[1]]
     fig.set_figheight(0.4 + 2.4 * len(shown))

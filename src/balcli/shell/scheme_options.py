@@ -83,16 +83,21 @@ def parse_scheme_options(
     pair = "x,y of a shaft in mm, such as -40,60"
     along = () if position is None else read_lengths("position", position, one, units=units)
     weighed = None if measured is None else read_figure("measured", measured, SCALES, units)
-    return SchemeOptions(
-        order=order,
-        at=tuple(complex(*read_lengths("at", text, pair, 2, units)) for text in at or ()) or None,
-        position=along[0] if len(along) == 1 else along or None,
-        planes=None if planes is None else _parse_planes(planes, units),
-        factor=None if factor is None else parse_factors(factor),
-        measured=None if weighed is None else weighed / 1e3,
-        roll=roll,
-        small=None if small is None else parse_small(small),
-    )
+    options = SchemeOptions(order=order, roll=roll)
+    if at:
+        places = tuple(complex(*read_lengths("at", text, pair, 2, units)) for text in at)
+        options = options._replace(at=places)
+    if along:
+        options = options._replace(position=along[0] if len(along) == 1 else along)
+    if planes is not None:
+        options = options._replace(planes=_parse_planes(planes, units))
+    if factor is not None:
+        options = options._replace(factor=parse_factors(factor))
+    if weighed is not None:
+        options = options._replace(measured=weighed / 1e3)
+    if small is not None:
+        options = options._replace(small=parse_small(small))
+    return options
 
 
 def choose_scheme(asked: str | None, options: SchemeOptions, usual: str = "auto") -> str:

@@ -9,6 +9,7 @@ from typing import Annotated, NamedTuple
 
 import numpy as np
 
+from ..core.phasors import Figure
 from ..core.records import HIDDEN, INLINE, Node, Polar
 from ..engine.engine import CylinderNumber, Engine
 from ..engine.rods import CylinderMasses
@@ -117,26 +118,28 @@ def _weigh(engine: Engine, rows: list[int], factor: float) -> Bobweight:
 
 def _list_lines(masses: list[CylinderMasses]) -> tuple[CardLine, ...]:
     """Return the parts of the rods on one pin; parts that no rod has are omitted."""
-    rods = [
-        {
-            "big end": one.big_end,
-            "rod bearing": one.rod_bearing,
-            "oil": one.oil,
-            **{WHOLE_PISTON if key == "mass" else key: mass for key, mass in one.piston_parts},
-            **({"crosshead": one.crosshead} if np.any(one.crosshead) else {}),
-            "small end": one.small_end,
-        }
-        for one in masses
-    ]
-    return tuple(
-        CardLine(
-            part=part,
-            rotates=part in ROTATING,
-            each_g=tuple(1e3 * float(rod.get(part, 0.0)) for rod in rods),
-        )
-        for part in (*ROTATING, *_RECIPROCATING)
-        if any(part in rod for rod in rods)
-    )
+    rods = [_list_parts(cylinder) for cylinder in masses]
+    lines = []
+    for part in (*ROTATING, *_RECIPROCATING):
+        if any(part in rod for rod in rods):
+            each_g = tuple(1e3 * float(rod.get(part, 0.0)) for rod in rods)
+            lines.append(CardLine(part=part, rotates=part in ROTATING, each_g=each_g))
+    return tuple(lines)
+
+
+def _list_parts(cylinder: CylinderMasses) -> dict[str, Figure]:
+    """Return the masses that move with one rod, kg, by the names of the card."""
+    parts = {
+        "big end": cylinder.big_end,
+        "rod bearing": cylinder.rod_bearing,
+        "oil": cylinder.oil,
+        "small end": cylinder.small_end,
+    }
+    for key, mass in cylinder.piston_parts:
+        parts[WHOLE_PISTON if key == "mass" else key] = mass
+    if np.any(cylinder.crosshead):
+        parts["crosshead"] = cylinder.crosshead
+    return parts
 
 
 class _FromPin(Polar):

@@ -80,7 +80,8 @@ def size_fit(engine: Engine, model: EngineFile, targets: Sequence[str] | None = 
         BalcliError: A target does not exist, or the file lacks data for it.
     """
     refuse_geared(engine)
-    chosen, named = _check_targets(engine, targets), list_to_fit(model)
+    chosen = _check_targets(engine, targets)
+    named = list_to_fit(model)
     found: dict[str, DeviceTable] = {}
     notes: list[str] = []
     unknowns = rank = 0
@@ -88,7 +89,8 @@ def size_fit(engine: Engine, model: EngineFile, targets: Sequence[str] | None = 
         tables = {name: table for name, table in named if find_order(table) == order}
         effects, target = _set_up(engine, order, tables.values(), chosen)
         solution = least_squares.solve(np.concatenate(effects, axis=1), target, lost=_LOST)
-        unknowns, rank = unknowns + len(solution.x), rank + solution.rank
+        unknowns = unknowns + len(solution.x)
+        rank = rank + solution.rank
         x = np.where(np.abs(solution.x) < _ROUNDING * np.abs(solution.x).max(), 0, solution.x)
         largest = max(np.abs(each).max() for each in effects)
         for (name, table), each in zip(tables.items(), effects, strict=True):
@@ -130,10 +132,13 @@ def _set_up(
     cylinder's first order. A device has one unknown (its unbalance) if its angle is given, else
     two (real and imaginary part of the unbalance).
     """
-    residual, scales = find_residual(engine, order), find_scales(engine)
+    residual = find_residual(engine, order)
+    scales = find_scales(engine)
     if not scales.force:
         raise BalcliError('"fit" needs reciprocating masses, because forces are compared with them')
-    parts, there, weights = [], [], []
+    parts = []
+    there = []
+    weights = []
     for target in targets:
         scale = scales.roll if ROLL in TARGETS[target] else getattr(scales, target)
         for part in TARGETS[target]:

@@ -169,13 +169,15 @@ def size_minimax(engine: Engine, options: SchemeOptions) -> Remedy:
     fitting = fitting.add(slots, unbalances, reason)
     reached = np.sort(np.round(np.degrees(circle.theta), 9) % 360)
     left = force.values(np.radians(reached)) - circle.centre * unit(reached)
+    error = circle.excess / circle.radius if circle.radius else 0.0
     remedy = fitting.remedy.add_details(
         peak_force_N=circle.radius,
         reached_deg=reached.tolist(),
-        direction_deg=[measure_direction(complex(each)) for each in left],
-        relative_error_bound=circle.excess / circle.radius if circle.radius else 0.0,
-        **({} if options.orders is not None else _compare_with_half(fitting.engine, circle)),
+        direction_deg=[measure_direction(complex(vector)) for vector in left],
+        relative_error_bound=error,
     )
+    if options.orders is None:
+        remedy = remedy.add_details(**_compare_with_half(fitting.engine, circle))
     return remedy if remedy.devices else remedy._replace(note=nothing_gained)
 
 

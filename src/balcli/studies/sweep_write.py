@@ -49,7 +49,8 @@ from .sweep_show import make_sheet, sweep_csv, sweep_json
 
 # Largest number of rows in a block, and of boxes. A box is a set of variants that is evaluated as
 # arrays, in about a tenth of a second.
-ROWS_A_BLOCK, BOXES_A_BLOCK = 1 << 20, 8
+ROWS_A_BLOCK = 1 << 20
+BOXES_A_BLOCK = 8
 MANIFEST = "_balcli_sweep.json"  # Parquet readers skip names that begin with _
 _BLOCK = re.compile(r"part-\d{6,}\.parquet")
 # Names of blocks, of unfinished blocks (hidden, from `files.name_hidden`) and of the manifest.

@@ -165,8 +165,10 @@ def size_damper(
     own = own if own is not None and own.kind == asked.kind else None
     radius = None if source.engine is None else float(source.engine.throw_radii_m[0])
     first = _propose(asked, own, bare, place, mode, order, radius)
-    figure, width = FIGURES[first.kind], math.log(_WIDTH[first.kind])
-    start, tried = float(getattr(first, figure)), count(1)
+    figure = FIGURES[first.kind]
+    width = math.log(_WIDTH[first.kind])
+    start = float(getattr(first, figure))
+    tried = count(1)
     free = first.kind == "pendulum" and asked.inertia is None
     if free:
         first = _limit_swing(source, speeds, node, first, float(bare.chain.inertia[place]))
@@ -189,7 +191,8 @@ def size_damper(
     damper = first.model_copy(update={figure: float(f"{start * math.exp(farther):.6g}")})
     damper = min(damper, first, key=judge) if free else damper
     measure, unit = ("stress", "Pa") if any(bare.stress_by_torque) else ("torque", "Nm")
-    before, after = judge(None), judge(damper)
+    before = judge(None)
+    after = judge(damper)
     figures: dict[str, Any] = {f"before_{unit}": before, f"after_{unit}": after}
     for key, value in damper.model_dump(exclude={"kind"}, exclude_none=True).items():
         name, size, _ = DAMPER_KEYS[key]
@@ -248,7 +251,8 @@ def _limit_swing(
         ArgumentError: The pendulums would need more than half of the inertia of their node, and
             more mass than the proposed pendulums have.
     """
-    start, width = proposed.swinging_length, _WIDTH["pendulum"]
+    start = proposed.swinging_length
+    width = _WIDTH["pendulum"]
     mass = given = proposed.mass or 0.0
     lengths = [start, *np.geomspace(start / width, start * width, _PLACES).tolist()]
     reach = ((proposed.radius or 0.0) + start) / 1e3
@@ -294,7 +298,8 @@ def _find_hardest(system: TorsionalSystem, speeds: Real) -> tuple[int, float, fl
         system: System with an excitation.
         speeds: Rising speeds, rpm, shape (speeds,).
     """
-    rings, stress = len(system.nodes) - 1 - system.last, system.stress_by_torque
+    rings = len(system.nodes) - 1 - system.last
+    stress = system.stress_by_torque
     weights = (stress if any(stress) else np.ones(len(stress)))[: len(stress) - rings]
     rpm, value = find_largest(system, speeds, weights, together=True)
     worst = int(value.argmax())
@@ -373,7 +378,8 @@ def _propose(
             node=system.nodes[node],
             mode=mode.number,
         )
-    kind, there = str(asked.kind), _find_inertia_in(mode, system, node)
+    kind = str(asked.kind)
+    there = _find_inertia_in(mode, system, node)
     given = {} if own is None else own.model_dump(exclude_none=True)
     usual = given["inertia"] / 1e6 if "inertia" in given else None
     inertia = asked.inertia or usual or float(f"{_SHARE[kind] * there:.4g}")
@@ -411,11 +417,13 @@ def _doubt(found: SizedDamper, bare: TorsionalSystem, *, given: bool) -> Iterato
     """Yield warnings of unlikely figures of a damper; `given`: whether its inertia was requested or
     is that of a damper in the file.
     """
-    node, inertia = printable(found.node), found.inertia_kg_m2
+    node = printable(found.node)
+    inertia = found.inertia_kg_m2
     if inertia is None:  # pendulums, about the axis
         inertia = (found.mass_kg or 0.0) * ((found.radius_m or 0.0) + (found.length_m or 0.0)) ** 2
     carrier = float(bare.chain.inertia[bare.nodes.index(found.node)])
-    whole, width = float(np.sum(bare.chain.inertia)), _WIDTH[found.kind]
+    whole = float(np.sum(bare.chain.inertia))
+    width = _WIDTH[found.kind]
     sized = float(getattr(found.damper, FIGURES[found.kind]))
     if found.after > _HARDLY * found.before:
         does = "raises" if found.after > found.before else "hardly lowers"
@@ -456,7 +464,8 @@ def insert_damper(text: bytes, name: str, damper: Damper) -> str:
     """
     old = text.decode("utf-8-sig")
     data = tomllib.loads(old)
-    torsion, keys = data.get("torsion", {}), damper.model_dump(exclude_none=True)
+    torsion = data.get("torsion", {})
+    keys = damper.model_dump(exclude_none=True)
     lists = {f"torsion.{key}": torsion.get(key, ()) for key in ("front", "rear", "throw")}
     for key, tables in (lists | {"node": data.get("node", ())}).items():
         for number, table in enumerate(tables, 1):

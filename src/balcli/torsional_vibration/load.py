@@ -89,7 +89,8 @@ def load_source(path: str, orders: Real | None = None, misfires: Sequence[str] =
         BalcliError: The file cannot be read or has mistakes, a misfire is given for an engine
             without gas, or the engine has no such cylinder.
     """
-    name, text = name_file(path), read_bytes(path)
+    name = name_file(path)
+    text = read_bytes(path)
     data: Mapping[str, object] = parse_toml(text, name)
     if describes_chain(data):
         if misfires:

@@ -74,7 +74,8 @@ def respond_chain(
         ValueError: A shaft is a dashpot without a spring, and a frequency is 0.
     """
     frequency = np.asarray(frequency, float)
-    shape, w = (*frequency.shape, len(chain.inertia)), frequency.ravel()
+    shape = (*frequency.shape, len(chain.inertia))
+    w = frequency.ravel()
     load, attached = (
         np.broadcast_to(np.asarray(each, complex), shape).reshape(-1, shape[-1]).T
         for each in (load, attached)
@@ -97,7 +98,8 @@ def _find_flexibilities(
     chain: Chain, damping: Damping, w: Real, carrying: NDArray[np.bool_]
 ) -> Complex:
     """Return 1/stiffness (shafts, points) of every shaft that carries torque; 0 for others."""
-    k, c = np.where(np.isinf(chain.stiffness), 0, chain.stiffness), damping.dashpots
+    k = np.where(np.isinf(chain.stiffness), 0, chain.stiffness)
+    c = damping.dashpots
     stiffness = (k * (1 + 1j * damping.loss))[:, None] + 1j * np.outer(c, w)
     bends = carrying & np.isfinite(chain.stiffness)
     if np.any(stiffness[bends] == 0):
@@ -144,7 +146,9 @@ def _solve_tree(
     """
     roots = _find_roots(chain, carrying)
     branches = grow_branches(chain, roots, carrying)
-    stiff, load, size = own.copy(), load.copy(), np.abs(own)
+    stiff = own.copy()
+    load = load.copy()
+    size = np.abs(own)
     pivots, felt, pushed, angle = np.zeros((4, *own.shape), complex)
     torque = np.zeros(flexible.shape, complex)
     weak = np.full(own.shape[1], len(branches) < np.count_nonzero(carrying))
@@ -193,8 +197,10 @@ def _solve_dense(
     """
     elastic = np.isfinite(chain.stiffness) & (chain.stiffness > 0)
     scale = float(np.median(chain.stiffness[elastic])) if np.any(elastic) else 1.0
-    free, twist = ~chain.clamped[:, None], incidence(chain)[carrying] * ~chain.clamped
-    nodes, diagonal = len(own), np.arange(len(own) + len(twist))
+    free = ~chain.clamped[:, None]
+    twist = incidence(chain)[carrying] * ~chain.clamped
+    nodes = len(own)
+    diagonal = np.arange(len(own) + len(twist))
     matrix = np.zeros((len(w), len(diagonal), len(diagonal)), complex)
     matrix[:, :nodes, nodes:] = twist.T
     matrix[:, nodes:, :nodes] = twist
@@ -214,7 +220,8 @@ _AT_A_TIME = 1 << 18  # number of angles and torques computed at once, which bou
 
 def _move(system: TorsionalSystem, rpm: Real) -> tuple[Complex, Real]:
     """Return the curves and heat that `compute_curves` describes."""
-    excitation, speeds = system.require_excitation(), rpm * RPM
+    excitation = system.require_excitation()
+    speeds = rpm * RPM
     w = np.multiply.outer(excitation.orders, speeds)
     load = excitation.at(speeds) @ np.equal.outer(excitation.nodes, np.arange(len(system.nodes)))
     attached = system.attached_rings(w) + system.attached_pendulums(excitation.orders[:, None])
@@ -222,7 +229,8 @@ def _move(system: TorsionalSystem, rpm: Real) -> tuple[Complex, Real]:
         twist = respond_chain(system.chain, system.damping, w, load, attached)
     except UndampedResonanceError as error:
         row, _ = np.unravel_index(np.abs(w - error.frequency).argmin(), w.shape)
-        order, omega = excitation.orders[row], error.frequency
+        order = excitation.orders[row]
+        omega = error.frequency
         raise BalcliError(
             f"the natural frequency of {omega / (2 * np.pi):.6g} Hz is excited by order {order:g} "
             f"at {omega / (RPM * order):.6g} rpm and nothing damps it: its vibration has no bound; "
@@ -242,7 +250,8 @@ def _find_heat(system: TorsionalSystem, w: Real, angle: Complex, torque: Complex
     ring = viscous_inertia(inertia, damping, w[..., None])
     oil = -(w[..., None] ** 3) * ring.imag * np.abs(angle[..., nodes.astype(int)]) ** 2
     first = len(system.shafts) - (len(system.nodes) - 1 - system.last)
-    loss, stiffness = system.damping.loss[first:], system.chain.stiffness[first:]
+    loss = system.damping.loss[first:]
+    stiffness = system.chain.stiffness[first:]
     softness = loss / (stiffness * (1 + loss**2))
     rubber = w[..., None] * softness * np.abs(torque[..., first:]) ** 2
     return np.concatenate([oil, rubber], axis=-1) / 2

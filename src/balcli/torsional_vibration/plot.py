@@ -69,7 +69,8 @@ class _Curves(NamedTuple):
 def _compute_curves(result: TorsionAnalysis, response: TorsionResponse) -> _Curves:
     peaks = [shaft.worst.speed_rpm for shaft in response.shafts]
     peaks += [response.free_end_worst.speed_rpm]
-    rpm, orders = np.union1d(response.speeds_rpm, peaks), result.system.require_excitation().orders
+    rpm = np.union1d(response.speeds_rpm, peaks)
+    orders = result.system.require_excitation().orders
     phasors, _ = compute_curves(result.system, rpm)
     return _Curves(rpm, orders, phasors, find_swing(orders, phasors).half)
 
@@ -141,7 +142,8 @@ def _choose_parts(
 
 def _draw_modes(ax: Axes, result: TorsionAnalysis) -> None:
     """Draw the angle of each node, joined along the shafts; a mesh of gears is dotted."""
-    chain, names = result.system.chain, result.system.nodes
+    chain = result.system.chain
+    names = result.system.nodes
     for mode, (line, colour) in zip(result.modes[:_MOST_MODES], MANY_LOOKS, strict=False):
         for start, end, stiffness in zip(chain.start, chain.end, chain.stiffness, strict=True):
             style = (0, (1, 2)) if np.isinf(stiffness) else line
@@ -180,7 +182,8 @@ def _draw_campbell(ax: Axes, result: TorsionAnalysis) -> None:
     for mode in result.modes:
         if mode.frequency_Hz < ceiling:
             ax.axhline(mode.frequency_Hz, color=INK, linewidth=1)
-            height, label = mode.frequency_Hz, f"{number(mode.frequency_Hz)} Hz"
+            height = mode.frequency_Hz
+            label = f"{number(mode.frequency_Hz)} Hz"
             ax.text(0.01 * top, height, label, va="bottom", fontsize=7)
     for order in orders:
         end = min(top, 60 * ceiling / order)
@@ -261,16 +264,19 @@ def _draw_waterfall(ax: Axes, result: TorsionAnalysis, curves: _Curves, system: 
     shaft = int(curves.swings[:, : len(result.shafts)].max(axis=0).argmax())
     every = np.abs(curves.phasors[:, :, shaft])
     shown = _find_largest(every.max(axis=1))
-    amplitudes, orders = every[shown], curves.orders[shown]
+    amplitudes = every[shown]
+    orders = curves.orders[shown]
     most = float(amplitudes.max())
     gap = float(np.diff(orders).min()) if len(orders) > 1 else 1.0
     half = _WIDEST * gap / 2 / (most or 1.0)
     for order, sizes in zip(orders, amplitudes, strict=True):
-        left, right = order - half * sizes, order + half * sizes
+        left = order - half * sizes
+        right = order + half * sizes
         ax.axvline(order, color=FAINT, linewidth=0.5, zorder=0)
         ax.fill_betweenx(curves.rpm, left, right, color=BLUE, linewidth=0.4)
     ax.set(xlim=(0, float(orders[-1]) + gap), xlabel="order", ylabel="rpm")
     ax.grid(visible=False, axis="x")
-    unit, name = system.moment.fit(most), fit_name(result.shafts[shaft].name, 22)
+    unit = system.moment.fit(most)
+    name = fit_name(result.shafts[shaft].name, 22)
     title = f"Torque of {name} by order: widest {number(unit.of(most), 3)} {unit.name}"
     ax.set_title(title + _count_left_out(len(every) - len(orders)))

@@ -268,22 +268,23 @@ def find_response(
     there, _ = compute_curves(system, at[: len(curves)])
     by_order = np.abs(there[:, curves, curves])  # of each curve at its worst speed
     named_orders = list(map(order_number, orders.tolist()))
-    stress = system.stress_by_torque
-    shafts = tuple(
-        ShaftResponse(
+    shafts = []
+    for k, name in enumerate(system.shafts):
+        by_torque = system.stress_by_torque[k]  # 0 without a diameter
+        worst = WorstTorque(
+            speed_rpm=float(at[k]),
+            half_peak_to_peak_Nm=float(value[k]),
+            stress_Pa=float(value[k] * by_torque) if by_torque else None,
+            orders=tuple(map(OrderTorque, named_orders, by_order[:, k].tolist())),
+        )
+        shaft = ShaftResponse(
             name=name,
             half_peak_to_peak_Nm=swings[:, k],
             sum_of_amplitudes_Nm=sums[:, k],
-            stress_Pa=swings[:, k] * stress[k] if stress[k] else None,
-            worst=WorstTorque(
-                speed_rpm=float(at[k]),
-                half_peak_to_peak_Nm=float(value[k]),
-                stress_Pa=float(value[k] * stress[k]) if stress[k] else None,
-                orders=tuple(map(OrderTorque, named_orders, by_order[:, k].tolist())),
-            ),
+            stress_Pa=swings[:, k] * by_torque if by_torque else None,
+            worst=worst,
         )
-        for k, name in enumerate(system.shafts)
-    )
+        shafts.append(shaft)
     degrees = np.degrees(swings)
     worst_deg = np.degrees(value).tolist()
     pendulums = []
@@ -298,7 +299,7 @@ def find_response(
     return TorsionResponse(
         speeds_rpm=speeds_rpm,
         imep_Pa=None if excitation.gas is None else excitation.gas.imep(speeds_rpm),
-        shafts=shafts,
+        shafts=tuple(shafts),
         free_end_deg=degrees[:, end],
         free_end_worst=WorstSwing(float(at[end]), worst_deg[end]),
         dampers=dampers or None,

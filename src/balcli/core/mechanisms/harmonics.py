@@ -10,7 +10,7 @@ order.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Collection, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -143,17 +143,42 @@ MOST_SAMPLES = 1 << 18
 _AT_ONCE = 1 << 16  # number of samples computed together, which fit into the processor's cache
 _LIMIT = SAMPLING / 16  # limit of the aliases of a wanted order
 
-_SAMPLED: dict[str, Callable[[Motion], Array]] = {
-    "piston": lambda m: -m.acceleration,
-    "rod": lambda m: m.spin_rate,
-    "kinetic": lambda m: m.velocity**2,
-    "rod_kinetic": lambda m: m.spin**2,
-    "along": lambda m: -m.acceleration_of_mass.real,
-    "across": lambda m: -m.acceleration_of_mass.imag,
-    "couple": lambda m: -m.swirl_rate,
-    "energy": lambda m: m.energy,
-    "swirl": lambda m: m.swirl,
-}
+_SAMPLED = (
+    "piston",
+    "rod",
+    "kinetic",
+    "rod_kinetic",
+    "along",
+    "across",
+    "couple",
+    "energy",
+    "swirl",
+)
+
+
+def _sample(name: str, m: Motion) -> Array:
+    """Return the values of one of the functions `_SAMPLED` of a motion."""
+    match name:
+        case "piston":
+            return -m.acceleration
+        case "rod":
+            return m.spin_rate
+        case "kinetic":
+            return m.velocity**2
+        case "rod_kinetic":
+            return m.spin**2
+        case "along":
+            return -m.acceleration_of_mass.real
+        case "across":
+            return -m.acceleration_of_mass.imag
+        case "couple":
+            return -m.swirl_rate
+        case "energy":
+            return m.energy
+        case _:
+            return m.swirl
+
+
 _OF_ROD = frozenset({"piston", "rod", "kinetic", "rod_kinetic"})
 
 
@@ -196,7 +221,7 @@ def sample_mechanisms(
         scale = (np.where(numbers == 0, 1, 2) * inside)[:, None]
         enough = np.ones(len(rows), bool)
         for name in _OF_ROD.union(_SAMPLED if motion.points else ()).intersection(wanted):
-            samples = _SAMPLED[name](motion)
+            samples = _sample(name, motion)
             rounding = _amplify_rounding(samples, motion.condition if name in _OF_ROD else 1.0)
             spectrum = np.fft.rfft(samples, axis=0, norm="forward")
             if name not in series:

@@ -83,7 +83,8 @@ def drop_mirror_images(found: Iterable[Found], model: EngineFile) -> Iterator[Fo
     numbers = {(cell.bank, cell.throw): cell.number for cell in cells}
     last = max(cell.throw for cell in cells)
     other_end = {c.number: numbers.get((c.bank, last - c.throw), c.number) for c in cells}
-    strokes, masses = Parts(model).strokes, model.crank.throw_masses
+    strokes = Parts(model).strokes
+    masses = model.crank.throw_masses
     alike = all(strokes[number] == strokes[other] for number, other in other_end.items())
     alike = alike and masses == masses[::-1]
     seen: dict[tuple[float, ...], float] = {}
@@ -135,7 +136,8 @@ def write_design(text: bytes, design: Design, name: str = "") -> str:
             "{write} takes throws, firing orders and angles; edit the file: {settings}",
             settings=settings,
         )
-    new, changes = text.decode("utf-8-sig"), list_changes(design)
+    new = text.decode("utf-8-sig")
+    changes = list_changes(design)
     try:
         engine = vary_engine(build(parse(new, name)), changes)
     except InputError:

@@ -177,7 +177,8 @@ def tabulate_contributions(
     parts = [with_only(engine, own_throw == throw) for throw in range(count)]
     parts.append(replace(with_only(engine, own_throw < 0), devices=engine.devices))
     keys = list(dict.fromkeys((q.kind, q.order) for q in quantities))
-    orders, kinds = sorted({order for _, order in keys}), {kind for kind, _ in keys}
+    orders = sorted({order for _, order in keys})
+    kinds = {kind for kind, _ in keys}
     table = np.empty((len(keys), 2, len(parts), len(angles)), complex)
     for part, each in enumerate(parts):
         spectra = compute_spectra(each, orders, kinds)
@@ -274,8 +275,10 @@ def find_best_throws(
     Raises:
         BalcliError: There are more than MOST_ARRANGEMENTS.
     """
-    sets, search = _find_sets(model), _BranchAndBound(model, objective, count, allowed)
-    total, done = sum(_count_sequences(each.left) for each in sets), 0
+    sets = _find_sets(model)
+    search = _BranchAndBound(model, objective, count, allowed)
+    total = sum(_count_sequences(each.left) for each in sets)
+    done = 0
     for each in sets:
         for decided in search.grow(each):
             done += decided
@@ -295,12 +298,17 @@ class _BranchAndBound:
     def __init__(
         self, model: EngineFile, objective: Objective, count: int, allowed: Allowed | None
     ) -> None:
-        self._model, self._objective, self._count, self._allowed = model, objective, count, allowed
+        self._model = model
+        self._objective = objective
+        self._count = count
+        self._allowed = allowed
         self._quantities = choose_of_engine(objective.quantities)
         throws = len(model.crank.throws or ())
         self._fixed = _find_first_throw(model)
         self._free = [throw for throw in range(throws) if throw != self._fixed]
-        self.best, self._costs, self._worst = np.empty((0, throws)), np.empty(0), BROKEN
+        self.best = np.empty((0, throws))
+        self._costs = np.empty(0)
+        self._worst = BROKEN
 
     def grow(self, angles: AngleSet) -> Iterator[int]:
         """Try all arrangements of an angle set, and yield after each step how many more were
@@ -333,8 +341,10 @@ class _BranchAndBound:
         """
         reach = self._table.reach[:, to_come].sum(axis=1)[:, None]
         sizes = np.abs(sums)
-        least, most = np.maximum(sizes - reach, 0.0), sizes + reach
-        objective, at_least = self._objective, partial(self._read_bound, least, False)
+        least = np.maximum(sizes - reach, 0.0)
+        most = sizes + reach
+        objective = self._objective
+        at_least = partial(self._read_bound, least, False)
         if any(at_least(q) >= limit for q, limit in objective.limits.items()):
             return math.inf
         if objective.maximise:
@@ -362,12 +372,15 @@ class _BranchAndBound:
         costs = ranked(self._objective.judge(figures))
         good = np.flatnonzero(costs < self._worst)
         rows = np.concatenate([np.tile(prefix, (len(good), 1)), ends[good]], axis=1).astype(int)
-        angles, costs = np.insert(self._levels[rows], self._fixed, 0.0, axis=1), costs[good]
+        angles = np.insert(self._levels[rows], self._fixed, 0.0, axis=1)
+        costs = costs[good]
         if self._allowed is not None and len(good):
             may = self._allowed(angles)
-            angles, costs = angles[may], costs[may]
+            angles = angles[may]
+            costs = costs[may]
         costs = np.concatenate([self._costs, costs])
         order = np.argsort(costs, kind="stable")[: self._count]  # of equal costs, the first stay
-        self.best, self._costs = np.concatenate([self.best, angles])[order], costs[order]
+        self.best = np.concatenate([self.best, angles])[order]
+        self._costs = costs[order]
         if len(order) == self._count:
             self._worst = float(self._costs[-1])
