@@ -3,6 +3,7 @@ articulated cylinders.
 """
 
 import re
+from collections.abc import Iterable
 from typing import Any
 
 import pytest
@@ -13,6 +14,7 @@ from support.paths import ENGINES
 
 from balcli.analysis import show as analysis
 from balcli.analysis.answer import EXTRAS, QUANTITIES, UNASKED, analyze
+from balcli.file.assumed import Assumed
 from balcli.shell.options import parse_parts
 from balcli.show.sheet import IN_BRIEF, Facts, Grid, View
 from balcli.show.units import SYSTEMS
@@ -171,6 +173,10 @@ LEFT_OUT = [
 ]
 
 
+def name_paths(assumed: Iterable[Assumed] | None) -> set[str]:
+    return {value.path for value in assumed or ()}
+
+
 @pytest.mark.parametrize("word", [*QUANTITIES, *EXTRAS, "gas", "xy", "textbook"])
 @pytest.mark.parametrize(
     "more",
@@ -184,15 +190,15 @@ LEFT_OUT = [
 def test_a_table_names_the_defaults_that_would_change_it(word: str, more: str) -> None:
     quantities, words = parse_parts(word)
 
-    def ask(line: str = "") -> tuple[list[Any], str]:
+    def ask(line: str = "") -> tuple[list[Any], set[str]]:
         found = analyze(build_text(OPEN + more + line), only=quantities)
         parts = analysis.sheet(found, SYSTEMS["si"], View(parts=words)).parts
-        return [part for part in parts if "assumed" not in str(part)], " ".join(found.assumed or ())
+        return [part for part in parts if "assumed" not in str(part)], name_paths(found.assumed)
 
     if (word in ("gas", "pru") and "gas" not in more) or (word == "inner" and "spacing" not in more):
         pytest.skip("the command refuses it")
     before, listed = ask()
-    every = " ".join(build_text(OPEN + more).list_assumed("gas") or ())
+    every = name_paths(build_text(OPEN + more).list_assumed("gas"))
     keys = {line: line.partition(" ")[0] for line in LEFT_OUT}
     unnamed = (line for line, key in keys.items() if key in every and key not in listed)
     assert [line for line in unnamed if ask(line)[0] != before] == []

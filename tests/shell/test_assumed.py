@@ -3,12 +3,16 @@
 import json
 import re
 from pathlib import Path
+from typing import Any
 
 import pytest
 from support.cases import cases
 from support.commands import run_here
 from support.engines import GOOD, changed
 from support.paths import ENGINES, write
+
+from balcli.file.assumed import Assumed, Value
+from balcli.show.sheet import tell_assumed
 
 MOUNTS = "".join(
     f'[[mount]]\nname = "{name}"\nat = [0, {at}]\nstiffness = 200\nloss = 0.1\n'
@@ -41,9 +45,9 @@ throw_inertia = 10000
 loss = 0.03
 rear = [{{ name = "flywheel", inertia = 200000, length = 300, diameter = 60 }}]
 """
-CRANK = ["layout.strokes = 4", "crank.throws = [0, 180, 180, 0]"]
+CRANK = ["layout.strokes = 4", "crank.throws = [0, 180, 180, 0] deg"]
 GAS = ["gas.compression_index = 1.32", "gas.expansion_index = 1.28", "gas.exhaust_opens = lower dead centre"]
-MODULUS, GRAVITY = "torsion.rear.shear_modulus = 79.3", "body.gravity = [-1, 0, 0]"
+MODULUS, GRAVITY = "torsion.rear.shear_modulus = 79.3 GPa", "body.gravity = [-1, 0, 0]"
 FACTOR = "mount.dynamic_factor = 1"
 PARTS = {"CRANK": CRANK, "GAS": GAS, "MODULUS": MODULUS, "MOUNTS": [GRAVITY, FACTOR]}
 
@@ -53,10 +57,20 @@ def file(tmp_path: Path) -> str:
     return str(write(tmp_path / "four.toml", FILE))
 
 
-def list_assumed(command: str, file: object, *options: str, stdin: str = "") -> list[str]:
+def read_assumed(command: str, file: object, *options: str, stdin: str = "") -> list[Assumed]:
     found = run_here(command, file, *options, "-f", "json", stdin=stdin)
     assert found.status == 0, found.err
-    return json.loads(found.out).get("assumed", [])
+    records = json.loads(found.out).get("assumed", [])
+    return [Assumed(**record)._replace(value=as_value(record["value"])) for record in records]
+
+
+def as_value(value: Any) -> Value:
+    return tuple(map(as_value, value)) if isinstance(value, list) else value
+
+
+def list_assumed(command: str, file: object, *options: str, stdin: str = "") -> list[str]:
+    """The assumed values of a document, each in words."""
+    return [tell_assumed([value]) for value in read_assumed(command, file, *options, stdin=stdin)]
 
 
 @cases("shell/assumed", "each_document_lists_the_defaults_that_it_depends_on", **PARTS)
@@ -67,9 +81,9 @@ def test_each_document_lists_the_defaults_that_it_depends_on(
     assert {*there} <= {*assumed}
     assert not {*absent} & {*assumed}
     if command != "curves":  # which has no table
-        head = run_here(command, file, *options, "-f", "table").out.replace("\n", " ")
-        keys = [line.partition(" = ")[0].removeprefix("gas.") for line in there]
-        assert [key for key in keys if key not in head] == []
+        head = " ".join(run_here(command, file, *options, "-f", "table").out.split())
+        words = [line.partition(" = ")[0].removeprefix("gas.") for line in there]
+        assert [word for word in words if word not in head] == []
 
 
 @cases("shell/assumed", "masses_that_are_left_out_are_assumed_where_they_count")
@@ -80,16 +94,16 @@ def test_masses_that_are_left_out_are_assumed_where_they_count(
     for old, new in changes:
         assert old in text
         text = text.replace(old, new)
-    assumed = list_assumed(command, "-", *options, stdin=text)
-    assert {*there} <= {*assumed}
-    assert not {*absent} & {line.partition(" = ")[0] for line in assumed}
+    assumed = read_assumed(command, "-", *options, stdin=text)
+    assert {*there} <= {tell_assumed([value]) for value in assumed}
+    assert not {*absent} & {value.path for value in assumed}
 
 
 def test_what_the_file_gives_is_not_assumed() -> None:
     text = FILE.replace("[layout]", "[layout]\nstrokes = 4").replace("[gas]", "[gas]\nexpansion_index = 1.28")
     text = text.replace("length = 300", "length = 300, shear_modulus = 79.3")
     text = text.replace("spacing", "throws = [0, 180, 180, 0]\nspacing")
-    keys = [line.partition(" = ")[0] for line in list_assumed("torsion", "-", stdin=text)]
+    keys = [value.path for value in read_assumed("torsion", "-", stdin=text)]
     assert "gas.compression_index" in keys
     assert not {"layout.strokes", "crank.throws", "gas.expansion_index", "torsion.rear.shear_modulus"} & {*keys}
 
@@ -101,22 +115,55 @@ def test_two_engines_have_what_holds_for_one_after_its_name(file: str, tmp_path:
     assert "first: layout.strokes = 4" in assumed
 
 
-def test_on_mounts_other_engines_have_theirs_after_their_names(file: str, tmp_path: Path) -> None:
-    other = write(tmp_path / "other.toml", 'name = "other four"\n' + FILE.partition("[gas]")[0])
+def test_on_mounts_each_engine_has_its_own_after_its_name(file: str, tmp_path: Path) -> None:
+    """What holds for both, and for body and mounts, has no name."""
+    two_stroke = FILE.partition("[gas]")[0].replace("[layout]", "[layout]\nstrokes = 2")
+    other = write(tmp_path / "other.toml", 'name = "other four"\n' + two_stroke)
     assumed = list_assumed("mounts", file, str(other))
-    assert {*CRANK, GRAVITY, FACTOR} <= {*assumed}
-    assert [line for line in assumed if line.startswith(f"other four: {CRANK[1]}")]
+    assert {GRAVITY, FACTOR, "crank.throw_mass = 0 kg"} <= {*assumed}
+    assert "other four: crank.throws = [0, 90, 270, 180] deg" in assumed
+    nameless = "engine without a name"
+    assert {f"{nameless}: {CRANK[1]}", f"{nameless}: {GAS[0]}"} <= {*assumed}
 
 
 def test_a_chain_names_the_steel_of_its_shafts() -> None:
     chain = 'node = [{ name = "a", inertia = 1e6 }, { name = "b", inertia = 2e6 }]\n'
     chain += 'shaft = [{ from = "a", to = "b", length = 300, diameter = 60 }]\n'
-    assert list_assumed("torsion", "-", stdin=chain) == ["shaft.shear_modulus = 79.3"]
+    assert list_assumed("torsion", "-", stdin=chain) == ["shaft.shear_modulus = 79.3 GPa"]
     assert list_assumed("torsion", "-", stdin=chain.replace("diameter", "shear_modulus = 80, diameter")) == []
 
 
+# ------------------------------------------------------------------ records
+def test_a_document_has_path_value_and_unit() -> None:
+    """Lists, words and whole numbers, in the units of the file."""
+    found = run_here("analyze", "-", "-f", "json", stdin=FILE)
+    assert json.loads(found.out)["assumed"][:4] == [
+        {"path": "crank.throws", "value": [0.0, 180.0, 180.0, 0.0], "unit": "deg"},
+        {"path": "layout.firing_intervals", "value": [180.0, 180.0, 180.0, 180.0], "unit": "deg"},
+        {"path": "layout.strokes", "value": 4},
+        {"path": "crank.throw_mass", "value": 0.0, "unit": "kg"},
+    ]
+    assert {"path": "gas.exhaust_opens", "value": "lower dead centre"} in json.loads(found.out)["assumed"]
+    on_mounts = run_here("mounts", "-", "-f", "json", stdin=FILE)
+    assert {"path": "body.carries_load", "value": False} in json.loads(on_mounts.out)["assumed"]
+
+
+def test_geared_engines_have_theirs_after_their_names(tmp_path: Path) -> None:
+    """What holds for all of them has no name; in a comparison, the name of the whole comes first."""
+    single = "[crank]\nstroke = 90{}\n[rod]\nlength = 150\nmass = 0.6\ncg = 45\n[piston]\nmass = 0.5\n"
+    write(tmp_path / "open.toml", single.format(""))
+    write(tmp_path / "given.toml", single.format("\nthrow_mass = 0.8"))
+    engines = "".join(f'[[engine]]\nname = "{name}"\nfile = "{name}.toml"\n' for name in ("open", "given"))
+    pair = write(tmp_path / "pair.toml", f'name = "pair"\n[operation]\nspeed = 1000\n{engines}')
+    alone = write(tmp_path / "alone.toml", 'name = "alone"\n' + single.format("") + "[operation]\nspeed = 1000\n")
+    own = "crank.throw_mass = 0 kg"
+    assert list_assumed("analyze", pair) == ["rod.inertia = 2835 kg mm^2", f"open: {own}"]
+    both = list_assumed("compare", str(pair), str(alone))
+    assert both == ["rod.inertia = 2835 kg mm^2", f"pair, open: {own}", f"alone: {own}"]
+
+
 # ------------------------------------------------------------------ the speed
-TOLD = "operation.speed = 1000"
+TOLD = "operation.speed = 1000 rpm"
 OF_ORDER_2 = ("--minimise", "force.2.major")
 
 

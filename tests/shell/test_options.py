@@ -124,9 +124,9 @@ def test_verbose_tells_what_was_read_taken_and_written(tmp_path: Path):
     *told, took = err.splitlines()
     assert told == [
         f"note: standard input: read, {len(LONG_ROD)} bytes",
-        "note: standard input: not in the file: operation.speed = 1000",
-        "note: standard input: not in the file: crank.throw_mass = 0",
-        "note: standard input: not in the file: rod.mass = 0",
+        "note: standard input: not in the file: operation.speed = 1000 rpm",
+        "note: standard input: not in the file: crank.throw_mass = 0 kg",
+        "note: standard input: not in the file: rod.mass = 0 kg",
         WARNING.strip(),
         f"note: {target}: written, {target.stat().st_size} bytes",
     ]

@@ -21,6 +21,7 @@ WARNING = f"warning: {{}}: {UNKNOWN}\n"
 FLAT_CRANK = ("throws = [0, 180, 180, 0]", "throws = [0, 180]")
 NO_ORDER = ("firing_order = [1, 3, 4, 2]", "")
 NO_SPACING = ("spacing = 100\n", "")
+NO_PLACES = {"path": "crank.spacing", "value": 0.0, "unit": "mm"}
 
 
 @pytest.fixture
@@ -56,7 +57,7 @@ def test_json_keeps_the_figures_of_one_plane_and_says_so(balcli, twin, tmp_path)
     said = write(tmp_path / "said.toml", twin.read_text().replace("[rod]", "spacing = 0\n[rod]"))
     for command in ("analyze", "balance"):
         known, found = ask_json(command, said), json.loads(balcli(command, twin, "--format", "json").out)
-        assert "crank.spacing = 0" not in known["assumed"]
+        assert NO_PLACES not in known["assumed"]
         assert "moment_Nm" in known["ladder"]["scale"]
         assert "moment_Nm" not in found["ladder"]["scale"]
         assert "bearings" not in found.get("after", {})
@@ -65,7 +66,7 @@ def test_json_keeps_the_figures_of_one_plane_and_says_so(balcli, twin, tmp_path)
         for one in (found, known):  # of what moments decide nothing is told
             for key in ("ladder", "sizing", "step"):
                 one.pop(key, None)
-        assert found == known | {"assumed": ["crank.spacing = 0", *known["assumed"]]}
+        assert found == known | {"assumed": [NO_PLACES, *known["assumed"]]}
 
 
 def test_csv_has_no_moments(balcli, twin):
@@ -111,7 +112,7 @@ def test_curves_have_no_moments(balcli, twin):
     assert (status, err) == (0, WARNING.format(twin))
     assert out.splitlines()[0] == "crank_deg,force_x_N,force_y_N,couple_Nm,inertia_torque_Nm,roll_Nm"
     found = json.loads(balcli("curves", twin, "--format", "json")[1])
-    assert "crank.spacing = 0" in found["assumed"]
+    assert NO_PLACES in found["assumed"]
     assert "moment_x_Nm" in found["curves"]
 
 

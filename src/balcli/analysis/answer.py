@@ -11,6 +11,7 @@ from ..core.phasors import Array
 from ..core.records import HIDDEN, INLINE, WrittenAs
 from ..engine.engine import Engine, check_engine, refuse_geared, take_model
 from ..errors import BalcliError, check_number, check_type, list_words
+from ..file.assumed import Assumed
 from ..forces.crankshaft import InnerLoads, add_gas_loads, compute_inner_loads
 from ..forces.guide import GuideMoments, compute_guide_moments
 from ..forces.kinds import EVERY_KIND, GAS, GAS_KINDS, KINDS, SCALARS, VECTORS
@@ -117,7 +118,7 @@ class Analysis(OrdersAndPeaks, Result):
     engine: Annotated[Engine, WrittenAs(measure_engine)]
     state: Annotated[EngineState, INLINE]
     spectra: Annotated[Spectra, WrittenAs(list_orders, "orders")]
-    assumed: tuple[str, ...] | None = None
+    assumed: tuple[Assumed, ...] | None = None
     verdict: Verdict | None = None
     peak: Peaks | None = None
     sizing: Sizing | None = None
@@ -317,7 +318,7 @@ def list_idle_defaults(engine: Engine, wanted: Collection[str]) -> set[str]:
     of_throws |= _WITH_UNEVEN_SPEED if engine.ripple else set()
     of_throws |= {"couple", "roll", "roll_total"} if any(engine.reference_m[:2]) else set()
     idle = {k for k, of in (_DEPENDENT | {"crank.throw_mass": of_throws}).items() if not due & of}
-    if "gas" in idle and not any(line.startswith("crank.throws") for line in engine.inferred):
+    if "gas" in idle and not any(one.path == "crank.throws" for one in engine.inferred):
         idle |= _OF_FIRING
     return idle if engine.places_known else {*idle, "layout.stagger"}
 

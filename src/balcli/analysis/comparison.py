@@ -14,12 +14,12 @@ from ..core.phasors import Array, Phasors
 from ..core.records import HIDDEN
 from ..engine.engine import Engine, check_engine
 from ..errors import BalcliError, list_words
+from ..file.assumed import Assumed, join_assumed
 from ..file.fields import order_number
 from ..forces.kinds import EVERY_KIND, GAS, MOMENT, VECTORS, Kind
 from ..forces.spectrum import merge_orders
 from ..limits import SMALL
 from ..show.engine_facts import tell_speed
-from ..show.figures import list_assumed
 from ..show.formats import Renderer, Rows, name_cell
 from ..show.result import Result
 from ..show.sheet import (
@@ -117,7 +117,7 @@ class Comparison(Result):
     format: Literal["balcli.compare/1"] = "balcli.compare/1"
     engines: tuple[str, ...]
     speeds_rpm: tuple[float, ...]
-    assumed: tuple[str, ...] | None = None
+    assumed: tuple[Assumed, ...] | None = None
     figures: tuple[Line, ...]
     ladders: tuple[Ladder, ...] | None = None
     compared: Annotated[tuple[Engine, ...], HIDDEN]
@@ -289,7 +289,7 @@ def compare(
     return Comparison(
         engines=tuple(called),
         speeds_rpm=tuple(float(engine.speed_rpm) for engine in checked),
-        assumed=list_assumed(called, [one.assumed for one in analyses]),
+        assumed=join_assumed(called, [one.assumed for one in analyses]) or None,
         figures=list_lines(analyses, every_order=orders is not None),
         ladders=tuple(one.ladder for one in analyses if one.ladder is not None) or None,
         compared=tuple(checked),

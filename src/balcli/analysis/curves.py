@@ -7,13 +7,15 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from functools import partial
-from typing import Literal
+from typing import Annotated, Literal
 
 import numpy as np
 
 from ..core.phasors import EPS, Array, Complex, compose, unit
+from ..core.records import HIDDEN
 from ..engine.engine import CylinderNumber, Engine, Placed, check_engine, find_crank
 from ..errors import BalcliError, check_number
+from ..file.assumed import Assumed
 from ..forces.curves import (
     EngineMotion,
     as_rows,
@@ -59,8 +61,9 @@ class Curves(Result):
         speed_rpm: Crank speed.
         crank_deg: Crank angles, shape (angles,).
         curves: Figures by name with unit (`force_x_N`), each of the shape of `crank_deg`.
-        assumed: Values that are used because the engine file leaves them out. With `crank.spacing =
-            0`, moments are computed as if all throws were in one plane.
+        assumed: Values that are used because the engine file leaves them out. If `crank.spacing` is
+            one of them, moments are computed as if all throws were in one plane.
+        moments_known: Whether the engine file gives the positions of the throws.
     """
 
     format: Literal["balcli.curves/1"] = "balcli.curves/1"
@@ -68,7 +71,8 @@ class Curves(Result):
     speed_rpm: float
     crank_deg: Array
     curves: Mapping[str, Array]
-    assumed: tuple[str, ...] | None = None
+    assumed: tuple[Assumed, ...] | None = None
+    moments_known: Annotated[bool, HIDDEN] = True
 
     @property
     def summary(self) -> str:
@@ -388,12 +392,13 @@ def compute_curves_by_step(
         crank_deg=crank_deg,
         curves=found,
         assumed=engine.list_assumed() if cylinder is None else None,
+        moments_known=engine.places_known,
     )
 
 
 def columns(curves: Curves) -> Columns:
     """Return crank angles and each quantity that is known; names include units."""
-    unknown = _MOMENTS if "crank.spacing = 0" in (curves.assumed or ()) else ()
+    unknown = () if curves.moments_known else _MOMENTS
     known = {name: values for name, values in curves.curves.items() if name not in unknown}
     return Columns({"crank_deg": curves.crank_deg, **known})
 

@@ -25,6 +25,7 @@ from ..core.records import HIDDEN, find_unit, list_figures, remove_unit, to_docu
 from ..engine.build import build
 from ..engine.engine import Engine, check_engine, find_row, refuse_geared
 from ..engine.load import FiguresOfVariants
+from ..file.assumed import Assumed
 from ..file.model import EngineFile
 from ..forces.quantity import TargetQuantity, refuse_stranger
 from ..show.engine_facts import name_cylinders, tell_speed
@@ -156,7 +157,7 @@ class Pistons(Result):
     speed_rpm: float
     type_limit_rod_ratio: float = TYPE_LIMIT
     swept_volume_m3: float | None = None
-    assumed: tuple[str, ...] | None = None
+    assumed: tuple[Assumed, ...] | None = None
     mechanisms: tuple[PistonMotion, ...]
     engine: Annotated[Engine, HIDDEN]
 

@@ -20,6 +20,7 @@ import numpy as np
 from ..core.phasors import Array
 from ..core.records import HIDDEN, WrittenAs
 from ..engine.engine import Engine
+from ..file.assumed import Assumed
 from ..file.fields import order_number
 from ..forces.kinds import FORCE, MOMENT, ROLL, ROLL_TOTAL, TORQUE, TORQUE_TOTAL, Kind
 from ..show.engine_facts import engine_facts
@@ -174,7 +175,7 @@ class MarineSheet:
     includes: Includes
     axes: Mapping[str, str] = field(default_factory={"v": "x", "h": "y"}.copy)
     height_m: Array
-    assumed: tuple[str, ...] | None = None
+    assumed: tuple[Assumed, ...] | None = None
     speeds: tuple[MarineSpeed, ...]
     lines: Annotated[tuple[Line, ...], HIDDEN]
     related: Annotated[PowerRelatedUnbalance | None, HIDDEN] = None

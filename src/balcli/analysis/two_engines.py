@@ -13,6 +13,7 @@ from ..core.records import HIDDEN, INLINE, WrittenAs
 from ..engine.engine import Engine, Placed, check_engine, place_in_mm, refuse_geared
 from ..engine.placed import gear_engines
 from ..errors import BalcliError, check_number, check_type
+from ..file.assumed import Assumed, join_assumed
 from ..file.edit import format_value
 from ..file.fields import counted
 from ..forces.spectrum import Spectra
@@ -26,7 +27,6 @@ from ..show.figures import (
     Peaks,
     describe_state,
     figure_rows,
-    list_assumed,
     list_orders,
     measure_engine,
 )
@@ -140,7 +140,7 @@ class Combined(OrdersAndPeaks, Result):
     arrangement: Arrangement
     state: Annotated[EngineState, INLINE]
     spectra: Annotated[Spectra, WrittenAs(list_orders, "orders")]
-    assumed: tuple[str, ...] | None = None
+    assumed: tuple[Assumed, ...] | None = None
     peak: Peaks
     every_order: Annotated[bool, HIDDEN] = False
 
@@ -174,12 +174,13 @@ def combine_engines(
         refuse_geared(engine)
     found = analyze(gear_engines(arrangement.place(first, second)), orders)
     assert found.peak is not None
+    lists = [engine.list_assumed("gas") for engine in (first, second)]
     return Combined(
         engines=(first, second),
         arrangement=arrangement,
         state=describe_state(first),
         spectra=replace(found.spectra, up_deg=first.up_deg),
-        assumed=list_assumed(("first", "second"), [e.list_assumed("gas") for e in (first, second)]),
+        assumed=join_assumed(("first", "second"), lists) or None,
         peak=found.peak,
         every_order=orders is not None,
     )

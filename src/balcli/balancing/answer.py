@@ -30,6 +30,7 @@ from ..engine.layout import plan_cylinders
 from ..engine.parse import parse
 from ..engine.parts import Parts
 from ..errors import BalcliError, InputError, check_type, list_values
+from ..file.assumed import Assumed
 from ..file.edit import format_value, remove_tables, rewrite, set_keys
 from ..file.model import EngineFile, Sector
 from ..forces.crankshaft import find_crank_loads
@@ -133,7 +134,7 @@ class Balance(Result):
     remedy: Annotated[Remedy, WrittenAs(describe_remedy), INLINE]
     practical: tuple[Practical, ...] = ()
     details: Node
-    assumed: tuple[str, ...] | None = None
+    assumed: tuple[Assumed, ...] | None = None
     before: Annotated[Analysis, WrittenAs(shorten_with_bearings)]
     after: Annotated[Analysis, WrittenAs(shorten_with_bearings)]
     permitted: PermittedUnbalance | None = None

@@ -11,6 +11,7 @@ from ..core.piecewise import PiecewiseCurve
 from ..core.records import HIDDEN, INLINE
 from ..core.speed_ripple import Surplus
 from ..engine.engine import CylinderNumber, Engine
+from ..file.assumed import Assumed
 from ..file.fields import order_number
 from ..forces.spectrum import Spectra
 from ..show.figures import Harmonic, list_harmonics
@@ -116,7 +117,7 @@ class TorqueAnalysis(Result):
     speed_rpm: float | None = None
     no_gas_in: tuple[CylinderNumber, ...] | None = None
     no_burning_in: tuple[CylinderNumber, ...] | None = None
-    assumed: tuple[str, ...] | None = None
+    assumed: tuple[Assumed, ...] | None = None
     cycle_deg: float
     imep_Pa: float | None = None
     bmep_Pa: float | None = None

@@ -45,7 +45,8 @@ from .devices import build_device, build_devices, check_shafts
 from .engine import Bearings, Engine, Rating
 from .figures import AS_GIVEN, FileFigures, column, divide
 from .layout import Plan, are_places_known
-from .numbering import check_numbering, list_inferred
+from .left_out import list_inferred
+from .numbering import check_numbering
 from .parts import Parts
 from .rods import check_ends, check_harmonic, check_rod_inertia, check_turning
 

@@ -20,10 +20,11 @@ from ..core.phasors import Array, Complex, Figure, Phasors, unit
 from ..core.records import HIDDEN, Node, WrittenAs
 from ..core.speed_ripple import RippleLine
 from ..errors import MOMENTS_UNKNOWN, BalcliError, check_type, wrong_type
+from ..file.assumed import Assumed, join_assumed, select_assumed
 from ..file.doubts import find_suspicious
 from ..file.fields import join_words
 from ..file.model import EngineFile
-from ..file.plain_tables import choose_assumed, join_assumed, list_tables
+from ..file.plain_tables import list_tables
 from ..names import CRANKS, EXPLORE, NOTEBOOK, VARY, import_name
 from .figures import find_first_largest, or_zero, place_in_plane
 from .numbering import doubt_firing, find_fitting_splay
@@ -209,8 +210,7 @@ class Engine:
         flywheel_inertia: Polar moment of inertia of the flywheel, kg m2; None if the file has none.
         bearings: Bearings of the crankshaft; None if the file gives none.
         rated: Speed of the file, and brake power at this speed.
-        inferred: Keys that the file leaves out and on which results depend, with the values that
-            are used (`layout.strokes = 4`).
+        inferred: Values used for keys that the file leaves out and on which results depend.
         model: Engine file; None if no file describes this engine.
         placed: The engines that are geared together, if this engine is the whole of them;
             `cylinders` and all figures derived from `cylinders` are then those of the first engine.
@@ -240,7 +240,7 @@ class Engine:
     bearings: Bearings | None = None
     rated: Rating | None = None
     up_deg: float | None = None
-    inferred: tuple[str, ...] = ()
+    inferred: tuple[Assumed, ...] = ()
     model: EngineFile | None = None
     placed: tuple[Placed, ...] = ()
 
@@ -325,8 +325,10 @@ class Engine:
             return False
         return float(self.speed_rpm) == self.model.operation.speed
 
-    def list_assumed(self, *chapters: str, without: Collection[str] = ()) -> tuple[str, ...] | None:
-        """Return the entries of `inferred` on which results depend; None if there are none.
+    def list_assumed(
+        self, *chapters: str, without: Collection[str] = ()
+    ) -> tuple[Assumed, ...] | None:
+        """Return the values of `inferred` on which results depend; None if there are none.
 
         Args:
             chapters: Tables on which the results depend, besides those that describe every engine:
@@ -334,15 +336,13 @@ class Engine:
             without: Keys to omit.
         """
         if self.placed:
-            of_each = {
-                one.name: one.engine.list_assumed(*chapters, without=without) or ()
-                for one in self.cranks
-            }
-            return join_assumed(of_each) or None
+            names = [one.name for one in self.cranks]
+            lists = [one.engine.list_assumed(*chapters, without=without) for one in self.cranks]
+            return join_assumed(names, lists) or None
         chapters = (*chapters, "flywheel") if self.ripple else chapters
         given = () if self.speed_assumed else ("operation.speed",)
         steady = () if self.ripple or "flywheel" in chapters else ("crank.inertia",)
-        return choose_assumed(self.inferred, chapters, {*given, *steady, *without}) or None
+        return select_assumed(self.inferred, chapters, {*given, *steady, *without}) or None
 
     # -------------------------------------------------------------- in words
     def __repr__(self) -> str:

@@ -33,7 +33,6 @@ from ..core.phases import RPM, TURN, Phases
 from ..core.phasors import Phasors
 from ..errors import InputError, Problem
 from ..file.model import EngineFile
-from ..file.plain_tables import list_chapter_defaults
 from ..limits import SMALL
 from .devices import build_devices
 from .figures import place_in_plane
@@ -47,13 +46,10 @@ from .layout import (
     cycle_deg,
     find_instants,
     find_pins,
-    find_row_angle,
 )
 from .parts import Parts
 
 LIST_LENGTH = 3  # largest number of engines in a list to choose from
-# Largest bank angle of a vee with one head, whose cylinder axes pass beside the crank axis.
-NARROW_DEG = 30.0
 FREE_END = (
     "Numbers count from the free end. If the maker counts from the flywheel end, reverse every "
     "list."
@@ -130,7 +126,7 @@ class Candidate:
         the firing before it by less than `least_interval` deg.
         """
         least = least_interval - TOLERANCE_DEG
-        return not find_missed(self.parts) and min(_list_gaps(self.parts)) >= least
+        return not find_missed(self.parts) and min(list_gaps(self.parts)) >= least
 
     def is_same(self, other: Candidate) -> bool:
         """Return whether the firing angles of both engines differ by the same shift at all places
@@ -197,7 +193,7 @@ class Candidate:
             bank = f"the {'left' if side < 0 else 'right'} bank seen from the free end"
         return (
             f"{keys}{self.change and ', '}{self.change}: throws "
-            f"{_join(_count_throws_from_first(self.parts))}; cylinder 1 on {bank}, throw "
+            f"{_join(count_throws_from_first(self.parts))}; cylinder 1 on {bank}, throw "
             f"{first.throw + 1};"
             f" orders 1 and 2: force {force} N, moment {told}"
             + (f"; the same engine: {same}" if same else "")
@@ -259,10 +255,16 @@ def find_fitting_splay(model: EngineFile) -> float | None:
     return None if missed else splay
 
 
-def _list_gaps(parts: Parts) -> list[float]:
+def list_gaps(parts: Parts) -> list[float]:
     """Return the intervals from each firing to the next, deg, through one cycle."""
     times = [*map(float, parts.fires_deg.values()), cycle_deg(parts.model.layout)]
     return [b - a for a, b in pairwise(times)]
+
+
+def count_throws_from_first(parts: Parts) -> list[float]:
+    """Return the angle of each throw from the first one, deg, in [0, 360)."""
+    throws = [float(parts.pins.throws_deg[t]) for t in range(parts.plan.throws)]
+    return [round(throw - throws[0], 3) % TURN for throw in throws]
 
 
 # ------------------------------------------------------------------ the rules
@@ -434,91 +436,13 @@ def _suggest(parts: Parts) -> str:
         ways.append(_change(model, "crank.throws", throws))
         ways[-1].change += " (angles count in the direction of rotation)"
         if len(throws) > 1 and len(parts.order or ()) == len(parts.plan.cells):
-            needed = _count_throws_from_first(Parts(model.with_table("crank", throws=None)))
+            needed = count_throws_from_first(Parts(model.with_table("crank", throws=None)))
             ways.append(_change(model, "crank.throws", needed))
     if "splay" not in model.crank.model_fields_set:
         ways += _split_pins(Candidate(model, []))
     fitting = [way for way in ways if not find_missed(way.parts)]
     hints = dict.fromkeys(way.change for way in (*fitting[:1], *usual))
     return f". It fits with {' or with '.join(hints)}" if hints else ""
-
-
-# ------------------------------------------------------------------ what a file leaves out
-def list_inferred(parts: Parts) -> Iterator[str]:
-    """Yield the keys that the file leaves out and on which results depend, with the values that are
-    used: `layout.strokes = 4`.
-    """
-    if not parts.rank:
-        yield from _list_firing(parts)
-        yield from _list_defaults(parts)
-        yield from list_chapter_defaults(parts.model)
-
-
-def _list_firing(parts: Parts) -> Iterator[str]:
-    """Yield numbering, throws, intervals and strokes that the file does not give."""
-    model, plan = parts.model, parts.plan
-    layout, given = model.layout, model.layout.model_fields_set
-    inferred = not parts.throws_given
-    if parts.order is None:
-        return
-    if plan.banks > 1 and "numbering" not in given and (inferred or model.gas is not None):
-        yield f"layout.numbering = {write_rows(list_numbers(plan))}"
-    if inferred:
-        yield f"crank.throws = [{_join(_count_throws_from_first(parts))}]"
-    gaps = _list_gaps(parts)
-    a_turn_later = model.gas is not None and len(gaps) > 1 and max(gaps) > TURN + TOLERANCE_DEG
-    if layout.firing_intervals is None and (inferred or a_turn_later):
-        yield f"layout.firing_intervals = [{_join(gaps)}]"
-    if "strokes" not in given and (inferred or model.gas is not None):
-        yield f"layout.strokes = {layout.strokes}"
-
-
-def _list_defaults(parts: Parts) -> Iterator[str]:
-    """Yield the defaults of speed, positions, masses, inertias and gas that the file does not give.
-    The inertia of a rod is that of two masses at its ends; the piston offset is listed only for a
-    narrow vee.
-    """
-    model, gas, hinged = parts.model, parts.model.gas, parts.model.articulation
-    crank, rod, layout, running = model.crank, model.rod, model.layout, model.operation
-    together = parts.plan.rods_on_throw > 1 and hinged is None
-    uneven = model.flywheel is not None or running.speed_ripple
-    weighed = any(one.inertia or one.sector for one in model.counterweight)
-    throws = parts.plan.throws
-    turn = float(find_row_angle(layout, throws, parts.figures))
-    left_out = {
-        f"operation.speed = {running.speed:g}": not running.has("speed"),
-        "crank.throws = [0, 180]": crank.throws is None and parts.order is None and throws == 2,
-        f"layout.row_angle = {turn:g}": layout.rows is not None and layout.row_angle is None,
-        "crank.spacing = 0": not are_places_known(model, parts.plan),
-        "layout.stagger = 0": together and not layout.has("stagger"),
-        "crank.throw_mass = 0": not (crank.has("throw_mass") or layout.rotary),
-        "crank.inertia = 0": crank.inertia is None and uneven and not weighed,
-        "flywheel.inertia = 0": crank.inertia is not None and model.flywheel is None,
-        "rod.mass = 0": rod.mass is None and rod.small_end is None,
-        "rod.cg = 0": rod.mass and rod.cg is None,
-    }
-    yield from (default for default, counts in left_out.items() if counts)
-    rods = {"rod": rod} | ({} if hinged is None else {"articulation.rod": hinged.rod})
-    for path, each in rods.items():
-        spin = float(parts.weigh_gear(parts.find_rod(0, each is not rod)).spin)
-        if spin > 0 and each.inertia is None and each.pendulum is None:
-            yield f"{path}.inertia = {1e6 * spin:g}"
-    first, *others = (float(angle) for angle in bank_angles(layout, parts.figures))
-    own = any(one.piston_offset is not None for one in model.cylinder.values())
-    if len(others) == 1 and not (model.piston.has("offset") or own):
-        vee = abs((others[0] - first + 180) % TURN - 180)
-        yield from ["piston.offset = 0"] * (0 < vee < NARROW_DEG)
-    if gas is not None:
-        diagrams = sum(one.indicator is not None for one in model.cylinder.values())
-        computed = gas.cycle is not None and diagrams < len(parts.plan.cells)
-        measured = gas.has("indicator") or diagrams > 0
-        yield from gas.list_assumed(layout.strokes, measured, computed)
-
-
-def _count_throws_from_first(parts: Parts) -> list[float]:
-    """Return the angle of each throw from the first one, deg, in [0, 360)."""
-    throws = [float(parts.pins.throws_deg[t]) for t in range(parts.plan.throws)]
-    return [round(throw - throws[0], 3) % TURN for throw in throws]
 
 
 # ------------------------------------------------------------------ what is allowed and unlikely
@@ -553,7 +477,7 @@ def doubt_firing(model: EngineFile) -> Iterator[str]:
             )
     order = "-".join(map(str, parts.order))
     if parts.throws_given:
-        gaps = _list_gaps(parts)
+        gaps = list_gaps(parts)
         if layout.firing_intervals is None and len(gaps) > 2 and max(gaps) > TURN + TOLERANCE_DEG:
             yield (
                 f"layout.firing_order: {order} has the intervals {_join(gaps)} deg with these "
@@ -562,7 +486,7 @@ def doubt_firing(model: EngineFile) -> Iterator[str]:
     elif layout.firing_intervals is None and layout.strokes == 4:
         usual = _find_usual_orders(parts)
         if usual:
-            listed = _join(_count_throws_from_first(parts))
+            listed = _join(count_throws_from_first(parts))
             yield (
                 f"layout.firing_order: {order} needs the throws {listed}, which nobody builds; "
                 f"usual is {usual}; if this order is right, give crank.throws"
@@ -590,7 +514,7 @@ def _find_usual_orders(parts: Parts) -> str:
     five cylinders, or are two cranks of fours at 90 deg. In a flat engine, pins of neighbouring
     cylinders are 180 deg apart.
     """
-    throws, plan = _count_throws_from_first(parts), parts.plan
+    throws, plan = count_throws_from_first(parts), parts.plan
     angles = [*map(float, bank_angles(parts.model.layout, parts.figures))]
     if plan.banks == 1:
         order = parts.order or ()

@@ -11,6 +11,7 @@ from typing import Annotated
 from pydantic import Field
 
 from ..limits import MOST_GAS_POINTS
+from .assumed import Assumed, assume
 from .fields import Choice, FileName, Number, OneOf, join_words
 from .table import Angle, Distance, FileTable, GivenInertia, Heat, Mass, Size, Speed
 from .units import ANGLE, PLAIN, PRESSURE
@@ -32,6 +33,7 @@ _CYCLE_KEYS = (
     *("exhaust_opens", "intake_closes", "bmep", "max_pressure", "cut_off", "heat"),
     *WIEBE_KEYS,
 )
+_AT_DEAD_CENTRE = ("exhaust_opens", "intake_closes")  # keys whose default is lower dead centre
 
 
 MEAN_PRESSURES = ("imep", "bmep")
@@ -204,15 +206,17 @@ class Gas(FileTable):
                 idle.add("crankcase")
         return idle
 
-    def list_assumed(self, strokes: int, measured: bool, computed: bool) -> Iterator[str]:
+    def list_assumed(self, strokes: int, measured: bool, computed: bool) -> Iterator[Assumed]:
         """Yield the defaults on which results depend; arguments as for `list_idle_keys`."""
         idle = self.list_idle_keys(strokes, measured, computed) | {*DIAGRAM_KEYS, "at"}
-        at_dead_centre = dict.fromkeys(("exhaust_opens", "intake_closes"), "lower dead centre")
         for key in type(self).model_fields:
+            if self.has(key) or key in idle:
+                continue
             value = getattr(self, key)
-            left_out = not self.has(key) and key not in idle
-            if left_out and (value is not None or key in at_dead_centre):
-                yield f"gas.{key} = {at_dead_centre.get(key) or format(value, 'g')}"
+            if value is not None:
+                yield assume(f"gas.{key}", self, value)
+            elif key in _AT_DEAD_CENTRE:
+                yield Assumed(f"gas.{key}", "lower dead centre")
 
     def _check_points(self) -> Iterator[str]:
         """Check that all points have the same keys, none of them in [gas], and that speeds rise."""

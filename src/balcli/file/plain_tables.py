@@ -1,11 +1,11 @@
 """Convert the tables of a Python user, or an engine file, to dicts, lists, numbers and texts.
-Change these tables, and list the defaults that apply if a file leaves keys out.
+Change these tables.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import islice
 from pathlib import Path
 from typing import Any
@@ -150,54 +150,3 @@ def _find_member(place: Sequence[Any], given: Any, key: str, path: str) -> int:
         return int(key) - 1
     there = ", ".join(labels[:8]) or "none"
     raise InputError([Problem(path, f"there is no {key}; the file has {there}")])
-
-
-def list_chapter_defaults(model: EngineFile) -> Iterator[str]:
-    """Yield the defaults on which results of torsion and mounts depend. For lists, one line stands
-    for all members: `mount.dynamic_factor = 1`.
-    """
-    torsion, body, mounts = model.torsion, model.body, model.mount
-    for end, parts in (("front", torsion.front), ("rear", torsion.rear)) if torsion else ():
-        of_steel = (part for part in parts if part.is_of_unnamed_steel)
-        yield from {f"torsion.{end}.shear_modulus = {s.shear_modulus:g}" for s in of_steel}
-    undamped = torsion is not None and not (torsion.has("loss") or torsion.has("damping"))
-    left_out = {
-        "torsion.loss = 0": undamped,
-        "body.gravity = [-1, 0, 0]": body is not None and not body.has("gravity"),
-        "body.carries_load = false": body and model.has_gas and not body.has("carries_load"),
-        "mount.loss = 0": not all(one.has("loss") or one.has("damping") for one in mounts),
-        "mount.dynamic_factor = 1": not all(one.has("dynamic_factor") for one in mounts),
-    }
-    yield from (default for default, counts in left_out.items() if counts)
-
-
-# Tables on which only the results of certain commands depend.
-_OF_CHAPTERS = {"gas", "torsion", "body", "mount", "flywheel"}
-# Keys on which the torque at steady speed does not depend.
-STEADY = ("crank.spacing", "layout.stagger", "crank.throw_mass", "crank.inertia")
-
-
-def choose_assumed(
-    inferred: Iterable[str], chapters: Collection[str], without: Collection[str] = ()
-) -> tuple[str, ...]:
-    """Return the lines about assumed defaults on which certain results depend.
-
-    Args:
-        inferred: Lines such as `rod.cg = 0`, from `engine.numbering.list_inferred`.
-        chapters: Which of the tables gas, torsion, body, mount and flywheel the results depend on;
-            each is needed by some results only.
-        without: Keys to omit.
-    """
-    idle = _OF_CHAPTERS.difference(chapters).union(without)
-    keys = ((line, line.partition(" =")[0]) for line in inferred)
-    return tuple(line for line, key in keys if not {key, key.partition(".")[0]} & idle)
-
-
-def join_assumed(each: Mapping[str, Collection[str]]) -> tuple[str, ...]:
-    """Return the defaults of several engines: first those that all engines have, then those of
-    single engines, as `NAME.KEY = VALUE`.
-    """
-    lists = [*each.values()]
-    common = [line for line in lists[0] if all(line in lines for lines in lists)]
-    own = (f"{name}.{x}" for name, lines in each.items() for x in lines if x not in common)
-    return (*common, *own)

@@ -9,7 +9,7 @@ from functools import cache
 from inspect import getsource
 from itertools import pairwise
 from textwrap import dedent
-from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, get_args
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 from pydantic.fields import FieldInfo
@@ -158,6 +158,12 @@ class FileTable(BaseModel):
         return {field.alias or name: field for name, field in cls.model_fields.items()}
 
     @classmethod
+    def find_unit(cls, key: str) -> str:
+        """Return the unit of a bare number; empty for a plain number, a word or a whole number."""
+        number = find_number(cls, key)
+        return "" if number is None else number.dimension.unit
+
+    @classmethod
     def __get_pydantic_json_schema__(
         cls, schema: CoreSchema, handler: GetJsonSchemaHandler
     ) -> Node:
@@ -169,6 +175,30 @@ class FileTable(BaseModel):
             if document.example is not None:
                 properties[key]["examples"] = [document.example]
         return node
+
+
+@cache
+def find_number(table: type[FileTable], key: str) -> Number | None:
+    """Return the reader of a field that is a number or a list of numbers; None for other fields.
+    Whole numbers count as other fields.
+    """
+    field = table.model_fields[key]
+    marks = [*field.metadata, *_list_marks(field.annotation)]
+    for mark in tuple(marks):
+        if isinstance(mark, OneOrEach):
+            marks.append(mark.one)
+        elif isinstance(mark, ListOrEach):
+            marks += _list_marks(mark.one)
+    return next((mark for mark in marks if isinstance(mark, Number)), None)
+
+
+def _list_marks(annotation: object) -> Iterator[object]:
+    """Yield the parts of an annotation, without the fields of inner tables."""
+    for part in get_args(annotation):
+        if isinstance(part, type) and issubclass(part, FileTable):
+            continue
+        yield part
+        yield from _list_marks(part)
 
 
 @cache

@@ -12,15 +12,17 @@ from numpy.typing import ArrayLike
 from ..core.phases import RPM
 from ..core.vibration import Real
 from ..engine.engine import Engine, check_engine, take_model
+from ..engine.left_out import list_chapter_defaults
 from ..errors import BalcliError, check_type
+from ..file.assumed import Assumed, join_assumed, select_assumed
 from ..file.fields import order_number
 from ..file.model import EngineFile
-from ..file.plain_tables import choose_assumed, list_chapter_defaults, take_tables
+from ..file.plain_tables import take_tables
 from ..file.read import check_tables
 from ..forces.spectrum import check_orders
 from ..process import Tell, tell_nobody
 from ..shell.arguments import check_speeds
-from ..show.sheet import tell_assumed
+from ..show.sheet import NAMELESS
 from ..sizing.options import SchemeOptions
 from ..sizing.remedy import fit_devices
 from ..sizing.sizing import size
@@ -95,12 +97,8 @@ def report_mounts(
             tell(len(found) / len(engines))
     except BalcliError as error:
         raise error.within(name) from None
+    first = [] if engine is None else [(title or NAMELESS, engine)]
     idle = () if speeds_rpm is None else ("operation.speed",)
-    assumed = [*((engine and engine.list_assumed("gas", without=idle)) or ())]
-    assumed += choose_assumed(list_chapter_defaults(model), _OF_BODY)
-    for label, each in others:
-        if lines := each.list_assumed("gas", without=idle):
-            assumed.append(f"{label}: {tell_assumed(lines)}")
     response = found.pop(0) if found else None
     forces, travel = settle(mounted, response.loads.mean if response else 0.0)
     rest = (mounted.names, drop_rounding(forces), drop_rounding(1e3 * travel))
@@ -111,7 +109,7 @@ def report_mounts(
     farthest = np.abs(mounted.dynamic.at).max(initial=0.0)
     return MountReport(
         name=title,
-        assumed=tuple(assumed) or None,
+        assumed=_list_assumed(model, [*first, *others], without=idle),
         modes=tuple(
             mode._replace(meets=tuple(one for n, one in meetings if n == k))
             for k, mode in enumerate(modes.each)
@@ -125,6 +123,23 @@ def report_mounts(
         others=tuple(map(Other, (label for label, _ in others), found)) or None,
         mounted=mounted,
     )
+
+
+def _list_assumed(
+    model: EngineFile, engines: Sequence[tuple[str, Engine]], without: Sequence[str]
+) -> tuple[Assumed, ...] | None:
+    """Return the assumed values of all engines on the mounts, of the body and of the mounts; None
+    if there are none.
+
+    Args:
+        model: File with [body] and [[mount]].
+        engines: Engines and their names.
+        without: Keys to omit.
+    """
+    names = [name for name, _ in engines]
+    lists = [engine.list_assumed("gas", without=without) for _, engine in engines]
+    of_body = select_assumed(list_chapter_defaults(model), _OF_BODY)
+    return (*join_assumed(names, lists), *of_body) or None
 
 
 def mounts(

@@ -16,6 +16,7 @@ from ..core.phases import RPM
 from ..core.records import HIDDEN, Axes
 from ..core.vibration import Complex, Real
 from ..engine.engine import CylinderNumber
+from ..file.assumed import Assumed
 from ..file.fields import printable
 from ..show.result import Result
 from ..sizing.remedy import Remedy
@@ -253,7 +254,7 @@ class MountReport(Result):
 
     format: Literal["balcli.mounts/1"] = "balcli.mounts/1"
     name: str
-    assumed: tuple[str, ...] | None = None
+    assumed: tuple[Assumed, ...] | None = None
     modes: tuple[BodyMode, ...]
     roll_axis: Real
     elastic_centre_mm: Real

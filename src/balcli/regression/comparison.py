@@ -36,7 +36,8 @@ TOLERANCE = 1e-9  # share of the largest figure of a quantity; rounding is allow
 PEAK_ANGLE_DEG = 1e-3  # allowed change of a peak's angle; rounding changes it more than the value
 DEAD_CENTER_DEG = 1e-6  # allowed change of the angle of a dead centre
 RECORDED = (*KINDS, "peak")
-_LABELS = ("order", "mode", "name", "cylinder")  # keys by which members of lists are matched
+# Keys by which members of lists are matched; an assumed value has `path`, and may have `engine`.
+_LABELS = ("order", "mode", "name", "cylinder", "path", "engine")
 _DERIVED = ("axis_deg", "phase_deg", "peak_deg", "balanced")
 _MALFORMED = (LookupError, TypeError, AttributeError, RecursionError)
 _BROKEN = (OSError, ValueError, OverflowError, BalcliError, *_MALFORMED)
@@ -107,11 +108,14 @@ _Path = tuple[str, ...]  # keys from the top of the document, and labels such as
 
 
 def _find_group(path: _Path) -> str:
-    """Return the group of a figure: the first key of its path that ends in a unit. The tolerance
-    is a share of the largest figure of the group.
+    """Return the group of a figure: the first key of its path that ends in a unit, or the label of
+    an assumed value. The tolerance is a share of the largest figure of the group.
     """
     units = ("_N", "_Nm", "_Hz", "_mm", "_Pa", "_J", "_W", "_m", "_m3")
-    return next((key for key in path if key.endswith(units)), path[-1])
+    for key in path:
+        if key.endswith(units) or key.startswith("path "):
+            return key
+    return path[-1]
 
 
 def _name_cause(path: _Path) -> str:

@@ -26,6 +26,7 @@ from ..errors import (
     warn,
 )
 from ..file.toml import find_near_file, name_file, read_bytes
+from ..show.sheet import tell_assumed
 from .options import WORDS_OF_ONLY
 from .values import parse_cylinder
 
@@ -79,8 +80,8 @@ def read_engine(
     engine = load.build_named(prepare(model), path)
     if is_verbose():
         note(f"{name_file(path)}: read, {len(text)} bytes")
-        for assumed in engine.inferred:
-            note(f"{name_file(path)}: not in the file: {assumed}")
+        for value in engine.inferred:
+            note(f"{name_file(path)}: not in the file: {tell_assumed([value])}")
     if not engine.places_known:
         _tell_unknown(name_file(path), asked)
     if "gas" in (asked or ()):

@@ -135,8 +135,7 @@ def _tell_inferred(engine: Engine) -> str:
     engine are named without values, because other lines show these.
     """
     shown = set() if engine.placed else {"crank.throws", "layout.firing_intervals"}
-    pairs = (line.split(" = ") for line in engine.list_assumed("gas") or ())
-    return tell_assumed(key if key in shown else f"{key} = {value}" for key, value in pairs)
+    return tell_assumed(engine.list_assumed("gas") or (), shown)
 
 
 def tell_speed(engine: Engine, *, steady: bool = False) -> str:

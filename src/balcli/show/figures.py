@@ -1,7 +1,7 @@
 """Define records of an engine's figures (orders, peaks, size and state), and their rows of CSV."""
 
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Annotated, NamedTuple
@@ -17,7 +17,6 @@ from ..file.fields import order_number
 from ..file.model import EngineFile
 from ..forces.kinds import FORCE, MOMENT, Kind
 from ..forces.spectrum import Spectra
-from .sheet import tell_assumed
 from .units import ShownUnit, System
 
 
@@ -241,23 +240,6 @@ def describe_state(engine: Engine) -> EngineState:
         **silent_entries(engine.silent),
         reference_mm=place_in_mm(engine.reference_m),
     )
-
-
-def list_assumed(
-    names: Sequence[str], assumed: Iterable[tuple[str, ...] | None]
-) -> tuple[str, ...] | None:
-    """Return the values that are assumed because the files of several engines leave them out: first
-    those common to all, then those of single engines after the engine's name; None if empty.
-
-    Args:
-        names: Names of the engines.
-        assumed: Values that each file leaves out; None: there are none.
-    """
-    each = [lines or () for lines in assumed]
-    common = [line for line in each[0] if all(line in lines for lines in each)]
-    own = ([line for line in lines if line not in common] for lines in each)
-    others = zip(names, map(tell_assumed, own), strict=True)
-    return (*common, *(f"{name}: {keys}" for name, keys in others if keys)) or None
 
 
 def silent_entries(silent: SilentCylinders) -> dict[str, tuple[CylinderNumber, ...]]:

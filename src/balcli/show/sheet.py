@@ -5,10 +5,11 @@ texts; and format their numbers.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, Generic, NamedTuple, TypeVar
 
 if TYPE_CHECKING:
+    from ..file.assumed import Assumed, Value
     from .units import ShownUnit
 
 
@@ -242,18 +243,49 @@ class NamedResult(NamedTuple, Generic[R]):
     view: View
 
 
-def assumed_facts(assumed: Sequence[str] | None) -> tuple[Facts, ...]:
+def assumed_facts(assumed: Sequence[Assumed] | None) -> tuple[Facts, ...]:
     """Return the values assumed because the file leaves them out, for the head of a sheet."""
     return (Facts((("assumed", tell_assumed(assumed)),)),) if assumed else ()
 
 
-def tell_assumed(assumed: Iterable[str]) -> str:
-    """Return assumed values as text. The prefix `gas.` appears only once; values of single engines
-    follow at the end, after the engines' names.
+def tell_assumed(assumed: Iterable[Assumed], shown: Collection[str] = ()) -> str:
+    """Return assumed values in words. Values of single engines follow at the end, after the
+    engine's name. The prefix `gas.` appears only once for each engine.
+
+    Args:
+        assumed: Assumed values.
+        shown: Paths of values that are shown elsewhere; only these paths are named.
     """
-    lines = list(assumed)
-    single = [line for line in lines if ": " in line]
-    common = [line for line in lines if line not in single]
-    later = [line for line in common if line.startswith("gas.")][1:]
-    words = ", ".join(line.removeprefix("gas.") if line in later else line for line in common)
-    return "; ".join(filter(None, [words, *single]))
+    of_engines: dict[str | None, list[Assumed]] = {None: []}
+    for value in assumed:
+        of_engines.setdefault(value.engine, []).append(value)
+    parts: list[str] = []
+    for engine, values in of_engines.items():
+        if values:
+            text = ", ".join(_list_assignments(values, shown))
+            parts.append(text if engine is None else f"{engine}: {text}")
+    return "; ".join(parts)
+
+
+def _list_assignments(values: Iterable[Assumed], shown: Collection[str]) -> Iterator[str]:
+    """Yield the assignment of each value (`rod.cg = 0 mm`), or only its path if it is shown
+    elsewhere.
+    """
+    tables: set[str] = set()
+    for path, value, unit, _ in values:
+        table, _, key = path.partition(".")
+        name = key if table == "gas" and table in tables else path
+        tables.add(table)
+        if path in shown:
+            yield name
+        else:
+            yield " ".join(filter(None, (name, "=", write_value(value), unit)))
+
+
+def write_value(value: Value) -> str:
+    """Return an assumed value in the notation of a file, numbers with six significant digits."""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, tuple):
+        return f"[{', '.join(map(write_value, value))}]"
+    return value if isinstance(value, str) else f"{value:g}"

@@ -9,18 +9,17 @@ import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cache
-from typing import NamedTuple, get_args
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..engine.layout import plan_cylinders
 from ..errors import BalcliError, refuse_more, wrong_type
-from ..file.fields import ListOrEach, Number, OneOrEach, nearest, shorten
+from ..file.fields import Number, nearest, shorten
 from ..file.messages import BESIDE_ENGINES, DEVICES, SYNONYMS
 from ..file.model import EngineFile, Frame, Gear, Override, Piston, Shaft
-from ..file.table import FileTable
+from ..file.table import FileTable, find_number
 from ..file.units import BARE_FIGURE, FORTRAN, convert_exactly, refuse_thousands
 from ..limits import LONGEST_FIGURE, MOST_PARAMETER_VALUES, MOST_PARAMETERS
 from ..show.sheet import count_name
@@ -144,7 +143,7 @@ def _numbers_of(start: str, table: FileTable) -> Iterator[tuple[str, Place]]:
     """Yield the numbers of a table, with the existing members of its lists and inner tables."""
     kind = type(table)
     for key, value in table:
-        path, reader, field = f"{start}.{key}", _number_of(kind, key), kind.model_fields[key]
+        path, reader, field = f"{start}.{key}", find_number(kind, key), kind.model_fields[key]
         if isinstance(value, FileTable):
             yield from _numbers_of(path, value)
         elif isinstance(value, tuple):
@@ -161,30 +160,6 @@ def _numbers_of(start: str, table: FileTable) -> Iterator[tuple[str, Place]]:
                     yield f"{path}.{k}", Place(reader, kind, key, item)
         elif reader is not None and (value is not None or "tuple" not in str(field.annotation)):
             yield path, Place(reader, kind, key, value)
-
-
-@cache
-def _number_of(table: type[FileTable], key: str) -> Number | None:
-    """Return the reader of a field that is a number or a list of numbers; None for other fields.
-    Whole numbers count as other fields, because they change the layout of the engine.
-    """
-    field = table.model_fields[key]
-    marks = [*field.metadata, *_marks_of(field.annotation)]
-    for mark in tuple(marks):
-        if isinstance(mark, OneOrEach):
-            marks.append(mark.one)
-        elif isinstance(mark, ListOrEach):
-            marks += _marks_of(mark.one)
-    return next((mark for mark in marks if isinstance(mark, Number)), None)
-
-
-def _marks_of(annotation: object) -> Iterator[object]:
-    """Yield the parts of an annotation, without the fields of inner tables."""
-    for part in get_args(annotation):
-        if isinstance(part, type) and issubclass(part, FileTable):
-            continue
-        yield part
-        yield from _marks_of(part)
 
 
 # ------------------------------------------------------------------ names and values from users

@@ -23,13 +23,13 @@ from ..core.phasors import Array, Figure, Phasors
 from ..engine.build import build
 from ..engine.engine import Engine
 from ..engine.figures import select_varied
+from ..engine.left_out import list_inferred
 from ..engine.load import concerns_gas
-from ..engine.numbering import list_inferred
 from ..engine.parts import Parts
 from ..errors import BalcliError, naming_file
+from ..file.assumed import Assumed, join_assumed, select_assumed
 from ..file.fields import RIGID, suggest_nearest
 from ..file.model import EngineFile
-from ..file.plain_tables import choose_assumed, join_assumed
 from ..file.table import document_keys
 from ..forces.kinds import GAS_KINDS
 from ..forces.quantity import (
@@ -151,7 +151,7 @@ _OF_THROWS_OFF_AXIS = ("couple.1.", "roll.1.", "roll_total.1.")
 
 def list_assumed(
     model: EngineFile, quantities: Collection[AnyQuantity], varied: Iterable[str] = ()
-) -> tuple[str, ...] | None:
+) -> tuple[Assumed, ...] | None:
     """Return the values assumed because a file leaves them out, if quantities depend on them; None
     if there are none.
 
@@ -177,10 +177,10 @@ def list_assumed(
             idle.add("crank.inertia")
     if all(name.startswith(_WITHOUT_RODS) for name in names):
         idle.add("rod.inertia")
-    each = [choose_assumed(list_inferred(Parts(crank)), tables, idle) for crank in model.cranks]
+    lists = [select_assumed(list_inferred(Parts(crank)), tables, idle) for crank in model.cranks]
     if not model.engine:
-        return each[0] or None
-    return join_assumed(dict(zip(model.crank_names, each, strict=True))) or None
+        return lists[0] or None
+    return join_assumed(model.crank_names, lists) or None
 
 
 # ------------------------------------------------------------------ evaluation of variants

@@ -16,6 +16,7 @@ from ..engine.build import build
 from ..engine.engine import Engine, check_engine, take_model
 from ..engine.load import concerns_gas
 from ..errors import Argument, ArgumentError, BalcliError, InputError, Message, check_type
+from ..file.assumed import Assumed
 from ..file.fields import Number, shorten
 from ..file.model import EngineFile
 from ..file.units import ANGLE
@@ -98,7 +99,7 @@ class Scatter(Result):
 
     format: Literal["balcli.scatter/1"] = "balcli.scatter/1"
     engine: EngineName
-    assumed: tuple[str, ...] | None = None
+    assumed: tuple[Assumed, ...] | None = None
     samples: int
     distribution: Shape
     quantities: dict[str, Spread]

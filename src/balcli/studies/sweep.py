@@ -28,6 +28,7 @@ from ..engine.load import SPEED, concerns_gas
 from ..engine.numbering import doubt_firing
 from ..engine.parse import read
 from ..errors import ArgumentError, BalcliError, InputError, check_type, naming_file
+from ..file.assumed import Assumed
 from ..file.doubts import find_suspicious
 from ..file.model import EngineFile
 from ..file.toml import name_file
@@ -110,7 +111,7 @@ class Sweep:
         return [d for d in all_of_file if not any(one in d for one in varied)]
 
     @cached_property
-    def assumed(self) -> tuple[str, ...] | None:
+    def assumed(self) -> tuple[Assumed, ...] | None:
         """Values assumed because the file leaves them out; None if there are none."""
         return list_assumed(self.file, self.quantities, [p.path for p in self.parameters])
 

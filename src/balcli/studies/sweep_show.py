@@ -15,6 +15,7 @@ import numpy as np
 from ..core.phasors import Array
 from ..core.records import Axes, Node, WrittenAs, to_document
 from ..errors import BalcliError
+from ..file.assumed import Assumed
 from ..file.model import EngineFile
 from ..limits import MOST_PICTURE_VARIANTS
 from ..show import plot_style as style
@@ -47,7 +48,7 @@ class SweepDocument:
 
     format: Literal["balcli.sweep/1"] = "balcli.sweep/1"
     engine: Annotated[EngineFile, WrittenAs(name_engine)]
-    assumed: tuple[str, ...] | None = None
+    assumed: tuple[Assumed, ...] | None = None
     columns: list[str]
     rows: Annotated[Array, Axes(2)]
 

@@ -19,6 +19,7 @@ from ..core.vibration import Real
 from ..engine.engine import CylinderNumber, Engine, take_model
 from ..engine.load import build_tables
 from ..errors import Argument, ArgumentError, check_type
+from ..file.assumed import Assumed
 from ..file.fields import counted, order_number, printable
 from ..file.plain_tables import take_tables
 from ..file.units import SPEED, convert
@@ -163,7 +164,7 @@ class TorsionAnalysis(Result):
     name: str | None
     no_gas_in: tuple[CylinderNumber, ...] | None = None
     no_burning_in: tuple[CylinderNumber, ...] | None = None
-    assumed: tuple[str, ...] | None = None
+    assumed: tuple[Assumed, ...] | None = None
     nodes: tuple[ChainNode, ...]
     shafts: tuple[ChainJoint, ...]
     modes: tuple[NaturalMode, ...]

@@ -26,9 +26,9 @@ from ..core.phases import RPM
 from ..core.vibration import Real
 from ..engine.engine import Engine
 from ..errors import BalcliError, InputError, Problem
+from ..file.assumed import STEADY, Assumed, assume
 from ..file.fields import counted, shorten
 from ..file.model import EngineFile
-from ..file.plain_tables import STEADY
 from ..file.torsion_tables import (
     STEEL,
     ChainKeys,
@@ -205,7 +205,10 @@ def build_chain(
         PlannedShaft(label, index[start], index[end], table, ratio)
         for label, (start, end, table, ratio) in zip(labels, joints, strict=True)
     ]
-    unnamed = {s.shear_modulus for s in file.shaft if s.is_of_unnamed_steel}
+    of_steel = [shaft for shaft in file.shaft if shaft.is_of_unnamed_steel]
+    assumed: tuple[Assumed, ...] = ()
+    if of_steel:
+        assumed = (assume("shaft.shear_modulus", of_steel[0], of_steel[0].shear_modulus),)
     system = assemble_system(
         nodes,
         shafts,
@@ -215,7 +218,7 @@ def build_chain(
         name=file.name or "",
         ends=(0, len(nodes) - 1),
         excitation=_excite(file, index, orders),
-        assumed=tuple(f"shaft.shear_modulus = {each:g}" for each in unnamed),
+        assumed=assumed,
         file=name,
     )
     paths = [f"shaft.{k}" for k, _ in enumerate(file.shaft, 1)]

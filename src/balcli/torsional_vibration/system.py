@@ -14,6 +14,7 @@ from ..core.phases import RPM
 from ..core.vibration import Complex, Indices, Real
 from ..engine.engine import NONE_SILENT, SilentCylinders
 from ..errors import BalcliError
+from ..file.assumed import Assumed
 from ..forces.spectrum import GasAtSpeeds
 from .chain import Chain, Damping, find_pieces, pendulum_inertia, pendulum_swing, viscous_inertia
 
@@ -112,7 +113,7 @@ class TorsionalSystem:
     rated_rpm: float | None = None
     reference: int = 0
     silent: SilentCylinders = NONE_SILENT
-    assumed: tuple[str, ...] = ()
+    assumed: tuple[Assumed, ...] = ()
     file: str = ""
 
     def require_excitation(self) -> Excitation:

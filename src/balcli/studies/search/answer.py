@@ -20,6 +20,7 @@ from ...engine.engine import Engine, check_engine, refuse_geared, take_model
 from ...engine.layout import plan_cylinders
 from ...engine.load import vary_engine
 from ...errors import ArgumentError, BalcliError, InputError, check_type, wrong_type
+from ...file.assumed import Assumed
 from ...file.fields import counted, suggest_nearest
 from ...file.model import EngineFile
 from ...limits import MOST_FOUND
@@ -73,7 +74,7 @@ class Search(Result):
 
     format: Literal["balcli.search/1"] = "balcli.search/1"
     model: Annotated[EngineFile, WrittenAs(name_engine, "engine")]
-    assumed: tuple[str, ...] | None = None
+    assumed: tuple[Assumed, ...] | None = None
     over: str
     results: tuple[Found, ...]
     objective: Annotated[Objective, HIDDEN]
