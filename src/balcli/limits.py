@@ -60,7 +60,11 @@ FLUCTUATION = "(highest - lowest)/mean speed, such as 1/200 or 0.5%"
 FARTHEST_DEVICE_M = 50.0  # position of a shaft or plane: the longest engines have 30
 SMALL = 0.05  # default share of one cylinder's first order below which vectors are left unbalanced
 MOST_SMALL = 0.5  # largest value of this share that a user may choose
-WORTH_A_SHAFT = 0.3  # share of one cylinder's first order from which a shaft is fitted by default
+# Shares of one cylinder's first order from which a shaft is fitted by default. In order 2, the
+# share is multiplied by the number of cylinders, counted as at least three (docs/ladders.md).
+WORTH_A_SHAFT_OF_ORDER_1 = 0.18
+WORTH_A_SHAFT_OF_ORDER_2 = 0.12
+FEWEST_CYLINDERS_COUNTED = 3
 LARGEST_FACTOR = 2  # balance factor, of either sign: 0 to 1 is usual
 MOST_DIGITS = 15  # digits of figures in tables: those of a floating-point number
 MOST_FACTORS = 1000  # steps of a range of balance factors

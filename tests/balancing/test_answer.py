@@ -45,8 +45,10 @@ def test_csv_has_one_figure_a_line(file):
     ladder = {(r["quantity"], r["figure"]): r["value"] for r in rows if r["part"] == "ladder"}
     assert ladder["as drawn", "counterweights"] == "0"
     after = {r["figure"]: r["value"] for r in rows if r["quantity"] == "bearings" and r["part"] == "after"}
-    (step,) = (r["value"] for r in rows if r["part"] == "step")
-    assert after["main_N"] == ladder[step, "main_bearing"]
+    steps = [r["value"] for r in rows if r["part"] == "step"]
+    assert steps == ["counterweights at every throw", "shafts at +2 and -2"]
+    assert after["main_N"] == ladder[steps[-1], "main_bearing"]
+    assert (ladder["roll", "of"], float(ladder["roll", "order"])) == ("inertia", 2)
     assert devices["shaft 2", "speed_rpm"] == "6000.0"
 
 

@@ -41,7 +41,7 @@ def test_two_eccentrics_at_a_given_place_take_force_and_moment_of_a_270_degree_t
     assert found.force.balanced.all()
     assert found.moment.balanced.all()
     assert remedy.reasons[-1].endswith("eccentrics in two planes on a shaft at -1 times crank speed can")
-    assert "couple_left_Nm" not in remedy.details
+    assert "moment_left_Nm" not in remedy.details
 
 
 def test_their_sizes_by_hand():

@@ -37,7 +37,7 @@ from ..show.sheet import (
 )
 from ..sizing.ladder import Ladder
 from .answer import UNASKED, Analysis, analyze
-from .devices_show import ladder_grid, list_ladder
+from .ladder_show import ladder_grid, list_ladder
 from .sections import list_loads
 
 if TYPE_CHECKING:

@@ -36,7 +36,7 @@ from ..engine.load import FiguresOfVariants
 from ..errors import BalcliError
 from ..file.model import EngineFile
 from ..forces.crankshaft import find_shear_stress, place_bearings
-from ..forces.curves import find_torque_curves
+from ..forces.power import at_rated_speed, find_power, name_need
 from ..forces.quantity import TargetQuantity, refuse_stranger
 from ..forces.spectrum import compute_spectra, find_relevant_orders
 from ..show.engine_facts import name_cylinders
@@ -339,16 +339,6 @@ def lay_out_masses(masses: Sequence[Masses], system: System) -> Grid:
 
 
 # ------------------------------------------------------------------ power related unbalance
-# Upper limit of the power related unbalance, N m/kW, and need of a moment compensator up to this
-# limit, from the project guides of marine engines (MAN).
-_NEEDS = (
-    (60, "not relevant"),
-    (120, "unlikely"),
-    (220, "likely"),
-    (math.inf, "most likely"),
-)
-
-
 def relate_to_power(engine: Engine) -> PowerRelatedUnbalance:
     """Return the largest free moments of orders 1 and 2 divided by the power, at the speed of the
     file.
@@ -359,25 +349,16 @@ def relate_to_power(engine: Engine) -> PowerRelatedUnbalance:
     Raises:
         BalcliError: No power is known.
     """
-    power, kind = 0.0, "file"
-    if (rated := engine.rated) is not None:
-        engine = engine.at_speed(rated.speed_rpm)
-        power = rated.power_W or 0.0
-    if not power and engine.gas is not None:
-        efficiency = engine.mechanical_efficiency
-        torque = find_torque_curves(replace(engine, ripple=())).gas.mean
-        power = torque * float(engine.omega) * (efficiency or 1.0)
-        kind = "indicated" if efficiency is None else "brake"
-    if power <= 0:
+    power = find_power(engine)
+    if power is None:
         raise BalcliError("pru needs operation.power, or [gas]")
-    moments = compute_spectra(engine, [1, 2], ("moment",))["moment"].major.tolist()
+    moments = compute_spectra(at_rated_speed(engine), [1, 2], ("moment",))["moment"].major.tolist()
     orders = []
     for order, moment in enumerate(moments, 1):
         size = moment if engine.places_known else math.nan
-        related = 1e3 * size / power
-        need = next((need for most, need in _NEEDS if related <= most), None)
-        orders.append(RelatedMoment(order, size, related, need))
-    return PowerRelatedUnbalance(power, kind, tuple(orders))
+        related = power.relate(size)
+        orders.append(RelatedMoment(order, size, related, name_need(related)))
+    return PowerRelatedUnbalance(power.watts, power.kind, tuple(orders))
 
 
 def lay_out_related(related: PowerRelatedUnbalance, system: System) -> Grid:

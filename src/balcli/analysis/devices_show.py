@@ -4,38 +4,21 @@ workshop.
 
 from __future__ import annotations
 
-import math
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from ..core.records import list_figures, remove_unit, to_document
 from ..file.model import Counterweight, Shaft, Slider
-from ..forces.kinds import FORCE, MOMENT
-from ..limits import SMALL, WORTH_A_SHAFT
-from ..show.sheet import (
-    UNKNOWN,
-    Grid,
-    capitalized,
-    degrees,
-    given,
-    number,
-    size_cell,
-    size_text,
-)
-from ..sizing.ladder import SHAFT, SHAFTS, Ladder, LeftOut
+from ..show.sheet import UNKNOWN, Grid, degrees, given, number
 from ..sizing.planes import FIELDS, DeviceTable, find_free, find_unbalance, name_kind
 from ..sizing.remedy import Remedy
 from .records import find_value
 
 if TYPE_CHECKING:
-    from ..engine.engine import Engine
     from ..show.units import ShownUnit, System
     from ..sizing.workshop import Practical, Tools
 
 
-_ROUNDING = 1e-12  # a smaller share of one cylinder's value is rounding
-_HARDLY = 0.05  # a smaller share of one cylinder's first order, %, would be printed as 0.0
 _ORDER = ("ratio", "order", "unbalance", "angle", "direction", "position", "at")  # sequence in CSV
 ANGLES = (
     "Angles count in the direction of rotation, clockwise seen from the free end (front). Angles "
@@ -71,74 +54,6 @@ def device_grid(remedy: Remedy, system: System) -> Grid:
     rows = tuple(cells(*each) for each in zip(devices, free, strict=True))
     note = " ".join([ANGLES, *_explain_places(devices, free)])
     return Grid("", ("device", *heads), rows, note, words=(0, 3, 4))
-
-
-def ladder_grid(
-    ladder: Ladder, engine: Engine, system: System, *, tell_fitted: bool = True
-) -> Grid:
-    """Return a table with one row for each step of the ladder, and sentences on omitted steps.
-
-    Args:
-        ladder: Ladder to show.
-        engine: Engine as drawn.
-        system: System of units.
-        tell_fitted: Whether a sentence names the step that `balcli balance` fits.
-    """
-    steps, scale = ladder.steps, ladder.scale
-    columns = [("step", [f"{k} {step.title}" for k, step in enumerate(steps)])]
-    for name, kind, key, of_one in (
-        ("force", FORCE, "peak_force_N", scale.force_N),
-        ("moment", MOMENT, "peak_moment_Nm", scale.moment_Nm),
-        ("main bearing", FORCE, "main_bearing_N", scale.force_N),
-    ):
-        if of_one is not None and getattr(steps[0], key) is not None:
-            sizes = [getattr(step, key) or 0.0 for step in steps]
-            unit = system.unit(kind).fit(max(sizes))
-            clean = (size if size > _ROUNDING * of_one else 0.0 for size in sizes)
-            columns.append((f"{name}, {unit.name}", [size_cell(size, unit) for size in clean]))
-    for name, key in (("weights", "counterweights"), ("shafts", "shafts")):
-        columns.append((name, [str(getattr(step, key) or UNKNOWN) for step in steps]))
-    mass = system.mass
-    weigh = (number(mass.of(step.mass_kg), 3) if step.mass_kg else UNKNOWN for step in steps)
-    columns.append((mass.name, [*weigh]))
-    fitted = [step.step for step in steps].index(ladder.auto)
-    notes = []
-    if tell_fitted:
-        option = "" if ladder.small == SMALL else f" --small {100 * ladder.small:g}%"
-        what = f"step {fitted}" if fitted else "no step"
-        notes.append(f"By default, `balcli balance{option}` applies {what}.")
-        if fitted < len(steps) - 1:
-            first = size_text(scale.force_N, system.force)
-            if scale.moment_Nm is not None:
-                first += f", {size_text(scale.moment_Nm, system.moment)}"
-            least = f"{100 * WORTH_A_SHAFT:.0f} % of one cylinder's first order ({first})"
-            notes.append(f"Each shaft of later steps would cancel less than {least}.")
-    notes += [_tell_left_out(one, ladder, system) for one in ladder.left_out]
-    at = "mean " * bool(engine.ripple) + f"{given(float(engine.speed_rpm))} rpm"
-    title = f"What balances it, step by step ({at})"
-    return Grid.of_columns(title, columns, " ".join(filter(None, notes)))
-
-
-def _tell_left_out(out: LeftOut, ladder: Ladder, system: System) -> str:
-    """Return a sentence on an omitted step: the force or the moment that it would remove, or the
-    change of the main bearing load.
-    """
-    size, fall = abs(ladder.measure(out)), out.main_bearing_N
-    if size < _HARDLY:
-        return ""
-    digits = f"{size:.1f}" if round(size, 1) < 100 * ladder.small else f"{size:.3g}"
-    share = "" if math.isnan(size) else f" ({digits} % of one cylinder's first order)"
-    if fall is not None:
-        change = size_text(abs(fall), system.force)
-        does = f"{'lower' if fall >= 0 else 'raise'} the largest main bearing load by {change}"
-    else:
-        force, moment, scale = out.force_N, out.moment_Nm or 0.0, ladder.scale
-        by_moment = moment * scale.force_N > force * (scale.moment_Nm or 0.0)
-        most = size_text(*((moment, system.moment) if by_moment else (force, system.force)))
-        does = f"remove {'up to ' * (out.step == SHAFTS)}{most}"
-    who = {SHAFT: f"a {SHAFT} is left out: it", SHAFTS: f"{SHAFTS} are left out: each"}
-    what = who.get(out.step, f"{out.step} are left out: they")
-    return f"{capitalized(what)} would {does}{share}."
 
 
 def _explain_places(devices: Sequence[DeviceTable], free: Sequence[bool]) -> Iterator[str]:
@@ -226,13 +141,6 @@ def holes_grid(
     note = f"{what} radial, {rim} inwards, and side by side along the axis."
     heads = ("for", "holes at, deg", "holes", f"depth of each, {unit.name}")
     return Grid(title, heads, tuple(rows), note)
-
-
-def list_ladder(ladder: Ladder) -> Iterator[tuple[str, str, Any, str]]:
-    """Yield step, name, value and SI unit of every figure of a ladder."""
-    for step in ladder.steps:
-        for name, value, unit in list_figures(to_document(step), ("step",)):
-            yield step.step, remove_unit(name), value, unit
 
 
 def number_devices(devices: Iterable[DeviceTable]) -> Iterator[tuple[str, DeviceTable]]:

@@ -324,18 +324,18 @@ class SizedDevices(NamedTuple):
 
     Attributes:
         scheme: Name of the scheme.
-        step: Step of the ladder that the scheme fits.
+        steps: Steps of the ladder whose devices are fitted.
         devices: New devices.
     """
 
     scheme: str
-    step: str
+    steps: tuple[str, ...]
     devices: Annotated[Devices, INLINE]
 
 
 def name_devices(remedy: Remedy) -> SizedDevices:
-    """Return the scheme, its step and its devices."""
-    return SizedDevices(remedy.scheme, remedy.step, describe_devices(remedy))
+    """Return the scheme, its steps and its devices."""
+    return SizedDevices(remedy.scheme, remedy.steps or (), describe_devices(remedy))
 
 
 def describe_devices(remedy: Remedy) -> Devices:

@@ -9,6 +9,7 @@ import numpy as np
 
 from ..core.phasors import Array
 from ..errors import MOMENTS_UNKNOWN
+from ..file.fields import join_words
 from ..forces.curves import find_constant_inertia
 from ..forces.kinds import COUPLE, EVERY_KIND, GAS, GAS_KINDS, MOMENT, TORQUE, VECTORS
 from ..forces.spectrum import Spectra
@@ -28,11 +29,11 @@ from ..show.sheet import (
     sentence,
 )
 from ..show.units import System
-from ..sizing.ladder import name_step
 from . import crank_drive, sections
 from .answer import EXTRAS, Analysis, Sizing
 from .couple import select_couple
-from .devices_show import device_grid, device_rows, ladder_grid, list_ladder, number_devices
+from .devices_show import device_grid, device_rows, number_devices
+from .ladder_show import ladder_grid, list_ladder
 from .order_tables import (
     cylinder_tables,
     direction_tables,
@@ -188,7 +189,8 @@ def _sizing_parts(sizing: Sizing, system: System) -> Iterator[Part]:
         yield Text("Sizing", ("No counterweight and no shaft is worth fitting.",))
         return
     steady = ", at steady speed" if after.engine.ripple else ""
-    yield Text(f"Sizing: {name_step(remedy)}{steady}", tuple(dict.fromkeys(remedy.reasons)))
+    steps = join_words(remedy.steps or ())
+    yield Text(f"Sizing: {steps}{steady}", tuple(dict.fromkeys(remedy.reasons)))
     yield device_grid(remedy, system)
     yield peak_facts(after, system, "Largest with these devices")
 

@@ -51,7 +51,7 @@ from .comparison import (
     show_sizes,
 )
 from .crank_drive import lay_out_related
-from .devices_show import ladder_grid
+from .ladder_show import ladder_grid
 from .records import Includes, PowerRelatedUnbalance, name_included
 from .sections import define_guide_moments
 

@@ -71,7 +71,9 @@ class FittedRemedy:
 
     Attributes:
         scheme: Name of the scheme.
-        step: Step of the ladder; only for the schemes auto and step.
+        step: Step of the ladder whose row is fitted (scheme step).
+        steps: Steps of the ladder whose devices are fitted (scheme auto, and scheme step with
+            several steps).
         order: Order that the scheme balances; null if the scheme is not for a single order.
         devices: New devices.
         reasons: Reasons for the devices.
@@ -79,6 +81,7 @@ class FittedRemedy:
 
     scheme: str
     step: str | None = None
+    steps: tuple[str, ...] | None = None
     order: int | None
     devices: Annotated[Devices, INLINE]
     reasons: tuple[str, ...]
@@ -89,6 +92,7 @@ def describe_remedy(remedy: Remedy) -> FittedRemedy:
     return FittedRemedy(
         scheme=remedy.scheme,
         step=remedy.step or None,
+        steps=remedy.steps,
         order=remedy.order,
         devices=describe_devices(remedy),
         reasons=remedy.reasons,

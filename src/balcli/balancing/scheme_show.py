@@ -151,6 +151,19 @@ def _show(figure: _Figure, system: System) -> str:
     return size_text(value / 1e3 if unit == "mm" else value, shown)
 
 
+def tell_distances(result: Balance, system: System) -> Iterator[str]:
+    """Yield a sentence on every pair of shafts whose roll depends only on their distance along the
+    force.
+    """
+    for figures in result.remedy.details.values():
+        if isinstance(figures, dict) and "distance_mm" in figures:
+            distance = size_text(figures["distance_mm"] / 1e3, system.length)
+            yield (
+                f"{distance} apart along the force; only this distance counts: to the sides, the "
+                "shafts may be anywhere, equally far from the crank on opposite sides."
+            )
+
+
 def tell_growing_rolls(result: Balance, system: System) -> Iterator[str]:
     """Yield a sentence for every order whose roll (of inertia; for an engine with gas, of inertia
     and gas) is larger with the new devices than without them.

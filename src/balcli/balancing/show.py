@@ -12,11 +12,10 @@ from ..analysis.devices_show import (
     device_grid,
     device_rows,
     holes_grid,
-    ladder_grid,
-    list_ladder,
     number_devices,
     practical_grid,
 )
+from ..analysis.ladder_show import ladder_grid, list_ladder, tell_usual
 from ..analysis.order_tables import fit_largest
 from ..analysis.overview import name_column
 from ..analysis.parts import lay_out_parts
@@ -24,6 +23,7 @@ from ..analysis.verdict_words import VerdictWords, name_orders
 from ..core.peaks import Peak
 from ..core.records import Node, list_figures, remove_unit, to_document, write_each
 from ..errors import MOMENTS_UNKNOWN, BalcliError
+from ..file.fields import join_words
 from ..forces.crankshaft import CrankLoads, find_crank_loads
 from ..forces.kinds import FORCE, MOMENT, ROLL, ROLL_TOTAL
 from ..forces.spectrum import compute_spectra
@@ -47,8 +47,9 @@ from ..show.sheet import (
 )
 from ..show.units import IMPERIAL, SI, ShownUnit, System
 from ..sizing.factor import name_one_cylinder
-from ..sizing.ladder import AS_DRAWN, WEIGHTS_AT_THROWS, name_step
+from ..sizing.ladder import AS_DRAWN, WEIGHTS_AT_THROWS
 from ..sizing.planes import find_unbalance, name_kind
+from ..sizing.remedy import Remedy
 from .answer import Balance
 from .scheme_show import (
     card_grids,
@@ -56,6 +57,7 @@ from .scheme_show import (
     percent,
     tell_best_factors,
     tell_change,
+    tell_distances,
     tell_growing_rolls,
 )
 
@@ -74,7 +76,6 @@ def sheet(result: Balance, system: System) -> Sheet:
     remedy, engine = result.remedy, result.before.engine
     known = result.before.moments_known
     loads = [find_crank_loads(state.engine) for state in (result.before, result.after)]
-    order = "" if remedy.order is None else f", order {remedy.order}"
     parts: list[Grid | Facts | Text] = [*assumed_facts(result.before.assumed)]
     if result.ladder is not None:
         usual = remedy.scheme == "auto"  # other schemes do not fit a step of the ladder
@@ -96,12 +97,15 @@ def sheet(result: Balance, system: System) -> Sheet:
         )
     else:
         parts.append(Text("Nothing is fitted", ()))
+    of_ladder = bool(remedy.step) or remedy.steps is not None
     notes = (
         remedy.note and sentence(remedy.note),
-        _tell_left(result, system) if remedy.step else "",
+        tell_usual(result.ladder) if result.ladder is not None and remedy.steps == () else "",
+        _tell_left(result, system) if of_ladder else "",
         _tell_couple(result, system),
         _tell_bearings(result, system),
         tell_best_factors(result, system),
+        *tell_distances(result, system),
         _TURNING_WEIGHTS if engine.rotary and remedy.counterweights else "",
         *tell_growing_rolls(result, system),
     )
@@ -112,13 +116,20 @@ def sheet(result: Balance, system: System) -> Sheet:
     parts += [*_permitted(result, system), *details_parts(result, system)]
     changes = [*_orders(result, system), *_peaks(result, system), *_crank_loads(loads, system)]
     parts += changes or [Text("Before and after", ("Nothing changes by 1 % or more.",))]
-    step = name_step(remedy)
-    fitted = f"{step} ({remedy.scheme})" if step else f"{remedy.scheme}{order}"
-    return Sheet(f"{engine.name or NAMELESS}: {fitted}", tuple(parts))
+    return Sheet(f"{engine.name or NAMELESS}: {_name_fitted(remedy)}", tuple(parts))
+
+
+def _name_fitted(remedy: Remedy) -> str:
+    """Return in words what a remedy fits: steps of the ladder, or its scheme and order."""
+    steps = (remedy.step,) if remedy.step else remedy.steps
+    if steps is not None:
+        return f"{join_words(steps) if steps else 'nothing'} ({remedy.scheme})"
+    order = "" if remedy.order is None else f", order {remedy.order}"
+    return f"{remedy.scheme}{order}"
 
 
 def _tell_left(result: Balance, system: System) -> str:
-    """Return words on the forces and moments of orders 1 and 2 that a step leaves."""
+    """Return words on the forces and moments of orders 1 and 2 that steps of the ladder leave."""
     known, left = result.after.moments_known, []
     kinds = (FORCE, MOMENT) if known else (FORCE,)
     spectra = compute_spectra(result.after.engine, [1, 2], [kind.name for kind in kinds])
@@ -128,11 +139,10 @@ def _tell_left(result: Balance, system: System) -> str:
             f"{kind.name} {size_text(size, system.unit(kind))}" for kind, size in sizes if size
         ]
         if found:
-            left.append(f"in order {order}: {', '.join(found)}")
+            left.append(f"order {order}: {', '.join(found)}")
     if left:
-        return f"This step leaves {'; '.join(left)}."
-    what = "force or moment" if known else "force"
-    return f"This step leaves no {what} of orders 1 and 2."
+        return f"Leaves {'; '.join(left)}."
+    return f"Leaves no {'force or moment' if known else 'force'} of orders 1 and 2."
 
 
 def _tell_couple(result: Balance, system: System) -> str:
@@ -374,8 +384,9 @@ def _all_rows(result: Balance, system: System) -> Iterator[tuple[object, ...]]:
             yield part, "", "", *figure
         yield from _rows_of(part, practical)
     yield from _rows_of("details", result.details)
-    if result.remedy.step:
-        yield "step", "", "", "name", result.remedy.step, ""
+    steps = (result.remedy.step,) if result.remedy.step else result.remedy.steps
+    for name in steps or ():
+        yield "step", "", "", "name", name, ""
     for step, name, value, unit in list_ladder(result.ladder) if result.ladder else ():
         yield "ladder", step, "", name, value, unit
     yield from _rows_of("permitted", result.permitted)

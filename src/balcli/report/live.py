@@ -128,6 +128,7 @@ def describe_engine(model: EngineFile, engine: Engine, text: str) -> Node:
         "frees": _free_throws(model, parts),
         "known": engine.places_known,
         "gas": engine.gas is not None,
+        "strokes": engine.strokes,
         "up": engine.up_deg,
         "axes": ("x", "y") if engine.up_deg is None else FORCE.upright,
         "bore": clean(engine.bore_m * 1e3),
@@ -364,9 +365,10 @@ def _list_masses(model: EngineFile, parts: Parts, cell: Cell) -> Node:
     pistons = [f"piston.{key}" for key in parts.find_piston_masses()]
     if own is not None and own.piston_mass is not None:
         pistons = [f"cylinder.{number}.piston_mass"]
-    place = parts.find_rod(number)
+    place, crosshead = parts.find_rod(number), name("crosshead_mass", "crosshead.mass")
     return {
-        "piston": [*pistons, name("crosshead_mass", "crosshead.mass")],
+        "piston": [*pistons, crosshead],
+        "crosshead": crosshead,
         "offset": name("piston_offset", "piston.offset"),
         "share": 1 / parts.plan.rods_on_throw,
         "extra": float(weighed.rod_bearing + weighed.oil),

@@ -340,7 +340,9 @@ def _list_variants(result: Analysis, balanced: Balance) -> dict[str, Analysis]:
     shown = {"as in the file": result}
     if ladder is not None:
         shown = analyze_steps(balanced.before.engine, ladder, result.orders)
-    if remedy.reasons and not remedy.step:
+    rows = () if ladder is None else ladder.steps
+    is_row = any(step.remedy.devices == remedy.devices for step in rows)
+    if remedy.reasons and not is_row:
         shown[f"scheme {remedy.scheme}"] = balanced.after
     return shown
 

@@ -103,7 +103,7 @@ def analyze_steps(
     number and name of the step.
     """
     return {
-        f"{k} {step.title}": analyze(
+        f"{k} {step.step}": analyze(
             fit_devices(engine, step.remedy), orders, [kind.name for kind in VECTORS]
         )
         for k, step in enumerate(ladder.steps)

@@ -42,7 +42,7 @@ NOTHING, UNKNOWN = "balanced", "–"  # words for a force of 0, and for an unkno
 
 class Grid(NamedTuple):
     """A table of texts; the first column has the headings of rows. Cells in `marked` (row, column)
-    are highlighted; columns in `words` are left-aligned.
+    are highlighted; columns in `words` are left-aligned. Lines of `note` are shown as lines.
     """
 
     title: str

@@ -57,7 +57,8 @@ def _lines(sheet: Sheet, terminal: int | None) -> Iterator[list[Piece]]:
             case Grid():
                 for grid in _divide(part, width) if terminal else (part,):
                     yield from _grid_lines(grid, width)
-                yield from ([(line, _DIM)] for line in fold(part.note, width) if line)
+                for note in part.note.split("\n"):
+                    yield from ([(line, _DIM)] for line in fold(note, width) if line)
             case Facts():
                 yield from _fact_lines(part, width)
             case Text():

@@ -44,7 +44,6 @@ from .planes import (
 )
 from .remedy import Remedy, fit_devices
 from .residual import (
-    BACKWARD_MOMENT,
     FORCE,
     FORWARD,
     FORWARD_FORCE,
@@ -64,7 +63,6 @@ _ROTATING = "Weights opposite the rotating mass of throws and rods"
 _LEFT_OF = {  # keys of details, and the parts whose remaining size each detail states
     "force_left_N": FORCE,
     "moment_left_Nm": MOMENT,
-    "couple_left_Nm": (BACKWARD_MOMENT,),
     "force_with_crank_left_N": (FORWARD_FORCE,),
     "moment_with_crank_left_Nm": (FORWARD_MOMENT,),
 }

@@ -3,64 +3,149 @@ leaves.
 
 Counterweights in the end planes cancel the part of order 1 that turns with the crank.
 Counterweights at every throw cancel it where it arises, so that main bearings do not carry it.
-Shafts cancel the part of order 1 that turns against the crank, and order 2. A step is listed if the
-part that it cancels, or its reduction of the main bearing load, is not small compared with one
-cylinder's first order.
+Shafts cancel the part of order 1 that turns against the crank, and order 2. Two-stroke engines with
+crossheads get compensators in place of shafts. A step is listed if the part that it cancels, or its
+reduction of the main bearing load, is not small compared with one cylinder's first order.
+
+Each step is judged by itself: shafts by the share of one cylinder's first order that they cancel,
+compensators by their moment divided by the power of the engine. The steps that are worth their
+devices are fitted by default (`Ladder.auto`); they need not be consecutive.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+import re
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Annotated, NamedTuple
 
 import numpy as np
 
-from ..core.cylinders import DeviceKind
+from ..core.cylinders import Device, DeviceKind
 from ..core.peaks import find_largest
+from ..core.phasors import Complex
 from ..core.records import HIDDEN
 from ..engine.engine import Engine
+from ..engine.figures import find_first_largest
 from ..errors import BalcliError
 from ..forces.crankshaft import find_crank_loads
-from ..forces.spectrum import compute_spectra, find_relevant_orders, merge_orders
-from ..limits import SMALL, WORTH_A_SHAFT
-from .fitting import LEFT, Fitting, Slot, explain_counterweights, explain_shaft, size_unbalances
+from ..forces.kinds import ROLL, ROLL_TOTAL
+from ..forces.power import Power, at_rated_speed, find_power, needs_compensator
+from ..forces.spectrum import (
+    compute_spectra,
+    find_relevant_orders,
+    list_gas_orders,
+    merge_orders,
+)
+from ..limits import (
+    FEWEST_CYLINDERS_COUNTED,
+    SMALL,
+    WORTH_A_SHAFT_OF_ORDER_1,
+    WORTH_A_SHAFT_OF_ORDER_2,
+)
+from .fitting import LEFT, Fitting, find_effect
 from .options import check_small
-from .planes import find_carriers, find_ends, find_planes, find_unbalance
-from .remedy import Remedy, fit_devices
+from .pairs import find_distance, find_moment_about_y, find_wanted_roll, place_pair
+from .planes import as_millimetres, find_carriers, find_ends, find_unbalance
+from .remedy import Remedy, fit_devices, join_remedies, remove_counterweights
 from .residual import (
+    BACKWARD,
     FORWARD,
+    MOMENT,
+    EngineLength,
     Residual,
     Scales,
     find_scales,
     find_size,
+    hold_steady,
     is_small,
     list_parts,
+    measure_length,
+)
+from .steps import (
+    add_at_ends,
+    add_at_throws,
+    add_compensators,
+    add_shafts,
+    ignore_compensators,
 )
 
 AS_DRAWN = "as drawn"
 WEIGHTS = "counterweights"
 WEIGHTS_AT_THROWS = "counterweights at every throw"
 SHAFT = "shaft at -1"
-SHAFTS = "shafts at +2 and -2"
 
-_AT_THROWS = (
-    "Counterweights at every throw cancel the part of order 1 that turns with the crank where it "
-    "arises, so main bearings and crankshaft do not carry it"
-)
+_LONG_STROKE_M = 1.0  # only crosshead engines have longer strokes,
+_LONG_STROKE_IN_BORES = 2.5  # or longer ones in proportion to the bore
+_OF_WEIGHTS = (*FORWARD, *BACKWARD)  # parts of order 1 to which counterweights may add
+_SAME_SENSE = 1e-9  # a smaller share of the product of two sums of weights is rounding
+_SUM = re.compile(r"\s+\+\s+|(?<=\d)\+(?=\d)")  # the plus in "2+4"; not the one in "shaft at +2"
 
 
+def name_shafts(senses: Iterable[int]) -> str:
+    """Return the name of the step with shafts of order 2 that turn in these directions (1 with the
+    crank, -1 against it).
+    """
+    ratios = [f"{2 * sense:+d}" for sense in sorted(senses, reverse=True)]
+    if len(ratios) == 1:
+        return f"shaft at {ratios[0]}"
+    return f"shafts at {' and '.join(ratios)}"
+
+
+SHAFTS = name_shafts((1, -1))
+SINGLE_SHAFTS = (SHAFT, name_shafts((1,)), name_shafts((-1,)))  # steps with one shaft
+
+
+def name_compensators(order: int) -> str:
+    """Return the name of the step with compensators of an order."""
+    return f"compensators of order {order}"
+
+
+# ------------------------------------------------------------------ records
 class Scale(NamedTuple):
     """Force and moment of one cylinder, with which the forces and moments of orders are compared.
 
     Attributes:
         force_N: Largest first-order force of a cylinder alone.
         moment_Nm: This force times the length of the engine; left out where positions are unknown.
+        length: This length; None for geared engines and where positions are unknown.
     """
 
     force_N: float
     moment_Nm: float | None = None
+    length: Annotated[EngineLength | None, HIDDEN] = None
+
+
+class LargestRoll(NamedTuple):
+    """The largest order of the roll. No step changes it.
+
+    Attributes:
+        of: "inertia", or "total" if the engine has gas: inertia and gas.
+        order: Order.
+        amplitude_Nm: Amplitude of the roll.
+        shafts_at_mm: Positions x, y at which shafts at +2 and -2 also cancel the roll of order 2,
+            by their speed ratio; left out where no such positions exist.
+        distance_m: Distance of these shafts along the force.
+    """
+
+    of: str
+    order: float
+    amplitude_Nm: float
+    shafts_at_mm: dict[str, tuple[float, float]] | None = None
+    distance_m: Annotated[float | None, HIDDEN] = None
+
+
+class FileCounterweights(NamedTuple):
+    """Largest inertia load of a main bearing without and with the counterweights of the file.
+
+    Attributes:
+        without_N: Load without these counterweights.
+        with_N: Load with them.
+    """
+
+    without_N: float
+    with_N: float
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -70,6 +155,8 @@ class Step:
 
     Attributes:
         step: Name of the step.
+        takes_back: True if the counterweights of the step work against those of the file; else left
+            out.
         peak_force_N: Largest free force over a revolution, all orders added up.
         peak_moment_Nm: Largest free moment over a revolution; left out if positions are unknown.
         main_bearing_N: Largest load of a main bearing by inertia; left out if it is not known, or
@@ -77,11 +164,20 @@ class Step:
         inner_moment_Nm: Largest bending moment of the crankshaft by inertia.
         counterweights: Number of new counterweights.
         shafts: Number of new shafts.
-        mass_kg: Sum of all new unbalances divided by the crank radius.
-        remedy: New devices.
+        mass_kg: Sum of all new unbalances divided by the crank radius of cylinder 1.
+        pru_Nm_per_kW: Power related unbalance of the moment that the step faces; only for
+            two-stroke engines with crossheads and known power.
+        order: Order that the step balances; 0 as drawn.
+        share: Largest force or moment that the step cancels, as a share of one cylinder's first
+            order.
+        limit: Share from which the step is fitted by default; None if it is not judged by a share.
+        worth_it: Whether the step is worth its devices, if the file has no weights against it.
+        own: Devices that this step adds.
+        remedy: All new devices.
     """
 
     step: str
+    takes_back: bool | None = None
     peak_force_N: float
     peak_moment_Nm: float | None = None
     main_bearing_N: float | None = None
@@ -89,25 +185,18 @@ class Step:
     counterweights: int
     shafts: int
     mass_kg: float
+    pru_Nm_per_kW: float | None = None
+    order: Annotated[int, HIDDEN] = 0
+    share: Annotated[float, HIDDEN] = 0.0
+    limit: Annotated[float | None, HIDDEN] = None
+    worth_it: Annotated[bool, HIDDEN] = False
+    own: Annotated[Remedy, HIDDEN]
     remedy: Annotated[Remedy, HIDDEN]
-
-    @property
-    def title(self) -> str:
-        """Name of the step in tables (`name_step`)."""
-        return name_step(self.remedy._replace(step=self.step))
-
-
-def name_step(remedy: Remedy) -> str:
-    """Return the name of the step of these devices. If a step needs only one of the two shafts of
-    order 2, ": only +2" or ": only -2" is added. Empty if the devices are not those of a step.
-    """
-    ratios = {shaft.ratio for shaft in remedy.shafts if abs(shaft.ratio) == 2}
-    alone = f": only {min(ratios):+d}" if remedy.step == SHAFTS and len(ratios) == 1 else ""
-    return f"{remedy.step}{alone}"
 
 
 class LeftOut(NamedTuple):
-    """A step that is not listed because its effect is small.
+    """A step that is not listed because its effect is small, or because its engine does not need
+    it.
 
     Attributes:
         step: Name of the step.
@@ -123,60 +212,105 @@ class LeftOut(NamedTuple):
     main_bearing_N: float | None = None
 
 
-class Ladder(NamedTuple):
+@dataclass(frozen=True, kw_only=True)
+class Ladder:
     """Devices that balance an engine, step by step.
 
     Attributes:
         scale: Force and moment of one cylinder.
-        auto: Step that is fitted by default.
+        auto: Steps that are fitted by default.
+        roll: Largest order of the roll; left out if there is no roll.
+        file_counterweights: Bearing loads without and with the counterweights of the file; left out
+            without such counterweights, or if the loads are not known.
         steps: Steps that are worth listing.
         left_out: Steps that would cancel something but are not listed.
         small: Forces and moments below this share of one cylinder's first order are not balanced.
+        by_power: Whether steps are judged by the power related unbalance: the engine is a
+            two-stroke engine with crossheads.
+        power: Power of such an engine; None if it is not known.
     """
 
     scale: Scale
-    auto: str
+    auto: tuple[str, ...]
+    roll: LargestRoll | None = None
+    file_counterweights: FileCounterweights | None = None
     steps: tuple[Step, ...]
     left_out: tuple[LeftOut, ...]
     small: Annotated[float, HIDDEN] = SMALL
+    by_power: Annotated[bool, HIDDEN] = False
+    power: Annotated[Power | None, HIDDEN] = None
 
     def fit(self, step: str | int | None = None) -> Remedy:
-        """Return the devices of a listed step.
+        """Return the devices of a listed step and of the steps before it, or only those of several
+        steps.
 
         Args:
-            step: Name or number of the step; None: `auto`.
+            step: Name or number of a step, or several, such as "2+4"; None: the steps that are
+                fitted by default (`auto`).
 
         Raises:
-            BalcliError: The step is not listed, or fits nothing.
+            BalcliError: A step is not listed or fits nothing, or the steps exclude each other.
         """
-        name = self.auto if step is None else self._find_name(str(step))
-        remedy = next(one.remedy for one in self.steps if one.step == name)
-        return remedy._replace(scheme="auto" if step is None else "step", step=name)
+        if step is None:
+            return self._join("auto", self.auto)
+        chosen = self._choose(str(step))
+        if len(chosen) == 1:
+            (name,) = chosen
+            return self.find_step(name).remedy._replace(scheme="step", step=name)
+        if {WEIGHTS, WEIGHTS_AT_THROWS} <= {*chosen}:
+            raise BalcliError(
+                f'step "{step}": {WEIGHTS_AT_THROWS} replace those of step "{WEIGHTS}"; give one '
+                "of the two"
+            )
+        return self._join("step", chosen)
 
-    def _find_name(self, step: str) -> str:
-        names = [one.step for one in self.steps]
-        at = int(step) if step.isdecimal() and len(step) < 4 else -1
-        plain = step.strip().lower().replace("−", "-")
-        name = names[at] if 0 <= at < len(names) else plain
+    def _join(self, scheme: str, names: tuple[str, ...]) -> Remedy:
+        """Return the devices that these steps add, without those of other steps."""
+        remedies = [self.find_step(name).own for name in names]
+        return join_remedies(scheme, remedies)._replace(steps=names)
+
+    def find_step(self, name: str) -> Step:
+        """Return the listed step of this name."""
+        return next(step for step in self.steps if step.step == name)
+
+    def _choose(self, text: str) -> tuple[str, ...]:
+        """Return the names of the steps that a text names or numbers, in the ladder's order."""
+        names = [self._find_name(part, text) for part in _SUM.split(text)]
+        if len({*names}) < len(names):
+            raise BalcliError(f'step "{text[:60]}" has a step twice')
+        return tuple(step.step for step in self.steps if step.step in names)
+
+    def _find_name(self, part: str, text: str) -> str:
+        """Return the name of the step that a part of a text names or numbers."""
+        names = [step.step for step in self.steps]
+        plain = part.strip().lower().replace("−", "-")
+        name = plain
+        if plain.isdecimal() and len(plain) < 4 and int(plain) < len(names):
+            name = names[int(plain)]
         if name in names[1:]:
             return name
-        rows = ", ".join(f"{k} {name}" for k, name in enumerate(names) if k)
-        rows = rows or "none, because nothing is worth fitting"
         for out in self.left_out:
             if out.step == name:
                 raise BalcliError(f'step "{name}" is left out: {self._explain(out)}')
-        raise BalcliError(f'step "{step[:60]}": the choices are {rows}; 0 is the engine as drawn')
+        rows = ", ".join(f"{number} {name}" for number, name in enumerate(names) if number)
+        rows = rows or "none, because nothing is worth fitting"
+        raise BalcliError(f'step "{text[:60]}": the choices are {rows}; 0 is the engine {AS_DRAWN}')
 
     def _explain(self, out: LeftOut) -> str:
-        """Return in words the effect of an omitted step and, if an option can list the step, this
-        option.
-        """
+        """Return in words the effect of an omitted step and the way to get it, if there is one."""
         share, fall = self.measure(out), out.main_bearing_N
-        does, hint = "cancel", f"; --small {math.floor(share)}% lists it"
-        if fall is not None:
-            does = f"{'lower' if fall > 0 else 'raise'} the largest main bearing load by"
-            hint = hint if fall > 0 else ""
-        return f"it would {does} {abs(share):.2g} % of one cylinder's first order{hint}"
+        size = f"{abs(share):.2g} % of one cylinder's first order"
+        lists_it = f"--small {math.floor(share)}% lists it"
+        if fall is None:
+            return f"it would cancel {size}; {lists_it}"
+        if self.by_power:
+            return (
+                "gas governs the bearings of a two-stroke engine with crossheads; "
+                "--scheme counterweights --planes throws fits them"
+            )
+        if fall > 0:
+            return f"it would lower the largest main bearing load by {size}; {lists_it}"
+        return f"it would raise the largest main bearing load by {size}"
 
     def measure(self, out: LeftOut) -> float:
         """Return the force or moment that an omitted step would cancel, or its reduction of the
@@ -189,76 +323,119 @@ class Ladder(NamedTuple):
         return max((100 * size / scale for size, scale in sizes if scale), default=math.nan)
 
 
-# ------------------------------------------------------------------ devices
-def add_at_throws(fitting: Fitting) -> Fitting:
-    """Return the fitting with a counterweight at every throw. The cylinders of a throw make a
-    force of order 1; the counterweight cancels the part of this force that turns with the crank.
-    Each counterweight of the file is subtracted at the nearest throw. If a force or moment remains
-    (from stagger, or weights of the file), the smallest additional unbalances cancel it.
+# ------------------------------------------------------------------ the engine as drawn
+class _Drawn(NamedTuple):
+    """An engine without new devices.
+
+    Attributes:
+        engine: Engine as drawn.
+        start: Fitting without devices; forces of compensators are ignored.
+        first: Residual of order 1.
+        second: Residual of order 2.
+        scales: Force, moment and roll of one cylinder.
+        small: Forces and moments below this share of one cylinder's first order are not balanced.
+        by_power: Whether steps are judged by the power related unbalance.
+        power: Power of the engine if `by_power`; None if it is not known.
     """
-    engine, throws = fitting.engine, fitting.engine.joined_throws_m
-    forward = compute_spectra(engine, [1], ("force",), each=True)["force"].forward[0]
-    unbalances = np.zeros(len(throws), complex)
-    np.add.at(unbalances, engine.joined_throw_of_rows, -forward / float(engine.omega) ** 2)
-    for device in engine.devices:
-        if device.kind is DeviceKind.COUNTERWEIGHT:
-            unbalances[np.abs(throws - device.z).argmin()] -= device.forward
-    slots = [Slot("counterweight", 1, 1, float(z)) for z in throws]
-    left = fitting.add(slots, unbalances, "").find_residual(1)
-    parts = FORWARD if engine.places_known else FORWARD[:1]
-    if any(left.parts[part] for part in parts):
-        unbalances = unbalances + size_unbalances(slots, left, parts).unbalances
-    return fitting.add(slots, unbalances.tolist(), _AT_THROWS)
+
+    engine: Engine
+    start: Fitting
+    first: Residual
+    second: Residual
+    scales: Scales
+    small: float
+    by_power: bool
+    power: Power | None
+
+    def relate(self, order: int, moment: float) -> float | None:
+        """Return the power related unbalance of a moment, N m/kW; None if no power is known.
+
+        Args:
+            order: Order n of the moment.
+            moment: Moment divided by `n^2 omega^2` (omega: crank speed), kg m2.
+        """
+        if self.power is None:
+            return None
+        turning = order * float(at_rated_speed(self.engine).omega)
+        return self.power.relate(turning**2 * moment)
 
 
-def add_at_ends(fitting: Fitting, first: Residual, sense: int = 1) -> Fitting:
-    """Return the fitting with counterweights in the end planes. They cancel the part of order 1
-    that turns in the direction `sense` (1: as the first crank, -1: against it), and are on the
-    first crank that turns in this direction.
+def _draw(engine: Engine, small: float) -> _Drawn:
+    """Return what the steps of the ladder need to know of an engine without new devices."""
+    start = Fitting.start(ignore_compensators(engine), "")
+    by_power = all(map(is_crosshead_two_stroke, (one.engine for one in engine.cranks)))
+    return _Drawn(
+        engine=engine,
+        start=start,
+        first=start.find_residual(1),
+        second=start.find_residual(2),
+        scales=find_scales(engine),
+        small=small,
+        by_power=by_power,
+        power=find_power(engine) if by_power else None,
+    )
+
+
+def is_crosshead_two_stroke(engine: Engine) -> bool:
+    """Return whether a single engine is a two-stroke engine with crossheads: its file gives the
+    mass of a crosshead, or its stroke is longer than any trunk piston allows.
     """
-    one = find_carriers(fitting.engine)[sense]
-    slots = [Slot.on_crank(one, z) for z in find_ends(one.engine)]
-    return fitting.cancel(slots, list_parts(sense), explain_counterweights(first, sense), first)
+    if engine.strokes != 2:
+        return False
+    stroke = 2 * float(np.max(engine.throw_radii_m))
+    long_for_its_bore = stroke > _LONG_STROKE_IN_BORES * float(engine.bore_m)
+    has_crosshead = any(float(masses.crosshead) > 0 for masses in engine.weighed)
+    return has_crosshead or stroke > _LONG_STROKE_M or long_for_its_bore
 
 
-def add_shafts(fitting: Fitting, residual: Residual, senses: Iterable[int]) -> Fitting:
-    """Return the fitting with shafts for the parts of an order that turn in these directions. A
-    shaft has one eccentric if that cancels force and moment, else two in the end planes.
+# ------------------------------------------------------------------ steps on offer
+class _Cancelled(NamedTuple):
+    """Forces and moments that a step cancels.
+
+    Attributes:
+        force: Largest rotating force, N.
+        moment: Largest rotating moment, N m.
+        share: The larger of the two as a share of one cylinder's first order.
     """
-    for sense in senses:
-        planes = find_planes(fitting.engine, residual, sense)
-        slots = [Slot("shaft", residual.order, sense, z) for z in planes]
-        parts, reason = list_parts(sense), explain_shaft(residual, sense, len(slots))
-        fitting = fitting.cancel(slots, parts, reason, residual)
-    return fitting
+
+    force: float = 0.0
+    moment: float = 0.0
+    share: float = 0.0
 
 
-def ignore_compensators(engine: Engine) -> Engine:
-    """Return the engine with the moments of its compensators but without their forces: for each, an
-    opposite force is added at the point of reference, where it makes no moment.
+class _Offer(NamedTuple):
+    """A step that the ladder lists or leaves out.
+
+    Attributes:
+        name: Name of the step.
+        order: Order that it balances.
+        listed: Whether the ladder lists it.
+        own: Devices that it adds; none if all forces and moments that it could cancel are small.
+        cancels: Forces and moments that it cancels.
+        limit: Share from which it is fitted by default; None if it is not judged by a share.
+        worth_it: Whether it is worth its devices.
+        takes_back: Whether its counterweights work against those of the file.
+        related: Power related unbalance of the moment that it faces, N m/kW; None if not known.
+        fall: Reduction of the largest main bearing load, N; only for counterweights at every throw.
     """
-    *_, z = engine.reference_m
-    opposite = [
-        device._replace(forward=-device.forward, backward=-device.backward, z=float(z), spin=0.0)
-        for device in engine.every_device
-        if device.compensates
-    ]
-    return replace(engine, devices=(*engine.devices, *opposite)) if opposite else engine
+
+    name: str
+    order: int
+    listed: bool
+    own: Remedy
+    cancels: _Cancelled = _Cancelled()
+    limit: float | None = None
+    worth_it: bool = True
+    takes_back: bool = False
+    related: float | None = None
+    fall: float | None = None
+
+    @property
+    def fits_something(self) -> bool:
+        """Whether the step has an effect, however small."""
+        return bool(self.cancels.share or self.own.devices)
 
 
-def size_complete(engine: Engine) -> Remedy:
-    """Return devices that cancel all forces and moments of orders 1 and 2, even small ones."""
-    fitting = Fitting.start(ignore_compensators(engine), "complete")
-    first, second = fitting.find_residual(1), fitting.find_residual(2)
-    carriers = find_carriers(engine)
-    for sense in carriers:
-        if any(first.parts[part] for part in list_parts(sense)):
-            fitting = add_at_ends(fitting, first, sense)
-    fitting = add_shafts(fitting, first, {-1}.difference(carriers))
-    return add_shafts(fitting, second, [1, -1]).remedy
-
-
-# ------------------------------------------------------------------ steps
 def find_ladder(engine: Engine, small: float = SMALL) -> Ladder:
     """Return the ladder of an engine.
 
@@ -270,97 +447,329 @@ def find_ladder(engine: Engine, small: float = SMALL) -> Ladder:
         BalcliError: `small` is not a share from 0 to 50 %.
     """
     check_small(small)
-    drawn, scales = Fitting.start(ignore_compensators(engine), ""), find_scales(engine)
-    first, second = drawn.find_residual(1), drawn.find_residual(2)
-    steps, left_out, fitting = _list_weights(engine, drawn, first, scales, small)
-    auto = steps[-1].step
-    others = {-1}.difference(find_carriers(engine))
-    for name, residual, senses in ((SHAFT, first, others), (SHAFTS, second, (1, -1))):
-        sizes = {sense: find_size(residual, list_parts(sense), scales) for sense in senses}
-        if due := [sense for sense, size in sizes.items() if not is_small(size, small)]:
-            fitting = add_shafts(fitting, residual, due)
-            steps.append(_make_step(name, engine, fitting))
-            auto = name if max(sizes.values()) >= WORTH_A_SHAFT else auto
-        elif any(sizes.values()):
-            left_out.append(_leave_out(name, engine, residual, senses))
-    moment = scales.moment if engine.places_known else None
-    scale = Scale(force_N=scales.force, moment_Nm=moment)
-    return Ladder(scale=scale, auto=auto, steps=tuple(steps), left_out=tuple(left_out), small=small)
+    drawn = _draw(engine, small)
+    steps = [_make_step(engine, AS_DRAWN, [])]
+    listed: list[_Offer] = []
+    left_out: list[_Offer] = []
 
+    def consider(offer: _Offer) -> None:
+        """List the step, or leave it out."""
+        if not offer.listed:
+            left_out.append(offer)
+            return
+        if offer.name == WEIGHTS_AT_THROWS:  # these replace the counterweights in the end planes
+            listed.clear()
+        listed.append(offer)
+        steps.append(_make_step(engine, offer.name, listed))
 
-def _list_weights(
-    engine: Engine, drawn: Fitting, first: Residual, scales: Scales, small: float
-) -> tuple[list[Step], list[LeftOut], Fitting]:
-    """Return the step "as drawn" and the steps with counterweights, the omitted steps, and the
-    fitting of the last listed step.
-
-    Args:
-        engine: Engine as drawn.
-        drawn: Fitting without devices.
-        first: Residual of order 1.
-        scales: Force, moment and roll of one cylinder.
-        small: Forces and moments below this share of one cylinder's first order are not balanced.
-    """
-    senses = find_carriers(engine)
-    turning = {sense: find_size(first, list_parts(sense), scales) for sense in senses}
-    fitting, steps, left_out = drawn, [_make_step(AS_DRAWN, engine, drawn)], []
-    if due := [sense for sense, size in turning.items() if not is_small(size, small)]:
-        for sense in due:
-            fitting = add_at_ends(fitting, first, sense)
-        steps.append(_make_step(WEIGHTS, engine, fitting))
-    inside = steps[0].inner_moment_Nm is not None
-    if inside and len(set(engine.joined_throws_m.tolist())) > 2:
-        at_throws = add_at_throws(drawn)
-        step = _make_step(WEIGHTS_AT_THROWS, engine, at_throws)
-        load = steps[-1].main_bearing_N or 0.0
-        fall = load - (step.main_bearing_N or 0.0)
-        if fall > LEFT * load and not is_small(fall, small * scales.force):
-            fitting = at_throws
-            steps.append(step)
-        elif step.counterweights:
-            left_out.append(_leave_out(WEIGHTS_AT_THROWS, engine, first, [1], fall))
-    if any(turning.values()) and len(steps) == 1:
-        left_out.insert(0, _leave_out(WEIGHTS, engine, first, turning))
-    return steps, left_out, fitting
-
-
-def _leave_out(
-    step: str,
-    engine: Engine,
-    residual: Residual,
-    senses: Iterable[int],
-    main_bearing: float | None = None,
-) -> LeftOut:
-    """Return an omitted step with the largest force and moment that it would cancel."""
-    forces, moments = zip(*(map(residual.size, list_parts(sense)) for sense in senses), strict=True)
-    return LeftOut(
-        step=step,
-        force_N=max(forces),
-        moment_Nm=max(moments) if engine.places_known else None,
-        main_bearing_N=main_bearing,
+    consider(_offer_weights(drawn))
+    for offer in _offer_weights_at_throws(drawn, steps[-1], listed):
+        consider(offer)
+    for offer in _offer_compensators(drawn, listed) if drawn.by_power else _offer_shafts(drawn):
+        consider(offer)
+    names = [step.step for step in steps]
+    hidden = {WEIGHTS} if WEIGHTS_AT_THROWS in names else set()
+    omitted = [offer for offer in left_out if offer.fits_something and offer.name not in hidden]
+    return Ladder(
+        scale=_describe_scale(engine, drawn.scales),
+        auto=_choose_usual(steps),
+        roll=_find_roll(drawn),
+        file_counterweights=_weigh_file_counterweights(engine, steps[0]),
+        steps=tuple(steps),
+        left_out=tuple(_leave_out(engine, offer) for offer in omitted),
+        small=small,
+        by_power=drawn.by_power,
+        power=drawn.power,
     )
 
 
-def _make_step(name: str, engine: Engine, fitting: Fitting) -> Step:
-    """Return the figures of the engine with the devices of a fitting."""
-    remedy = fitting.remedy
+def _choose_usual(steps: Sequence[Step]) -> tuple[str, ...]:
+    """Return the names of the steps that are fitted by default.
+
+    If counterweights of a step take back some of the file's, the file settles order 1 in its own
+    way, and no step of order 1 is fitted.
+    """
+    settled = any(step.takes_back for step in steps)
+    names = [step.step for step in steps]
+    replaced = {WEIGHTS} if WEIGHTS_AT_THROWS in names else set()
+    return tuple(
+        step.step
+        for step in steps
+        if step.worth_it and step.step not in replaced and not (settled and step.order == 1)
+    )
+
+
+def _offer_weights(drawn: _Drawn) -> _Offer:
+    """Return the step with counterweights in the end planes."""
+    first, scales = drawn.first, drawn.scales
+    senses = [*find_carriers(drawn.engine)]
+    due = [sense for sense in senses if not is_small(_size(first, [sense], scales), drawn.small)]
+    fitting = drawn.start
+    for sense in due:
+        fitting = add_at_ends(fitting, first, sense)
+    offer = _Offer(
+        WEIGHTS,
+        1,
+        listed=bool(due),
+        own=fitting.remedy,
+        cancels=_measure(first, senses, scales),
+        takes_back=_takes_back(drawn, fitting.remedy),
+    )
+    if not drawn.by_power:
+        return offer
+    related = drawn.relate(1, sum(abs(first.parts[part]) for part in MOMENT))
+    worth_it = related is not None and needs_compensator(related)
+    return offer._replace(related=related, worth_it=worth_it)
+
+
+def _offer_weights_at_throws(
+    drawn: _Drawn, before: Step, listed: Sequence[_Offer]
+) -> Iterator[_Offer]:
+    """Yield the step with counterweights at every throw, if the crank has throws in three or more
+    planes and its loads are known.
+
+    Args:
+        drawn: Engine as drawn.
+        before: Last listed step.
+        listed: Steps that are listed, without "as drawn".
+    """
+    engine, scales = drawn.engine, drawn.scales
+    planes = {*engine.joined_throws_m.tolist()}
+    if before.inner_moment_Nm is None or len(planes) < 3:
+        return
+    remedy = add_at_throws(drawn.start).remedy
+    offer = _Offer(WEIGHTS_AT_THROWS, 1, listed=False, own=remedy)
+    if not listed:  # else the step before has cancelled order 1
+        offer = offer._replace(cancels=_measure(drawn.first, [1], scales))
+    load = before.main_bearing_N or 0.0
+    fall = load - (_make_step(engine, offer.name, [offer]).main_bearing_N or 0.0)
+    relieves = fall > LEFT * load and not is_small(fall, drawn.small * scales.force)
+    yield offer._replace(
+        listed=relieves and not drawn.by_power,
+        takes_back=_takes_back(drawn, remedy),
+        fall=fall,
+    )
+
+
+def _offer_shafts(drawn: _Drawn) -> Iterator[_Offer]:
+    """Yield the steps with balancer shafts, for order 1 and for order 2."""
+    cylinders = max(len(drawn.engine.rising_numbers), FEWEST_CYLINDERS_COUNTED)
+    without_crank = {-1}.difference(find_carriers(drawn.engine))
+    for residual, senses, limit in (
+        (drawn.first, without_crank, WORTH_A_SHAFT_OF_ORDER_1),
+        (drawn.second, (1, -1), WORTH_A_SHAFT_OF_ORDER_2 * cylinders),
+    ):
+        sizes = {sense: _size(residual, [sense], drawn.scales) for sense in senses}
+        due = [sense for sense, size in sizes.items() if not is_small(size, drawn.small)]
+        named = due or [sense for sense, size in sizes.items() if size]
+        if not named:
+            continue
+        yield _Offer(
+            SHAFT if residual.order == 1 else name_shafts(named),
+            residual.order,
+            listed=bool(due),
+            own=add_shafts(drawn.start, residual, due).remedy,
+            cancels=_measure(residual, named, drawn.scales),
+            limit=limit,
+            worth_it=not is_small(max(sizes.values()), limit),
+        )
+
+
+def _offer_compensators(drawn: _Drawn, listed: Sequence[_Offer]) -> Iterator[_Offer]:
+    """Yield the steps with compensators at both ends of the engine, for orders 1 and 2.
+
+    Args:
+        drawn: Engine as drawn.
+        listed: Steps with counterweights that are listed.
+    """
+    if not drawn.engine.places_known:
+        return
+    weighted = drawn.start._replace(remedy=join_remedies("", [offer.own for offer in listed]))
+    for residual in (weighted.find_residual(1), drawn.second):
+        turning = abs(find_moment_about_y(residual))
+        moment = turning * residual.newtons_per_kg_m
+        share = moment / drawn.scales.moment if moment else 0.0
+        due = not is_small(share, drawn.small)
+        fitting = drawn.start
+        if due:
+            fitting = add_compensators(fitting, residual, find_ends(drawn.engine))
+        related = drawn.relate(residual.order, turning)
+        yield _Offer(
+            name_compensators(residual.order),
+            residual.order,
+            listed=due,
+            own=fitting.remedy,
+            cancels=_Cancelled(moment=moment, share=share),
+            worth_it=related is not None and needs_compensator(related),
+            related=related,
+        )
+
+
+def _size(residual: Residual, senses: Iterable[int], scales: Scales) -> float:
+    """Return the largest force or moment that turns in these directions, as a share of one
+    cylinder's first order; 0 for no direction.
+    """
+    return max((find_size(residual, list_parts(sense), scales) for sense in senses), default=0.0)
+
+
+def _measure(residual: Residual, senses: Sequence[int], scales: Scales) -> _Cancelled:
+    """Return the largest force and moment of an order that turn in these directions."""
+    pairs = [list_parts(sense) for sense in senses]
+    return _Cancelled(
+        force=max((residual.size(force) for force, _ in pairs), default=0.0),
+        moment=max((residual.size(moment) for _, moment in pairs), default=0.0),
+        share=_size(residual, senses, scales),
+    )
+
+
+def _takes_back(drawn: _Drawn, remedy: Remedy) -> bool:
+    """Return whether new counterweights work against those of the file: the scalar product of what
+    they add to force and moment, both as shares of one cylinder's first order, is negative.
+    """
+    before = _list_counterweights(drawn.engine)
+    after = _list_counterweights(fit_devices(drawn.engine, remedy))
+    of_file = _sum_effects(drawn, before)
+    added = _sum_effects(drawn, after) - of_file
+    arm = max(measure_length(crank.engine).metres for crank in drawn.engine.cranks)
+    weights = [1 if part.kind == "force" else arm**-2 for part in _OF_WEIGHTS]
+    product = float(np.sum(weights * (added * of_file.conj()).real))
+    size_of_file = sum(_measure_unbalance(device) for device in before)
+    size_added = sum(map(find_unbalance, remedy.devices))
+    return product < -_SAME_SENSE * size_of_file * size_added
+
+
+def _list_counterweights(engine: Engine) -> list[Device]:
+    """Return the counterweights of all cranks."""
+    return [one for one in engine.every_device if one.kind is DeviceKind.COUNTERWEIGHT]
+
+
+def _measure_unbalance(device: Device) -> float:
+    """Return the unbalance of a counterweight, kg m."""
+    return abs(complex(device.forward)) + abs(complex(device.backward))
+
+
+def _sum_effects(drawn: _Drawn, devices: Iterable[Device]) -> Complex:
+    """Return what devices add to the parts `_OF_WEIGHTS`, in units of `Residual.parts`, shape
+    (parts,). Moments that are not known are 0.
+    """
+    reference = drawn.first.reference
+    total: Complex = np.zeros(len(_OF_WEIGHTS), complex)
+    for device in devices:
+        total += find_effect(device, _OF_WEIGHTS, reference)
+    known = [part.kind == "force" or drawn.engine.places_known for part in _OF_WEIGHTS]
+    return np.where(known, total, 0)
+
+
+# ------------------------------------------------------------------ figures
+def _make_step(engine: Engine, name: str, offers: Sequence[_Offer]) -> Step:
+    """Return the figures of the engine with the devices of a step.
+
+    Args:
+        engine: Engine as drawn.
+        name: Name of the step.
+        offers: Steps whose devices are fitted, this step last; none as drawn.
+    """
+    remedy = join_remedies("", [offer.own for offer in offers])
     fitted = fit_devices(engine, remedy)
     kinds = ("force", "moment") if engine.places_known else ("force",)
     orders = merge_orders(find_relevant_orders(fitted), [1, 2])
-    peaks = {
-        f"peak_{kind.key}": float(find_largest(phasors))
-        for kind, phasors in compute_spectra(fitted, orders, kinds).items()
-    }
+    spectra = compute_spectra(fitted, orders, kinds)
     loads = find_crank_loads(fitted)
-    return Step(
+    step = Step(
         step=name,
-        **peaks,
+        peak_force_N=float(find_largest(spectra["force"])),
+        peak_moment_Nm=float(find_largest(spectra["moment"])) if engine.places_known else None,
         main_bearing_N=None if loads is None else loads.main_N,
         inner_moment_Nm=None if loads is None else loads.inner_moment_Nm,
         counterweights=len(remedy.counterweights),
         shafts=len({(shaft.ratio, shaft.at) for shaft in remedy.shafts}),
-        mass_kg=sum(
-            find_unbalance(d) / engine.find_radius(d.position / 1e3) for d in remedy.devices
-        ),
+        mass_kg=sum(map(find_unbalance, remedy.devices)) / _find_first_radius(engine),
+        own=Remedy(""),
         remedy=remedy,
     )
+    if not offers:
+        return step
+    offer = offers[-1]
+    return replace(
+        step,
+        takes_back=offer.takes_back or None,
+        pru_Nm_per_kW=offer.related,
+        order=offer.order,
+        share=offer.cancels.share,
+        limit=offer.limit,
+        worth_it=offer.worth_it,
+        own=offer.own,
+    )
+
+
+def _find_first_radius(engine: Engine) -> float:
+    """Return the crank radius of cylinder 1 (of the first engine), m."""
+    first = engine.cranks[0].engine
+    return float(first.cylinders.radius_of_each[first.numbers.index(1)])
+
+
+def _leave_out(engine: Engine, offer: _Offer) -> LeftOut:
+    """Return a step that is not listed."""
+    return LeftOut(
+        step=offer.name,
+        force_N=offer.cancels.force,
+        moment_Nm=offer.cancels.moment if engine.places_known else None,
+        main_bearing_N=offer.fall,
+    )
+
+
+def _describe_scale(engine: Engine, scales: Scales) -> Scale:
+    """Return force and moment of one cylinder."""
+    if not engine.places_known:
+        return Scale(scales.force)
+    length = None if engine.placed else measure_length(engine)
+    return Scale(scales.force, scales.moment, length)
+
+
+def _weigh_file_counterweights(engine: Engine, drawn: Step) -> FileCounterweights | None:
+    """Return the largest main bearing load without and with the counterweights of the file; None
+    without such counterweights, or if the load is not known.
+
+    Args:
+        engine: Engine as drawn.
+        drawn: First step of the ladder.
+    """
+    if not _list_counterweights(engine) or drawn.main_bearing_N is None:
+        return None
+    loads = find_crank_loads(remove_counterweights(engine))
+    if loads is None or loads.main_N is None:
+        return None
+    return FileCounterweights(without_N=loads.main_N, with_N=drawn.main_bearing_N)
+
+
+def _find_roll(drawn: _Drawn) -> LargestRoll | None:
+    """Return the largest order of the roll; None if there is no roll."""
+    engine = drawn.engine
+    kind, orders = ROLL, merge_orders(find_relevant_orders(engine), [1, 2])
+    if engine.gas is not None:
+        kind, orders = ROLL_TOTAL, merge_orders(orders, list_gas_orders(engine))
+    phasors = compute_spectra(engine, orders, (kind.name,))[kind.name]
+    sizes = np.where(phasors.orders > 0, phasors.major, 0.0)
+    largest = int(find_first_largest(sizes))
+    if not sizes[largest]:
+        return None
+    roll = LargestRoll(
+        of="inertia" if kind is ROLL else "total",
+        order=float(phasors.orders[largest]),
+        amplitude_Nm=float(sizes[largest]),
+    )
+    second = drawn.second
+    of_order_2 = compute_spectra(hold_steady(engine), [2], (kind.name,))[kind.name]
+    amplitude = 2 * complex(of_order_2.forward[0])
+    if not (amplitude and second.force(1) and second.force(-1)):
+        return roll
+    places = place_pair(second, find_wanted_roll(second, amplitude / second.newtons_per_kg_m))
+    distance = find_distance(second, places)
+    if distance is None:
+        return roll
+    at = {
+        f"{2 * sense:+d}": (as_millimetres(place.real), as_millimetres(place.imag))
+        for sense in (1, -1)
+        for place in places[sense]
+    }
+    return roll._replace(shafts_at_mm=at, distance_m=distance)

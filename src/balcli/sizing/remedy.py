@@ -35,7 +35,9 @@ class Remedy(NamedTuple):
         knuckle_angles_deg: New `articulation.knuckle_angles` (scheme knuckles).
         beyond: Devices that no engine file can describe, in SI units.
         start: Engine to which the devices are fitted, if it is not the engine of the file.
-        step: Name of the step of the ladder (schemes auto and step).
+        step: Name of the step of the ladder whose row is fitted (scheme step).
+        steps: Names of the steps of the ladder whose devices are fitted (scheme auto, and scheme
+            step with several steps); None for other schemes.
     """
 
     scheme: str
@@ -51,6 +53,7 @@ class Remedy(NamedTuple):
     beyond: tuple[Device, ...] = ()
     start: Engine | None = None
     step: str = ""
+    steps: tuple[str, ...] | None = None
 
     @property
     def counterweights(self) -> tuple[Counterweight, ...]:
@@ -87,6 +90,21 @@ class Remedy(NamedTuple):
         if group:
             figures = {group: {**self.details.get(group, {}), **figures}}
         return self._replace(details={**self.details, **figures})
+
+
+def join_remedies(scheme: str, remedies: Iterable[Remedy]) -> Remedy:
+    """Return one remedy with the devices, reasons and details of several.
+
+    Args:
+        scheme: Name of the scheme.
+        remedies: Remedies that change nothing but devices.
+    """
+    joined = Remedy(scheme)
+    for remedy in remedies:
+        for device, reason in zip(remedy.devices, remedy.reasons, strict=True):
+            joined = joined.add_devices([device], reason)
+        joined = joined.add_details(**remedy.details)
+    return joined
 
 
 def fit_devices(engine: Engine, remedy: Remedy) -> Engine:

@@ -112,10 +112,33 @@ def find_scales(engine: Engine) -> Scales:
         return Scales(*map(max, zip(*each, strict=True)))
     radius = np.ravel(engine.cylinders.radius).astype(float)
     masses = np.array([float(each.reciprocating) for each in engine.weighed])
-    z = np.ravel(engine.cylinders.z)
     force = float(np.max(masses * radius)) * float(engine.omega) ** 2
-    length = max(float(np.ptp(z)), 2 * float(radius.max()))
-    return Scales(force, force * length, force * float(radius.max()))
+    return Scales(force, force * measure_length(engine).metres, force * float(radius.max()))
+
+
+class EngineLength(NamedTuple):
+    """Length by which a force is multiplied to get the scale of moments.
+
+    Attributes:
+        metres: Length, m.
+        of_crank: Whether it is twice the largest crank radius, because the cylinder axes are
+            closer together.
+    """
+
+    metres: float
+    of_crank: bool
+
+
+def measure_length(engine: Engine) -> EngineLength:
+    """Return the axial distance of the outermost cylinder axes, but at least twice the largest
+    crank radius.
+
+    Args:
+        engine: One crank, not several geared ones.
+    """
+    between = float(np.ptp(np.ravel(engine.cylinders.z)))
+    twice_radius = 2 * float(np.max(engine.cylinders.radius))
+    return EngineLength(max(between, twice_radius), of_crank=twice_radius > between)
 
 
 def find_size(residual: Residual, parts: Iterable[ResidualPart], scales: Scales) -> float:

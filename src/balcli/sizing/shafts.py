@@ -13,7 +13,6 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Sequence
 
 from ..engine.engine import Engine
 from ..errors import MOMENTS_UNKNOWN, BalcliError
@@ -23,11 +22,19 @@ from .fitting import (
     explain_shaft,
     tell_moment,
 )
-from .ladder import add_at_ends
 from .options import SchemeOptions
+from .pairs import (
+    Places,
+    find_distance,
+    find_moment_about_y,
+    find_wanted_roll,
+    place_forces,
+    place_pair,
+)
 from .planes import (
     as_millimetres,
     choose_plane,
+    find_carriers,
     locate_force,
     read_two_planes,
 )
@@ -35,8 +42,6 @@ from .remedy import Remedy
 from .residual import (
     BACKWARD,
     FORCE,
-    MOMENT,
-    ROLL,
     NothingToBalanceError,
     OnlySmallError,
     Residual,
@@ -47,21 +52,18 @@ from .residual import (
     is_small,
     tell_small,
 )
+from .steps import add_at_ends, add_compensators
 
 _ROUNDING_M = 1e-9
-_COMPENSATES = (
-    "Order {} moment about y: two masses that turn in opposite directions make a force along x, "
-    "whose moment cancels it; the force remains"
-)
 
 
 def size_single_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
     """Fit one shaft at -N for the part of order N that turns against the crank; for N = 1 also
     counterweights for the part that turns with the crank.
 
-    By default, one eccentric cancels the force. Its axial distance from the force leaves a couple,
-    which the details list. Unless a position is given, the eccentric is placed where this couple is
-    smallest. Two eccentrics in given planes also cancel the moment.
+    By default, one eccentric cancels the force. Its axial distance from the force leaves a
+    longitudinal moment, which the details list. Unless a position is given, the eccentric is placed
+    where this moment is smallest. Two eccentrics in given planes also cancel the moment.
     """
     two = options.planes is not None
     if two and options.position is not None:
@@ -80,7 +82,7 @@ def size_single_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
     if not two:
         distance = planes[0] - locate_force(residual, -1)
         distance_mm = 1e3 * distance if abs(distance) > _ROUNDING_M else 0.0
-        fitting = fitting.describe_left(residual.order, "couple_left_Nm")
+        fitting = fitting.describe_left(residual.order, "moment_left_Nm")
         fitting = fitting.add_details(axial_distance_mm=distance_mm)
     fitting = fitting.describe_roll(residual)
     if residual.order > 1:
@@ -90,26 +92,31 @@ def size_single_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
 
 def size_couple_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
     """Fit shafts at +N and -N for the moment of order N. Each shaft has two opposite eccentrics in
-    two planes. If the moment turns in only one direction, fit only one shaft.
+    two planes. If the moment turns in only one direction, fit only one shaft. For N = 1, the part
+    of order 1 that turns with a crank is cancelled by counterweights in its end planes.
     """
     residual = choose_residual(engine, options, ("moment",))
     low, high = read_two_planes(engine, options)
-    senses = [sense for sense in (-1, 1) if residual.moment(sense)]
+    fitting = Fitting.start(engine, "couple-shaft", residual.order)
+    senses = {sense for sense in (-1, 1) if residual.moment(sense)}
+    if residual.order == 1:
+        on_cranks = senses.intersection(find_carriers(engine))
+        for sense in sorted(on_cranks, reverse=True):
+            fitting = add_at_ends(fitting, residual, sense)
+        senses -= on_cranks
     at = options.at or ()
     if len(at) > len(senses):
-        told = "two shafts" if len(senses) == 2 else "one shaft"
-        raise BalcliError(f"--at: this moment takes {told}; give no further places")
-    fitting = Fitting.start(engine, "couple-shaft", residual.order)
+        shafts = {0: "no shaft", 1: "one shaft", 2: "two shafts"}
+        raise BalcliError(f"--at: this moment takes {shafts[len(senses)]}; give no further places")
     moment = residual._replace(parts={**residual.parts, **dict.fromkeys(FORCE, 0j)})
-    for sense, place in reversed([*zip(senses, (*at, 0j, 0j), strict=False)]):
+    against_first = sorted(senses)
+    placed = [*zip(against_first, (*at, 0j, 0j), strict=False)]
+    for sense, place in reversed(placed):
         slots = [Slot("shaft", residual.order, sense, z, place) for z in (low, high)]
         unbalance = residual.moment(sense) / (high - low)
         reason = explain_shaft(moment, sense, len(slots))
         fitting = fitting.add(slots, (unbalance, -unbalance), reason)
     return fitting.describe_left(residual.order, "moment_left_Nm", "force_left_N").remedy
-
-
-Places = dict[int, tuple[complex, ...]]  # positions x + iy, m; keys: 1 with crank, -1 against
 
 
 def size_two_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
@@ -147,19 +154,13 @@ def size_compensator(engine: Engine, options: SchemeOptions) -> Remedy:
     order, position = options.order or 2, options.position
     places = position if isinstance(position, tuple) else (position,)
     residual = find_residual(engine, order)
-    moment = _find_moment_about_y(residual)
+    moment = find_moment_about_y(residual)
     if not moment:
         raise NothingToBalanceError(f"Order {order} has no moment about y: nothing to compensate")
-    forces = _place_forces(-moment, places, residual.reference.z)
+    forces = place_forces(-moment, places, residual.reference.z)
     fitting = Fitting.start(engine, "compensator", order)
-    for z, force in forces.items():
-        slots = [
-            Slot("shaft", order, sense, z, options.read_place(), role="compensator")
-            for sense in (1, -1)
-        ]
-        pair = force / 2, force.conjugate() / 2
-        fitting = fitting.add(slots, pair, _COMPENSATES.format(order))
-    newtons, left = residual.newtons_per_kg_m, _find_moment_about_y(fitting.find_residual(order))
+    fitting = add_compensators(fitting, residual, places, options.read_place())
+    newtons, left = residual.newtons_per_kg_m, find_moment_about_y(fitting.find_residual(order))
     return fitting.remedy.add_details(
         moment_before_Nm=abs(moment) * newtons,
         moment_after_Nm=abs(left) * newtons,
@@ -170,28 +171,6 @@ def size_compensator(engine: Engine, options: SchemeOptions) -> Remedy:
             for z, force in forces.items()
         ],
     )
-
-
-def _find_moment_about_y(residual: Residual) -> complex:
-    """Return the complex amplitude of the moment about y, divided by `n^2 omega^2` (n: order,
-    omega: crank speed), kg m^2; 0 if it is within rounding errors.
-    """
-    moment = residual.moment(1) + residual.moment(-1).conjugate()
-    noise = sum(residual.noise[part] for part in MOMENT)
-    return moment if abs(moment) > noise else 0j
-
-
-def _place_forces(moment: complex, places: Sequence[float], z_ref: float) -> dict[float, complex]:
-    """Return forces (kg m) that together make a moment (kg m^2), by their places (z, m).
-    With a single place, the moment is taken about `z_ref`.
-    """
-    if len(places) > 2:
-        raise BalcliError("--position takes one z, or two")
-    first, other = places[0], places[1] if len(places) > 1 else z_ref
-    if first == other:
-        raise BalcliError(f"--position {1e3 * first:g} mm: no lever arm to z = {1e3 * other:g} mm")
-    force = moment / (first - other)
-    return {first: force} if len(places) == 1 else {first: force, other: -force}
 
 
 def size_four_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
@@ -223,6 +202,9 @@ def _add_pair(fitting: Fitting, residual: Residual, options: SchemeOptions) -> F
         fitting = fitting.add(slots, [share] * len(slots), reason)
     group = f"order_{residual.order}"
     fitting = fitting.add_details(group, **_describe_places(places))
+    distance = find_distance(residual, places) if options.roll else None
+    if distance is not None:
+        fitting = fitting.add_details(group, distance_mm=1e3 * distance)
     fitting = fitting.describe_left(residual.order, "moment_left_Nm", group=group)
     return fitting.describe_roll(residual, group)
 
@@ -231,10 +213,8 @@ def _choose_places(residual: Residual, options: SchemeOptions) -> Places:
     """Return the positions of the shafts for each direction of rotation. Positions that are not
     given are chosen such that the pair adds no roll, or (option `roll`) such that no roll remains.
 
-    A pair cancels a roll (kg m^2) if `conj(p_B) V+ - p_A conj(V-) = i roll` (docs/theory.md). If no
-    position is given, the positions nearest to the crank are chosen (least squares). A force that
-    turns in only one direction needs one shaft on the crank axis, or two half shafts: one at the
-    given position, one opposite to it.
+    A force that turns in only one direction needs one shaft on the crank axis, or two half shafts:
+    one at the given position, one opposite to it.
     """
     at, forward, backward = options.at or (), residual.force(1), residual.force(-1)
     if len(at) > 2:
@@ -254,12 +234,8 @@ def _choose_places(residual: Residual, options: SchemeOptions) -> Places:
         raise BalcliError("--roll zero places the second shaft; give one --at")
     if len(at) == 2:
         return {-1: (at[0],), 1: (at[1],)}
-    here = residual.reference.place  # the roll to cancel is that about the crank axis
-    moved = here.conjugate() * forward - here * backward.conjugate()
-    wanted = 1j * residual.parts[ROLL] + moved if options.roll else 0j
-    against = at[0] if at else -wanted * backward / (abs(forward) ** 2 + abs(backward) ** 2)
-    with_crank = (wanted + against * backward.conjugate()) / forward
-    return {-1: (against,), 1: (with_crank.conjugate(),)}
+    wanted = find_wanted_roll(residual) if options.roll else 0j
+    return place_pair(residual, wanted, at[0] if at else None)
 
 
 def _describe_places(places: Places) -> dict[str, float]:

@@ -15,7 +15,7 @@ from .fitting import (
     explain_counterweights,
     size_unbalances,
 )
-from .ladder import add_at_throws, find_ladder, size_complete
+from .ladder import find_ladder
 from .minimax import size_ellipse, size_minimax
 from .options import SchemeOptions
 from .planes import (
@@ -47,6 +47,7 @@ from .shafts import (
     size_two_shaft,
 )
 from .single_cylinder import size_eccentric_slider, size_oldham
+from .steps import add_at_throws, size_complete
 
 _OF_ONE_CRANK = ("minimax", "ellipse", "eccentric-slider", "oldham")
 

@@ -4,7 +4,7 @@
 // [x, y]; SI units and radians unless a name says mm or deg.
 const Kernel = (() => {
   const TURN = 2 * Math.PI, SAMPLES = 256, ORDERS = 12, ROUNDING = 4e-15;
-  const WORTH_A_SHAFT = 0.3;
+  const LONG_STROKE = 1, LONG_STROKE_IN_BORES = 2.5;          // m, and in bores: only crosshead engines have longer strokes
   const UPRIGHT = { force: ["vertical", "horizontal"], moment: ["yawing", "pitching"] };
   const rad = (deg) => deg * TURN / 360, deg = (angle) => angle * 360 / TURN;
   const polar = (size, angle) => [size * Math.cos(angle), size * Math.sin(angle)];
@@ -59,9 +59,11 @@ const Kernel = (() => {
     const throws = data.throws.map((each) => form(each) / 1e3);
     const middle = (Math.min(...throws) + Math.max(...throws)) / 2;
     const reference = data.reference ? data.reference.map((v) => v / 1e3) : [0, 0, middle];
+    const bore = take("piston.bore") / 1e3, long = 2 * r > LONG_STROKE || (bore && 2 * r > LONG_STROKE_IN_BORES * bore);
+    const crossheads = data.strokes === 2 && (long || data.cylinders.some((c) => take(c.crosshead) > 0));
     return {
       omega, r, cylinders, throws, reference, devices: listDevices(numbers, first.axis), firstAxis: first.axis,
-      known: data.known, up: data.up, bore: take("piston.bore") / 1e3,
+      known: data.known, up: data.up, bore, crossheads,
     };
   }
 
@@ -213,32 +215,57 @@ const Kernel = (() => {
     const F = Math.max(...engine.cylinders.map((c) => c.reciprocating * c.r)) * square;
     const M = F * Math.max(Math.max(...z) - Math.min(...z), 2 * engine.r);
     const drawn = compute(engine), steps = [{ step: "as drawn", devices: [], ...drawn }];
-    let auto = "as drawn";
-    const part = (order, sense) => ["force", "moment"].map((kind) => {
-      const v = drawn.kinds[kind][order][sense > 0 ? 0 : 1];
+    const part = (kinds, order, sense) => ["force", "moment"].map((kind) => {
+      const v = kinds[kind][order][sense > 0 ? 0 : 1];
       return kind === "force" ? v : engine.known ? [v[1], -v[0]] : [0, 0];      // the moment is i z F
     });
     const share = ([f, m]) => F ? Math.max(size(f) / F, size(m) / M) : 0;
-    const step = (name, wanted) => {
-      const due = wanted.map(([order, sense]) => ({ order, sense, part: part(order, sense) }));
-      const large = due.filter((each) => share(each.part) && share(each.part) >= small * (1 - 1e-9));
-      if (!large.length) return;
-      const devices = [...steps.at(-1).devices, ...large.flatMap((each) => cancel(engine, each, M / F))];
-      steps.push({ step: name, devices, ...addDevices(engine, drawn.kinds, devices) });
-      if (name === "counterweights" || Math.max(...large.map((each) => share(each.part))) >= WORTH_A_SHAFT) auto = name;
+    const isLarge = (value) => value && value >= small * (1 - 1e-9);
+    const list = (step, devices) => {
+      const all = [...steps.at(-1).devices, ...devices];
+      steps.push({ step, devices: all, ...addDevices(engine, drawn.kinds, all) });
     };
-    step("counterweights", [[1, 1]]);
-    step("shaft at -1", [[1, -1]]);
-    step("shafts at +2 and -2", [[2, 1], [2, -1]]);
-    return { steps, auto, scale: { force: F, moment: M } };
+    // A step with a device for each of these directions in which a large part turns.
+    const offer = (order, senses, name) => {
+      const due = senses.map((sense) => ({ order, sense, part: part(drawn.kinds, order, sense) }));
+      const large = due.filter((each) => isLarge(share(each.part)));
+      if (large.length) list(name(large.map(({ sense }) => sense)), large.flatMap((each) => cancel(engine, each, M / F)));
+    };
+    // A step with pairs of masses at both ends, for the moment about y that the rows before leave.
+    const offerCompensators = (order) => {
+      const [[, ahead], [, against]] = [1, -1].map((sense) => part(steps.at(-1).kinds, order, sense));
+      const moment = add(ahead, [against[0], -against[1]]);
+      if (size(moment) > 1e-12 * M && isLarge(size(moment) / M)) list(`compensators of order ${order}`, compensate(engine, order, moment));
+    };
+    offer(1, [1], () => "counterweights");
+    if (engine.crossheads) {
+      if (engine.known) [1, 2].forEach(offerCompensators);
+    } else {
+      offer(1, [-1], () => "shaft at -1");
+      offer(2, [1, -1], (senses) => senses.length > 1 ? "shafts at +2 and -2" : `shaft at ${senses[0] > 0 ? "+2" : "-2"}`);
+    }
+    return { steps, scale: { force: F, moment: M } };
+  }
+
+  // The end planes: the first and the last throw; for throws in one plane, half a bore on either side of it.
+  function findEnds(engine) {
+    const [low, high] = [Math.min(...engine.throws), Math.max(...engine.throws)], half = engine.bore / 2 || engine.r;
+    return low === high ? [low - half, high + half] : [low, high];
+  }
+
+  // Pairs of equal masses in the end planes that turn in opposite directions: their forces along x cancel a moment about y.
+  function compensate(engine, order, moment) {
+    const [low, high] = findEnds(engine), force = scaled(moment, 1 / (high - low) / (order * engine.omega) ** 2);
+    const half = size(force) / 2, angle = Math.atan2(force[1], force[0]);
+    return [[low, angle], [high, angle + TURN / 2]].flatMap(([z, at]) =>
+      [1, -1].map((sense) => makeDevice("shaft", half, sense * at, z, sense * order)));
   }
 
   // Devices that cancel a rotating force and moment: a single device if it suffices, otherwise two at the ends.
   function cancel(engine, { order, sense, part: [f, m] }, length) {
     const kind = order * sense === 1 ? "counterweight" : "shaft", per = -1 / (order * engine.omega) ** 2;
-    let [low, high] = [Math.min(...engine.throws), Math.max(...engine.throws)];
+    const [low, high] = findEnds(engine);
     const reach = [...engine.throws, ...engine.cylinders.map((c) => c.z)], zr = engine.reference[2];
-    if (low === high) [low, high] = [low - (engine.bore / 2 || engine.r), high + (engine.bore / 2 || engine.r)];
     const make = ([x, y], z) => makeDevice(kind, Math.hypot(x, y), Math.atan2(y, x), z, sense * order);
     if (kind === "shaft" && size(f)) {
       const at = zr + (m[0] * f[0] + m[1] * f[1]) / size(f) ** 2;
@@ -291,7 +318,7 @@ const Kernel = (() => {
     const scale = { force_N: ladder.scale.force, ...(known ? { moment_Nm: ladder.scale.moment } : {}) };
     return {
       format: "balcli.analysis/1", speed_rpm: engine.omega * 60 / TURN, reference_mm: engine.reference.map((v) => 1e3 * v),
-      orders, peak: describePeak(peak), ladder: { scale, auto: ladder.auto, steps },
+      orders, peak: describePeak(peak), ladder: { scale, steps },
     };
   }
   return { assemble, compute, findLadder, describe, describeVector, load, UPRIGHT };

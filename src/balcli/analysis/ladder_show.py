@@ -1,0 +1,264 @@
+"""Show the ladder: a table with one row for each step, and notes on what is fitted by default, what
+is left out, and what the steps do to the loads of the bearings.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+from ..core.records import list_figures, remove_unit, to_document
+from ..file.fields import join_words
+from ..forces.kinds import FORCE, MOMENT, Kind
+from ..forces.power import LIKELY
+from ..limits import SMALL
+from ..show.sheet import NEGLIGIBLE, UNKNOWN, Grid, capitalized, given, number, size_cell, size_text
+from ..sizing.ladder import SINGLE_SHAFTS, Ladder, LeftOut, Step
+
+if TYPE_CHECKING:
+    from ..engine.engine import Engine
+    from ..show.units import System
+
+_ROUNDING = 1e-12  # a smaller share of one cylinder's value is rounding
+_HARDLY = 0.05  # a smaller share of one cylinder's first order, %, would be printed as 0.0
+_HARDLY_ANYTHING = "<0.1 %"  # forces and moments below NEGLIGIBLE of one cylinder's
+_BEARINGS = "main bearing: inertia alone, with a bearing on both sides of every throw."
+
+
+def ladder_grid(
+    ladder: Ladder, engine: Engine, system: System, *, tell_fitted: bool = True
+) -> Grid:
+    """Return a table with one row for each step of the ladder, and notes, one on each line.
+
+    Args:
+        ladder: Ladder to show.
+        engine: Engine as drawn.
+        system: System of units.
+        tell_fitted: Whether a note names the steps that `balcli balance` fits.
+    """
+    steps, scale = ladder.steps, ladder.scale
+    columns = [("step", [f"{row} {step.step}" for row, step in enumerate(steps)])]
+    forces = [step.peak_force_N for step in steps]
+    columns.append(_size_column(FORCE, forces, scale.force_N, system))
+    if scale.moment_Nm is not None:
+        moments = [step.peak_moment_Nm or 0.0 for step in steps]
+        columns.append(_size_column(MOMENT, moments, scale.moment_Nm, system))
+    has_loads = steps[0].main_bearing_N is not None
+    if has_loads:
+        columns.append(_load_column(ladder, system))
+    columns.append(("weights", [str(step.counterweights or UNKNOWN) for step in steps]))
+    columns.append(("shafts", [str(step.shafts or UNKNOWN) for step in steps]))
+    columns.append((system.mass.name, [_mass_cell(step, system) for step in steps]))
+    notes = [_BEARINGS] if has_loads else []
+    notes += _tell_loads(ladder, system)
+    notes += filter(None, [_tell_left_out(out, ladder, system) for out in ladder.left_out])
+    notes += _tell_roll(ladder, system)
+    if tell_fitted:
+        notes.append(" ".join(_tell_fitted(ladder)))
+    notes.append(_tell_scale(ladder, system))
+    at = "mean " if engine.ripple else ""
+    title = f"What balances it, step by step ({at}{given(float(engine.speed_rpm))} rpm)"
+    return Grid.of_columns(title, columns, "\n".join(notes))
+
+
+# ------------------------------------------------------------------ columns
+def _size_column(
+    kind: Kind, sizes: list[float], of_one: float, system: System
+) -> tuple[str, list[str]]:
+    """Return heading and cells of the largest forces or moments.
+
+    Args:
+        kind: FORCE or MOMENT.
+        sizes: Largest value of every step, SI.
+        of_one: First order of one cylinder, SI.
+        system: System of units.
+    """
+    unit = system.unit(kind).fit(max(sizes))
+    cells = []
+    for size in sizes:
+        if _ROUNDING * of_one < size < NEGLIGIBLE * of_one:
+            cells.append(_HARDLY_ANYTHING)
+        else:
+            cells.append(size_cell(size if size > _ROUNDING * of_one else 0.0, unit))
+    return f"{kind.name}, {unit.name}", cells
+
+
+def _load_column(ladder: Ladder, system: System) -> tuple[str, list[str]]:
+    """Return heading and cells of the largest main bearing loads."""
+    loads = [step.main_bearing_N or 0.0 for step in ladder.steps]
+    unit = system.force.fit(max(loads))
+    rounding = _ROUNDING * ladder.scale.force_N
+    cells = [size_cell(load if load > rounding else 0.0, unit) for load in loads]
+    return f"main bearing, {unit.name}", cells
+
+
+def _mass_cell(step: Step, system: System) -> str:
+    """Return the cell of the mass of all new devices."""
+    return number(system.mass.of(step.mass_kg), 3) if step.mass_kg else UNKNOWN
+
+
+# ------------------------------------------------------------------ notes
+def _tell_loads(ladder: Ladder, system: System) -> Iterator[str]:
+    """Yield sentences on counterweights of the file that raise bearing loads or that a step takes
+    back, and on steps that raise bearing loads.
+    """
+    least = SMALL * ladder.scale.force_N
+    of_file = ladder.file_counterweights
+    if of_file is not None and _rises(of_file.without_N, of_file.with_N, least):
+        change = _tell_rise(of_file.without_N, of_file.with_N, system)
+        yield f"The counterweights of the file raise the largest main bearing load {change}."
+    for row, step in enumerate(ladder.steps):
+        if step.takes_back:
+            yield f"Step {row} takes back counterweights of the file."
+    for row, step in enumerate(ladder.steps[1:], 1):
+        before = ladder.steps[row - 1].main_bearing_N
+        after = step.main_bearing_N
+        if before is None or after is None:
+            continue
+        if _rises(before, after, least):
+            change = _tell_rise(before, after, system)
+            yield f"Step {row} raises the largest main bearing load {change}."
+
+
+def _rises(before: float, after: float, least: float) -> bool:
+    """Return whether a load rises by at least `least`, which may be 0."""
+    return after - before > _ROUNDING * after and after - before >= least * (1 - _ROUNDING)
+
+
+def _tell_rise(before: float, after: float, system: System) -> str:
+    """Return the change of a load in words: `from 11.59 to 15.23 kN`."""
+    unit = system.force.fit(after)
+    return f"from {number(unit.of(before))} to {number(unit.of(after))} {unit.name}"
+
+
+def _tell_left_out(out: LeftOut, ladder: Ladder, system: System) -> str:
+    """Return a sentence on an omitted step: the force or the moment that it would remove, or the
+    change of the main bearing load. Empty if its effect would be printed as 0.
+    """
+    size, fall = abs(ladder.measure(out)), out.main_bearing_N
+    if size < _HARDLY:
+        return ""
+    share = ""
+    if not math.isnan(size):
+        share = f" ({_percent_below(size, 100 * ladder.small)} of one cylinder's first order)"
+    name = f"a {out.step}" if out.step in SINGLE_SHAFTS else out.step
+    why = "left out"
+    if fall is None:
+        force, moment, scale = out.force_N, out.moment_Nm or 0.0, ladder.scale
+        by_moment = moment * scale.force_N > force * (scale.moment_Nm or 0.0)
+        largest = size_text(moment, system.moment) if by_moment else size_text(force, system.force)
+        does = f"remove {largest}"
+    else:
+        verb = "lower" if fall >= 0 else "raise"
+        does = f"{verb} the largest main bearing load by {size_text(abs(fall), system.force)}"
+        if ladder.by_power:
+            why = "left out, because gas, not inertia, governs these bearings"
+    return f"{capitalized(name)} would {does}{share}: {why}."
+
+
+def _percent_below(size: float, limit: float) -> str:
+    """Return a size below a limit, both in %, with as many digits as show that it is below."""
+    digits = f"{size:.1f}" if round(size, 1) < limit else f"{size:.3g}"
+    return f"{digits} %"
+
+
+def _tell_roll(ladder: Ladder, system: System) -> Iterator[str]:
+    """Yield a sentence on the distance at which listed shafts at +2 and -2 also cancel the roll."""
+    roll = ladder.roll
+    if roll is None or roll.shafts_at_mm is None or roll.distance_m is None:
+        return
+    pair = [step for step in ladder.steps if step.order == 2 and step.own.shafts]
+    if not pair:
+        return
+    option = "--roll zero"
+    if roll.of == "total":  # the option is for the roll of inertia alone
+        against, with_crank = (roll.shafts_at_mm[ratio] for ratio in ("-2", "+2"))
+        places = [f"--at={number(x)},{number(y)}" for x, y in (against, with_crank)]
+        option = " ".join(places)
+    yield (
+        f"{capitalized(pair[0].step)}: {size_text(roll.distance_m, system.length)} apart, they "
+        f"take the roll of order 2, too (`--scheme two-shaft --order 2 {option}`)."
+    )
+
+
+def tell_usual(ladder: Ladder) -> str:
+    """Return a sentence on the steps that are fitted by default."""
+    numbers = [str(k) for k, step in enumerate(ladder.steps) if step.step in ladder.auto]
+    last = len(ladder.steps) - 1
+    if numbers:
+        option = "" if ladder.small == SMALL else f" --small {100 * ladder.small:g}%"
+        steps = "step" if len(numbers) == 1 else "steps"
+        return f"By default, `balcli balance{option}` fits {steps} {join_words(numbers)}."
+    if last > 1:
+        return f"Nothing is worth fitting by default; `--step 1` to `--step {last}` fit a row."
+    if last == 1:
+        return "Nothing is worth fitting by default; `--step 1` fits its row."
+    return "Nothing is worth fitting."
+
+
+def _tell_fitted(ladder: Ladder) -> Iterator[str]:
+    """Yield sentences on the steps that are fitted by default, and on the reasons."""
+    yield tell_usual(ladder)
+    if ladder.by_power:
+        yield from _tell_power(ladder)
+        return
+    if any(step.takes_back for step in ladder.steps):
+        yield "The counterweights of the file settle order 1 in their own way."
+    for row, step in enumerate(ladder.steps):
+        if step.limit is None or step.worth_it:
+            continue
+        size = _percent_below(100 * step.share, 100 * step.limit)
+        yield (
+            f"Step {row} cancels {size} of one cylinder's first order; it is fitted "
+            f"from {100 * step.limit:.4g} % on."
+        )
+
+
+def _tell_power(ladder: Ladder) -> Iterator[str]:
+    """Yield sentences on the power related unbalance that each step of a two-stroke engine with
+    crossheads faces.
+    """
+    if len(ladder.steps) == 1:
+        return
+    if ladder.power is None:
+        yield "Give operation.power: compensators are judged by power related unbalance."
+        return
+    told = []
+    for row, step in enumerate(ladder.steps):
+        if step.pru_Nm_per_kW is not None:
+            told.append(f"step {row}: {number(step.pru_Nm_per_kW, 3)}")
+    if told:
+        yield (
+            "A step is fitted if its power related unbalance (PRU) is above "
+            f"{LIKELY:g} N·m/kW ({', '.join(told)})."
+        )
+
+
+def _tell_scale(ladder: Ladder, system: System) -> str:
+    """Return a sentence on the force and moment of one cylinder, with which others are compared."""
+    scale = ladder.scale
+    one = size_text(scale.force_N, system.force)
+    if scale.moment_Nm is not None:
+        moment = size_text(scale.moment_Nm, system.moment)
+        if scale.length is None:
+            one = f"{one}, {moment}"
+        else:
+            length = size_text(scale.length.metres, system.length)
+            what = ", twice the crank radius" if scale.length.of_crank else " of engine length"
+            one = f"{one}; times {length}{what}: {moment}"
+    return f"Percentages are of one cylinder's first order ({one})."
+
+
+# ------------------------------------------------------------------ CSV
+def list_ladder(ladder: Ladder) -> Iterator[tuple[str, str, Any, str]]:
+    """Yield step, name, value and SI unit of every figure of a ladder."""
+    for step in ladder.steps:
+        for name, value, unit in list_figures(to_document(step), ("step",)):
+            yield step.step, remove_unit(name), value, unit
+    if ladder.roll is not None:
+        for name, value, unit in list_figures(to_document(ladder.roll)):
+            yield "roll", remove_unit(name), value, unit
+    if ladder.file_counterweights is not None:
+        for name, value, unit in list_figures(to_document(ladder.file_counterweights)):
+            yield "counterweights of the file", remove_unit(name), value, unit

@@ -1,0 +1,373 @@
+"""Rules of the ladder: what is fitted by default, on both sides of every limit."""
+
+import numpy as np
+import pytest
+from support.commands import ask, ask_json, run_here
+from support.engines import build_text
+from support.paths import ROOT, write
+
+from balcli.analysis.answer import analyze
+from balcli.balancing.answer import balance_engine, insert_remedy
+from balcli.engine.load import load
+from balcli.forces.crankshaft import find_crank_loads
+from balcli.forces.spectrum import compute_spectra
+from balcli.sizing.ladder import (
+    SHAFT,
+    SHAFTS,
+    WEIGHTS,
+    WEIGHTS_AT_THROWS,
+    find_ladder,
+    is_crosshead_two_stroke,
+    name_compensators,
+)
+from balcli.sizing.options import SchemeOptions
+from balcli.sizing.remedy import fit_devices, remove_counterweights
+
+ECOBOOST = ROOT / "engines" / "car" / "ford_ecoboost_1_0.toml"
+I4 = ROOT / "engines" / "i4.toml"
+
+
+def write_engine(crank: str, layout: str = "", *, lam: float = 0.3, rest: str = "") -> str:
+    return (
+        f"[crank]\nstroke = 80\nthrow_mass = 0.7\n{crank}\n[rod]\nratio = {lam}\nmass = 0.5\ncg = 40\n"
+        f"[piston]\nbore = 80\nmass = 0.4\n[layout]\n{layout}\n[operation]\nspeed = 5000\n{rest}"
+    )
+
+
+# ------------------------------------------------------------------ limits of shafts
+@pytest.mark.parametrize(("share", "fitted"), [(0.17, False), (0.19, True)])
+def test_a_shaft_of_order_1_is_fitted_from_18_percent(share, fitted):
+    """The backward force of a V-twin is one cylinder's first order times the cosine of its bank angle."""
+    ladder = find_ladder(build_text(write_engine("", f"bank_angle = {np.degrees(np.arccos(share))}")))
+    assert ladder.find_step(SHAFT).share == pytest.approx(share)
+    assert ladder.auto == ((WEIGHTS, SHAFT) if fitted else (WEIGHTS,))
+
+
+FOUR = "throws = [0, 180, 180, 0]\nspacing = 90"
+TWO = "throws = [0, 0]\nspacing = 90"
+SIX_IN_PHASE = "throws = [0, 0, 0, 0, 0, 0]\nspacing = 90"
+
+
+@pytest.mark.parametrize(
+    ("crank", "limit"), [("", 0.36), (TWO, 0.36), (FOUR, 0.48), (SIX_IN_PHASE, 0.72)]
+)
+@pytest.mark.parametrize(("part", "fitted"), [(0.98, False), (1.02, True)])
+def test_shafts_of_order_2_are_fitted_from_12_percent_of_all_cylinders(crank, limit, part, fitted):
+    """At least three cylinders are counted. Each cylinder adds (1/2) (lambda + lambda^3/4 + ...) to each direction."""
+    cylinders = crank.count(",") + 1
+    wanted = 2 * part * limit / cylinders  # A_2 of one cylinder
+    ladder = find_ladder(build_text(write_engine(crank, lam=find_lambda(wanted))))
+    assert ladder.find_step(SHAFTS).share == pytest.approx(part * limit, rel=1e-3)
+    assert ladder.find_step(SHAFTS).limit == pytest.approx(limit)
+    assert (SHAFTS in ladder.auto) == fitted
+
+
+def find_lambda(second: float) -> float:
+    """Crank radius over rod length at which a cylinder's second order has this share of the first."""
+    angles = np.linspace(0, 2 * np.pi, 1024, endpoint=False)
+    low, high = 0.0, 0.99
+    for _ in range(60):
+        lam = (low + high) / 2
+        cosine = np.sqrt(1 - (lam * np.sin(angles)) ** 2)
+        acceleration = np.cos(angles) + lam * np.cos(angles) ** 2 / cosine**3 - lam * np.sin(angles) ** 2 / cosine
+        is_larger = 2 * float(np.mean(acceleration * np.cos(2 * angles))) > second
+        low, high = (low, lam) if is_larger else (lam, high)
+    return low
+
+
+def test_auto_may_skip_a_step():
+    """A four with unequal pistons gets shafts of order 2, but not the small shaft of order 1."""
+    text = write_engine(FOUR, rest="[cylinder.1]\npiston_mass = 0.55\n")
+    ladder = find_ladder(build_text(text))
+    assert [step.step for step in ladder.steps[1:]] == [WEIGHTS, WEIGHTS_AT_THROWS, SHAFT, SHAFTS]
+    assert ladder.auto == (WEIGHTS_AT_THROWS, SHAFTS)
+    assert {shaft.ratio for shaft in ladder.fit().shafts} == {2, -2}
+    assert {shaft.ratio for shaft in ladder.fit("4").shafts} == {-1, 2, -2}
+
+
+@pytest.mark.parametrize(
+    ("text", "name"),
+    [
+        ("throws = [0, 0, 0, 0]\nspacing = 90", SHAFTS),
+        ("throws = [0]", SHAFTS),
+    ],
+)
+def test_in_line_engines_have_both_parts_of_order_2(text, name):
+    assert name in [step.step for step in find_ladder(build_text(write_engine(text))).steps]
+
+
+@pytest.mark.parametrize(
+    ("radial", "name"), [("radial = 3", "shaft at -2"), ("bank_angle = 60", "shaft at +2")]
+)
+def test_a_step_with_one_shaft_of_order_2_is_named_after_it(radial, name, tmp_path):
+    """In a radial three, order 2 turns against the crank; in a 60 degree vee with common pins, with it."""
+    path = write(tmp_path / "engine.toml", write_engine("", radial))
+    ladder = ask_json("analyze", path, "--only", "ladder")["ladder"]
+    assert ladder["steps"][-1]["step"] == name
+    assert ask_json("balance", path, "--step", name)["step"] == name
+    assert f"{len(ladder['steps']) - 1} {name}" in ask("analyze", path, "--only", "ladder")
+    shafts = ask_json("balance", path, "--step", name)["shafts"]
+    assert {shaft["ratio"] for shaft in shafts if abs(shaft["ratio"]) == 2} == {int(name[-2:])}
+
+
+def test_masses_count_at_the_crank_radius_of_cylinder_1():
+    text = "stroke = [80, 100]\nthrows = [0, 150]\nspacing = 90\n"
+    engine = build_text(write_engine(text).replace("stroke = 80\n", "", 1))
+    step = find_ladder(engine).steps[1]
+    unbalance = sum(weight.unbalance for weight in step.remedy.counterweights)
+    assert step.mass_kg == pytest.approx(unbalance / 1e6 / 0.040)
+
+
+# ------------------------------------------------------------------ weights of the file
+WEIGHT = "[[counterweight]]\nunbalance = {}\nangle = {}\nposition = 0\n"
+
+
+@pytest.mark.parametrize(
+    ("unbalance", "angle", "takes_back"),
+    [
+        (10_000, 180, False),  # opposite the pin, too light: a step adds to it
+        (60_000, 180, True),  # too heavy: a step takes some of it back
+        (10_000, 0, True),  # on the side of the pin: a step undoes it
+        (None, None, False),
+    ],
+)
+def test_steps_that_take_back_weights_of_the_file(unbalance, angle, takes_back):
+    """A single cylinder needs about 44 000 g mm opposite its pin."""
+    weight = "" if unbalance is None else WEIGHT.format(unbalance, angle)
+    ladder = find_ladder(build_text(write_engine("", rest=weight)))
+    step = ladder.find_step(WEIGHTS)
+    assert step.takes_back == (True if takes_back else None)
+    assert (WEIGHTS in ladder.auto) == (not takes_back)
+    assert (SHAFT in ladder.auto) == (not takes_back)
+
+
+def test_weights_that_cancel_each_other_are_not_taken_back():
+    """Weights of a flat crank, one for each throw, have no sum that a step could take back."""
+    heavy = "".join(
+        f"[[counterweight]]\nunbalance = 90000\nangle = {angle}\nposition = {z}\n"
+        for angle, z in ((180, -135), (0, -45), (0, 45), (180, 135))
+    )
+    ladder = find_ladder(build_text(write_engine(FOUR, rest=heavy)))
+    assert not any(step.takes_back for step in ladder.steps)
+
+
+def test_loads_without_and_with_the_weights_of_the_file():
+    engine = load(ECOBOOST)
+    found = find_ladder(engine).file_counterweights
+    assert found.with_N == find_crank_loads(engine).main_N
+    assert found.without_N == find_crank_loads(remove_counterweights(engine)).main_N
+    assert found.with_N > found.without_N
+    assert find_ladder(load(I4)).file_counterweights is None
+
+
+def test_words_on_weights_of_the_file():
+    told = " ".join(ask("analyze", ECOBOOST, "--only", "ladder").split())
+    assert "The counterweights of the file raise the largest main bearing load from 11.59 to 15.23 kN." in told
+    assert "Step 1 takes back counterweights of the file. Step 2 takes back counterweights of the file." in told
+    assert "Step 1 raises the largest main bearing load from 15.23 to 16.57 kN." in told
+    assert "Nothing is worth fitting by default; `--step 1` to `--step 4` fit a row." in told
+    balanced = run_here("balance", ECOBOOST).out
+    assert "Ford EcoBoost 1.0, in-line three: nothing (auto)" in balanced
+    assert ask_json("balance", ECOBOOST)["steps"] == []
+
+
+# ------------------------------------------------------------------ crossheads
+SHIP = """\
+[crank]
+stroke = 2400
+throws = [0, 120, 240, 180, 300, 60]
+spacing = 1020
+throw_mass = 1800
+[rod]
+length = 2628
+mass = 4600
+cg = 1000
+[piston]
+bore = 600
+mass = 2300
+[crosshead]
+mass = 2500
+[layout]
+strokes = 2
+[operation]
+speed = 105
+power = {power}
+"""
+FIVE = SHIP.replace("[0, 120, 240, 180, 300, 60]", "[0, 144, 216, 288, 72]")
+
+
+def measure_vertical(engine, order: int) -> float:
+    """Amplitude of the moment about y."""
+    return float(abs(compute_spectra(engine, [order], ("moment",)).moment.y[0]))
+
+
+@pytest.mark.parametrize(("related", "fitted"), [(119.0, False), (121.0, True)])
+def test_compensators_are_fitted_above_a_power_related_unbalance_of_120(related, fitted):
+    engine = build_text(SHIP.format(power=1))
+    power_kW = measure_vertical(engine, 2) / related
+    ladder = find_ladder(build_text(SHIP.format(power=power_kW)))
+    name = name_compensators(2)
+    assert ladder.find_step(name).pru_Nm_per_kW == pytest.approx(related)
+    assert ladder.auto == ((name,) if fitted else ())
+    assert [out.step for out in ladder.left_out] == [WEIGHTS_AT_THROWS]
+
+
+def test_power_counts_at_the_speed_of_the_file():
+    engine = build_text(SHIP.format(power=10_000))
+    slower = engine.at_speed(70)
+    name = name_compensators(2)
+    full, part = (find_ladder(one).find_step(name) for one in (engine, slower))
+    assert full.pru_Nm_per_kW == pytest.approx(part.pru_Nm_per_kW)
+    assert full.pru_Nm_per_kW == pytest.approx(measure_vertical(engine, 2) / 10_000)
+
+
+def test_each_row_of_a_ship_cancels_the_vertical_moment_that_the_rows_before_leave():
+    text = FIVE.format(power=11_900)
+    engine = build_text(text)
+    ladder = find_ladder(engine)
+    names = [step.step for step in ladder.steps]
+    assert names == ["as drawn", WEIGHTS, name_compensators(1), name_compensators(2)]
+    states = [fit_devices(engine, step.remedy) for step in ladder.steps]
+    scale = ladder.scale.moment_Nm
+    first, second = ([measure_vertical(state, order) / scale for state in states] for order in (1, 2))
+    assert first[0] > first[1] > 0.05
+    assert max(first[2:]) < 1e-9
+    assert second[2] > 0.5
+    assert second[3] < 1e-9
+    assert ladder.find_step(name_compensators(1)).share == pytest.approx(first[1])
+    for state in states:  # pairs at both ends make no force
+        forces = compute_spectra(state, [1, 2], ("force",)).force.major
+        assert max(forces) < 1e-9 * ladder.scale.force_N
+    last = ladder.steps[-1]
+    assert {shaft.role for shaft in last.remedy.shafts} == {"compensator"}
+    written = find_ladder(build_text(insert_remedy(text.encode(), last.remedy, "ship"))).steps[0]
+    assert written.peak_moment_Nm == pytest.approx(last.peak_moment_Nm)
+
+
+def test_without_a_power_a_ship_gets_nothing_by_default(tmp_path):
+    path = write(tmp_path / "ship.toml", FIVE.replace("power = {power}\n", ""))
+    assert find_ladder(load(path)).auto == ()
+    told = " ".join(ask("analyze", path, "--only", "ladder").split())
+    assert "Give operation.power: compensators are judged by power related unbalance." in told
+    refused = run_here("balance", path, "--step", WEIGHTS_AT_THROWS)
+    assert refused.status == 2
+    assert "--scheme counterweights --planes throws" in refused.err
+
+
+@pytest.mark.parametrize(
+    ("changes", "is_crosshead"),
+    [
+        ({}, True),
+        ({"strokes = 2": "strokes = 4"}, False),
+        ({"mass = 2500": "mass = 0"}, True),  # its stroke is above 1 m
+        ({"mass = 2500": "mass = 0", "stroke = 2400": "stroke = 1001", "bore = 600": "bore = 900"}, True),
+        ({"mass = 2500": "mass = 0", "stroke = 2400": "stroke = 999", "bore = 600": "bore = 900"}, False),
+        ({"mass = 2500": "mass = 0", "stroke = 2400": "stroke = 999", "bore = 600": "bore = 399"}, True),
+        ({"mass = 2500": "mass = 0", "stroke = 2400": "stroke = 999", "bore = 600": "bore = 401"}, False),
+        ({"stroke = 2400": "stroke = 999", "bore = 600": "bore = 900"}, True),
+    ],
+)
+def test_which_engines_have_crossheads(changes, is_crosshead):
+    text = SHIP.format(power=10_000)
+    for old, new in changes.items():
+        assert old in text
+        text = text.replace(old, new)
+    engine = build_text(text)
+    assert is_crosshead_two_stroke(engine) == is_crosshead
+    assert any("compensators" in step.step for step in find_ladder(engine).steps) == is_crosshead
+
+
+def test_trunk_piston_two_strokes_are_as_all_others():
+    ladder = find_ladder(load(ROOT / "engines" / "marine" / "detroit_4_71.toml"))
+    assert ladder.auto == (WEIGHTS_AT_THROWS, SHAFT)
+
+
+# ------------------------------------------------------------------ roll
+@pytest.mark.parametrize("name", ["i4.toml", "single.toml", "i4_wiebe.toml", "i6_diesel.toml", "v8_flatplane.toml"])
+def test_the_largest_roll_is_that_of_the_analysis(name):
+    engine = load(ROOT / "engines" / name)
+    found = analyze(engine, np.arange(0, 13) if engine.gas is None else np.arange(0, 25) / 2)
+    phasors = found.spectra.roll if engine.gas is None else found.spectra.roll_total
+    sizes = phasors.major[1:]
+    roll = find_ladder(engine).roll
+    assert roll.of == ("inertia" if engine.gas is None else "total")
+    assert roll.order == phasors.orders[1:][int(np.argmax(sizes))]
+    assert roll.amplitude_Nm == pytest.approx(max(sizes))
+
+
+def test_an_engine_without_reciprocating_masses_has_no_roll():
+    text = write_engine(FOUR).replace("mass = 0.5\ncg = 40", "mass = 0").replace("mass = 0.4", "mass = 0")
+    assert find_ladder(build_text(text)).roll is None
+
+
+@pytest.mark.parametrize("reference", ["", "[frame]\nreference = [30, -40, 10]\n"])
+@pytest.mark.parametrize("name", ["i4.toml", "single.toml", "twin360.toml"])
+def test_shafts_at_these_places_take_force_and_roll_of_order_2(name, reference):
+    text = (ROOT / "engines" / name).read_text() + reference
+    engine = build_text(text)
+    at = find_ladder(engine).roll.shafts_at_mm
+    places = tuple(complex(*at[ratio]) / 1e3 for ratio in ("-2", "+2"))
+    fitted = balance_engine(engine, "two-shaft", SchemeOptions(order=2, at=places)).after.engine
+    left, before = (compute_spectra(one, [2], ("force", "roll")) for one in (fitted, engine))
+    assert left.force.major[0] < 1e-9 * before.force.major[0]
+    assert left.roll.major[0] < 1e-9 * before.roll.major[0]
+    details = balance_engine(engine, "two-shaft", SchemeOptions(order=2, roll="zero")).remedy.details
+    assert details["order_2"]["distance_mm"] == pytest.approx(1e3 * abs(places[0] - places[1]))
+
+
+def test_only_the_distance_along_the_force_counts():
+    """Places to the sides, equally far from the crank on opposite sides, change nothing."""
+    engine = load(I4)
+    against, with_crank = (complex(*find_ladder(engine).roll.shafts_at_mm[key]) / 1e3 for key in ("-2", "+2"))
+    sides = against + 0.05j - 0.02, with_crank - 0.05j - 0.02
+    left = balance_engine(engine, "two-shaft", SchemeOptions(order=2, at=sides)).after.engine
+    assert compute_spectra(left, [2], ("roll",)).roll.major[0] < 1e-6
+    told = " ".join(ask("balance", I4, "--scheme", "two-shaft", "--order", "2", "--roll", "zero").split())
+    assert "138 mm apart along the force; only this distance counts" in told
+
+
+@pytest.mark.parametrize(
+    ("name", "why"),
+    [
+        ("i4_wiebe.toml", "the gas roll is not in phase with the force"),
+        ("v6_60.toml", "there is no force of order 2"),
+        ("vtwin45.toml", "the two directions have forces of different size"),
+    ],
+)
+def test_no_two_places_take_the_roll(name, why):
+    roll = find_ladder(load(ROOT / "engines" / name)).roll
+    assert roll.shafts_at_mm is None, why
+
+
+# ------------------------------------------------------------------ words
+def test_the_last_line_says_what_one_cylinder_is():
+    told = " ".join(ask("analyze", ROOT / "engines" / "i3.toml", "--only", "ladder").split())
+    assert "one cylinder's first order (6.539 kN; times 164 mm of engine length: 1072 N·m)." in told
+    assert "By default, `balcli balance` fits steps 2 and 3." in told
+    assert "Step 4 cancels 13.2 % of one cylinder's first order; it is fitted from 36 % on." in told
+    assert told.count("<0.1 %") == 5
+    twin = " ".join(ask("analyze", ROOT / "engines" / "vtwin90.toml", "--only", "ladder").split())
+    assert "mm, twice the crank radius: " in twin
+    nowhere = run_here("analyze", "-", "--only", "ladder", stdin=write_engine("throws = [0, 180]")).out
+    assert "first order (4.606 kN)." in " ".join(nowhere.split())
+
+
+def test_a_step_that_is_left_out_is_named_with_its_size():
+    told = " ".join(ask("analyze", ROOT / "engines" / "radial7_articulated.toml", "--only", "ladder").split())
+    assert "A shaft at -1 would remove 119.4 N (2.0 % of one cylinder's first order): left out." in told
+
+
+def test_balance_says_what_is_left():
+    told = " ".join(ask("balance", ROOT / "engines" / "i3.toml").split())
+    assert "Leaves order 2: moment 282.9 N·m." in told
+    assert "Leaves no force or moment of orders 1 and 2." in " ".join(
+        ask("balance", ROOT / "engines" / "i3.toml", "--step", "4").split()
+    )
+
+
+def test_steps_are_named_in_words_too():
+    path = ROOT / "engines" / "i3.toml"
+    by_number = ask_json("balance", path, "--step", "2+4")
+    by_name = ask_json("balance", path, "--step", f"{WEIGHTS_AT_THROWS} + {SHAFTS}")
+    assert by_name["steps"] == by_number["steps"] == [WEIGHTS_AT_THROWS, SHAFTS]
+    assert by_name["shafts"] == by_number["shafts"]
