@@ -123,7 +123,7 @@ def test_json_of_analyze_has_the_keys_of_the_contract():
         assert {key: set(entry[key]) for key in entry if key != "order"} == figures
         assert set(entry["force_N"]["x"]) == set(entry["force_N"]["y"]) == {"amplitude", "phase_deg"}
     assert set(document["peak"]) == {"force_N", "force_deg", "moment_Nm", "moment_deg"}
-    assert set(document["sizing"]) == {"scheme", "step", "counterweights", "shafts", "sliders", "after"}
+    assert set(document["sizing"]) == {"scheme", "steps", "counterweights", "shafts", "sliders", "after"}
     assert set(document["sizing"]["counterweights"][0]) == {"unbalance_kg_m", "angle_deg", "position_mm"}
 
 

@@ -189,7 +189,7 @@ def test_inline_six_needs_nothing():
     assert not size(e, "complete").devices
     assert not size(e, "counterweights").devices
     assert size(e, "counterweights").note.startswith("Order 1 is balanced already: counterweights change no free")
-    assert size(e).step == "counterweights at every throw"
+    assert size(e).steps == ("counterweights at every throw",)
 
 
 def test_eccentric_stands_where_the_force_acts():

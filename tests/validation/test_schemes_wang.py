@@ -226,12 +226,12 @@ def test_two_and_four_shafts():
     assert shafts == pytest.approx({-1: M * R / 2, 1: M * R / 2, -2: second, 2: second}, rel=1e-14)
 
 
-def test_single_shaft_leaves_a_couple():
+def test_single_shaft_leaves_a_moment():
     """(18), with its sine term: a couple Z0 m_b r_b omega^2 turning with the shaft, Z0 the axial distance."""
     engine = single()
     remedy = size_scheme(engine, "single-shaft", position=0.08)
     couple = 0.08 * M * R / 2 * engine.omega**2
-    assert figures(remedy)["couple left"] == pytest.approx(couple, rel=1e-14)
+    assert figures(remedy)["moment left"] == pytest.approx(couple, rel=1e-14)
     assert figures(remedy)["axial distance"] == pytest.approx(0.08)
     left = compute_spectra(fit_devices(engine, remedy), [1], ("force", "moment"))
     assert left.force.balanced.all()
