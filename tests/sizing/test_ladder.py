@@ -17,7 +17,6 @@ from balcli.engine.load import load
 from balcli.errors import BalcliError
 from balcli.forces.crankshaft import find_crank_loads
 from balcli.forces.spectrum import compute_spectra
-from balcli.limits import SMALL
 from balcli.sizing.ladder import (
     AS_DRAWN,
     SHAFT,

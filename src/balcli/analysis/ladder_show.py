@@ -205,14 +205,14 @@ def _tell_fitted(ladder: Ladder) -> Iterator[str]:
         return
     if any(step.takes_back for step in ladder.steps):
         yield "The counterweights of the file settle order 1 in their own way."
+    below = []
     for row, step in enumerate(ladder.steps):
         if step.limit is None or step.worth_it:
             continue
         size = _percent_below(100 * step.share, 100 * step.limit)
-        yield (
-            f"Step {row} cancels {size} of one cylinder's first order; it is fitted "
-            f"from {100 * step.limit:.4g} % on."
-        )
+        below.append(f"step {row} cancels {size} (limit {100 * step.limit:.4g} %)")
+    if below:
+        yield f"Below the limit of a shaft: {', '.join(below)}."
 
 
 def _tell_power(ladder: Ladder) -> Iterator[str]:

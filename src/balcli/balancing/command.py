@@ -64,7 +64,9 @@ Scheme = Annotated[
         autocompletion=complete_schemes,
     ),
 ]
-Step = Annotated[str | None, optional("STEP", "Fit this step of the ladder (name or number).")]
+Step = Annotated[
+    str | None, optional("STEP", "Fit this row of the ladder (name or number), or only steps 2+4.")
+]
 
 
 def _list_schemes(wanted: bool) -> None:

@@ -23,7 +23,7 @@ FIT = "fit"  # fits the devices that the file leaves open (balcli.sizing.fit)
 _SCHEMES = """
 auto | | orders 1 and 2: counterweights; shafts if they cancel much
 complete | | all of orders 1 and 2: counterweights, and even small shafts
-step | step | a step of the ladder that balance prints, by name or number
+step | step | rows of the ladder that balance prints, by name or number
 counterweights | order planes | counterweights for the part of order 1 turning with the crank
 factor | factor measured planes | the shop's balance factor, with the bobweight card
 minimax | planes position orders | the counterweight that leaves the smallest peak force
