@@ -63,8 +63,8 @@ def test_an_order_that_takes_more_than_a_cycle():
     assert refused(crank={"throws": [0, 180, 180, 0]}, layout={"firing_order": [1, 4, 2, 3]}) == (
         "engine: layout.firing_order: 1-4-2-3 would take 1080 deg with these crank.throws, but a cycle has "
         "720; with even firing every 180 deg, cylinder 4 is the first that is not at top dead centre when it fires: "
-        "change firing_order or crank.throws, or leave crank.throws out. It fits with crank.throws = "
-        "[0, 0, 180, 180]"
+        "change firing_order or crank.throws, or leave crank.throws out. If cylinders fire together, it fits "
+        "with layout.firing_intervals = [0, 180, 360, 180] or with layout.firing_intervals = [360, 180, 0, 180]"
     )
 
 

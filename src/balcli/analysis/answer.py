@@ -318,7 +318,8 @@ def list_idle_defaults(engine: Engine, wanted: Collection[str]) -> set[str]:
     of_throws |= _WITH_UNEVEN_SPEED if engine.ripple else set()
     of_throws |= {"couple", "roll", "roll_total"} if any(engine.reference_m[:2]) else set()
     idle = {k for k, of in (_DEPENDENT | {"crank.throw_mass": of_throws}).items() if not due & of}
-    if "gas" in idle and not any(one.path == "crank.throws" for one in engine.inferred):
+    throws_inferred = any(value.path == "crank.throws" for value in engine.inferred)
+    if engine.gas is not None and "gas" in idle and not throws_inferred:
         idle |= _OF_FIRING
     return idle if engine.places_known else {*idle, "layout.stagger"}
 

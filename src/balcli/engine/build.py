@@ -44,9 +44,9 @@ from ..names import GEARED, import_name
 from .devices import build_device, build_devices, check_shafts
 from .engine import Bearings, Engine, Rating
 from .figures import AS_GIVEN, FileFigures, column, divide
+from .firing.rules import check_numbering
 from .layout import Plan, are_places_known
 from .left_out import list_inferred
-from .numbering import check_numbering
 from .parts import Parts
 from .rods import check_ends, check_harmonic, check_rod_inertia, check_turning
 

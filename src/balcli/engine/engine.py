@@ -27,7 +27,8 @@ from ..file.model import EngineFile
 from ..file.plain_tables import list_tables
 from ..names import CRANKS, EXPLORE, NOTEBOOK, VARY, import_name
 from .figures import find_first_largest, or_zero, place_in_plane
-from .numbering import doubt_firing, find_fitting_splay
+from .firing.fits import find_fitting_splay
+from .numbering import doubt_firing
 from .rods import CylinderMasses
 
 if TYPE_CHECKING:

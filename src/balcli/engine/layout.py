@@ -15,7 +15,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from itertools import accumulate, groupby
+from itertools import accumulate, groupby, pairwise, repeat
 from operator import attrgetter
 from typing import NamedTuple
 
@@ -25,6 +25,7 @@ from ..core.phases import TURN
 from ..core.phasors import Array, Figure
 from ..errors import InputError, Problem
 from ..file.fields import counted, join_words
+from ..file.firing_order import NamedOrder, write_order
 from ..file.model import Crank, EngineFile, Layout
 from ..limits import MOST_PARTS
 from .figures import FileFigures, or_zero
@@ -101,6 +102,7 @@ def plan_cylinders(model: EngineFile) -> Plan:
     blank = Plan(banks, throws, tuple(Cell(*place, 0) for place in places), rods, in_rows)
     numbers, problems = _number_cylinders(layout, blank)
     problems += [*_check_rows(model, throws), *_check_throws(crank, throws)]
+    problems += _check_letters(layout, blank)
     if not shared and throws < banks:
         told = f'is "alternating", one rod a throw, for {counted(banks, "bank")} and '
         told += f'{counted(throws, "throw")}: give more throws, or "shared"'
@@ -233,6 +235,42 @@ def _check_firing_order(
     yield Problem("layout.firing_order", told)
 
 
+MOST_LETTERED_BANKS = 4  # as an X engine has; every way to give letters to banks is tried
+
+
+def _check_letters(layout: Layout, plan: Plan) -> Iterator[Problem]:
+    """Check that a firing order with letters has a letter for each bank, for as many cylinders as
+    the bank has, and that the file has no other numbering.
+    """
+    order = layout.firing_order
+    if not isinstance(order, NamedOrder):
+        return
+    if layout.has("numbering"):
+        told = "firing_order has letters, and the letters say it; leave numbering out"
+        yield Problem("layout.numbering", told)
+    path, letters = "layout.firing_order", join_words(order.letters)
+    if plan.in_rows or plan.banks > MOST_LETTERED_BANKS:
+        told = f"names the banks {letters}; letters are read for 2 to {MOST_LETTERED_BANKS} banks, "
+        yield Problem(path, f"{told}not for radials: write the numbers of the cylinders")
+    elif len(order.letters) != plan.banks:
+        told = f"names the banks {letters}, but layout has {counted(plan.banks, 'bank')}; "
+        yield Problem(path, f"{told}give bank_angle, or the angle of every bank in banks")
+    elif sorted(order.bank_sizes) != sorted(map(len, plan.groups)):
+        yield Problem(path, f"{_describe_bank_sizes(order)}, but {_describe_groups(plan)}")
+
+
+def _describe_bank_sizes(order: NamedOrder) -> str:
+    """Return how many cylinders the names in a firing order give to each bank."""
+    sizes = map(counted, order.bank_sizes, repeat("cylinder"))
+    banks = [f"{size} of {letter}" for size, letter in zip(sizes, order.letters, strict=True)]
+    return f"has {join_words(banks)}"
+
+
+def _describe_groups(plan: Plan) -> str:
+    """Return how many cylinders the banks have."""
+    return f"the banks have {join_words(len(group) for group in plan.groups)} cylinders"
+
+
 def _describe_not_once(given: Sequence[int], wanted: Sequence[int]) -> str:
     """Return in words which numbers are doubled, unknown or missing."""
     times = Counter(given)
@@ -308,7 +346,8 @@ def find_intervals(order: Sequence[int], ready: Mapping[int, float], cycle: floa
     """Return the intervals from each firing to the next of a firing order on a given crank: the
     shortest that the dead centres allow.
 
-    An interval of 0 counts as a whole turn: a parallel twin whose pistons move together fires every
+    In a two-stroke, cylinders that are at top dead centre together fire together: their interval is
+    0. In a four-stroke, it is a whole turn: a parallel twin whose pistons move together fires every
     360 degrees. If the intervals add up to less than a cycle, the missing turns are added one by
     one to the shortest interval; of equally short intervals, to the last.
 
@@ -320,26 +359,59 @@ def find_intervals(order: Sequence[int], ready: Mapping[int, float], cycle: floa
     Raises:
         InputError: The order takes more than a cycle.
     """
-    following = [*order[1:], order[0]]
-    turned = [(ready[b] - ready[a]) % 360 for a, b in zip(order, following, strict=True)]
-    # An angle within the tolerance of 0 is a whole turn.
-    intervals = [angle if angle > TOLERANCE_DEG else angle + 360 for angle in turned]
-    total = round(sum(intervals) / 360) * 360
+    find_each = _find_two_stroke_intervals if cycle == TURN else _find_four_stroke_intervals
+    intervals = find_each([ready[number] for number in [*order, order[0]]])
+    total = round(sum(intervals) / TURN) * TURN
     if total > cycle:
-        first, even = ready[order[0]], find_instants(order, None, cycle)
-        gaps = {i: ready[i] - first - fires for i, fires in even.items()}
-        off = (i for i, gap in gaps.items() if np.abs((gap + 180) % 360 - 180) > TOLERANCE_DEG)
-        told = (
-            f"{'-'.join(map(str, order))} would take {total:g} deg with these crank.throws, but a "
-            f"cycle has {cycle:g}; with even firing every {cycle / len(order):g} deg, cylinder "
-            f"{next(off, order[-1])} is the first that is not at top dead centre when it fires: "
-            "change firing_order or crank.throws, or leave crank.throws out"
-        )
-        raise InputError([Problem("layout.firing_order", told)])
-    for _ in range(int(cycle - total) // 360):
+        raise InputError([_describe_too_long(order, ready, total, cycle)])
+    for _ in range(int((cycle - total) // TURN)):
         shortest = min(reversed(range(len(intervals))), key=lambda k: round(intervals[k], 6))
-        intervals[shortest] += 360.0
+        intervals[shortest] += TURN
     return intervals
+
+
+def _find_four_stroke_intervals(ready: Sequence[float]) -> list[float]:
+    """Return the angles from each dead centre to the next, deg: above `TOLERANCE_DEG`, up to a turn
+    more.
+    """
+    turned = [(after - before) % TURN for before, after in pairwise(ready)]
+    return [angle if angle > TOLERANCE_DEG else angle + TURN for angle in turned]
+
+
+def _find_two_stroke_intervals(ready: Sequence[float]) -> list[float]:
+    """Return the angles from each dead centre to the next, deg, from 0 up to a turn. An angle
+    within `TOLERANCE_DEG` of a whole turn counts as 0, and the next angle makes up for the
+    difference.
+    """
+    intervals: list[float] = []
+    left_over = 0.0
+    for before, after in pairwise(ready):
+        angle = (after - before + left_over) % TURN
+        apart = (angle + TURN / 2) % TURN - TURN / 2
+        if abs(apart) <= TOLERANCE_DEG:
+            intervals.append(0.0)
+            left_over = apart
+        else:
+            intervals.append(angle)
+            left_over = 0.0
+    return intervals
+
+
+def _describe_too_long(
+    order: Sequence[int], ready: Mapping[int, float], total: float, cycle: float
+) -> Problem:
+    """Return the mistake of a firing order that takes more than a cycle."""
+    first = ready[order[0]]
+    even = find_instants(order, None, cycle)
+    gaps = {number: float(ready[number] - first - fires) for number, fires in even.items()}
+    off = (number for number, gap in gaps.items() if abs((gap + 180) % 360 - 180) > TOLERANCE_DEG)
+    told = (
+        f"{write_order(order)} would take {total:g} deg with these crank.throws, but a "
+        f"cycle has {cycle:g}; with even firing every {cycle / len(order):g} deg, cylinder "
+        f"{next(off, order[-1])} is the first that is not at top dead centre when it fires: "
+        "change firing_order or crank.throws, or leave crank.throws out"
+    )
+    return Problem("layout.firing_order", told)
 
 
 def check_firing(

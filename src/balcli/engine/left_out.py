@@ -7,10 +7,14 @@ from typing import TYPE_CHECKING
 
 from ..core.phases import TURN
 from ..file.assumed import Assumed, assume
+from ..file.firing_order import NamedOrder
 from ..file.model import EngineFile, RodKeys
 from ..file.units import INERTIA
+from .firing.fits import count_throws_from_first, list_gaps
+from .firing.letters import describe_letters
+from .firing.together import describe_together
+from .firing.usual import list_numbers
 from .layout import TOLERANCE_DEG, are_places_known, bank_angles, find_row_angle
-from .numbering import count_throws_from_first, list_gaps, list_numbers
 from .parts import Parts
 
 if TYPE_CHECKING:
@@ -47,14 +51,19 @@ def _list_firing(parts: Parts) -> Iterator[Assumed]:
     crank, layout, has_gas = parts.model.crank, parts.model.layout, parts.model.gas is not None
     throws_inferred = not parts.throws_given
     counts = throws_inferred or has_gas
-    if parts.plan.banks > 1 and not layout.has("numbering") and counts:
+    order = layout.firing_order
+    lettered = isinstance(order, NamedOrder)
+    if parts.plan.banks > 1 and not layout.has("numbering") and (counts or lettered):
         yield assume("layout.numbering", layout, list_numbers(parts.plan))
+    if isinstance(order, NamedOrder):
+        yield assume("layout.firing_order", layout, describe_letters(order))
     if throws_inferred:
         yield assume("crank.throws", crank, tuple(count_throws_from_first(parts)))
     gaps = tuple(round(gap, _DECIMALS) for gap in list_gaps(parts))
     # The crank does not determine in which of its turns a cylinder of a four-stroke fires.
     open_turn = has_gas and len(gaps) > 1 and max(gaps) > TURN + TOLERANCE_DEG
-    if layout.firing_intervals is None and (throws_inferred or open_turn):
+    together = describe_together(parts) != ""
+    if layout.firing_intervals is None and (throws_inferred or open_turn or together):
         yield assume("layout.firing_intervals", layout, gaps)
     if not layout.has("strokes") and counts:
         yield assume("layout.strokes", layout, layout.strokes)

@@ -16,7 +16,7 @@ from ..file.read import Draft, check_tables, read_tables, refuse
 from ..file.toml import name_file, read_bytes
 from ..names import READ_GEARED, import_name
 from .build import list_contradictions
-from .numbering import infer_numbering
+from .firing.rules import infer_numbering
 
 
 def read(path: str | Path) -> EngineFile:

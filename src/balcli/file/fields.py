@@ -112,15 +112,6 @@ def count_lambda_digits(ratio: float, usual: int = 4) -> int:
     return usual if ratio < 0.999 else max(usual, 7)
 
 
-def parse_firing_order(value: object) -> object:
-    """Return a firing order in the form `"1-3-4-2"` as a list; any other value is returned
-    unchanged.
-    """
-    if isinstance(value, str) and re.fullmatch(r"\s*\d{1,5}(?:\s*[-–—,; ]\s*\d{1,5})+\s*", value):
-        return [int(number) for number in re.findall(r"\d+", value)]
-    return value
-
-
 def nearest(word: str, known: Iterable[str], cutoff: float = 0.6) -> str:
     """Return the known word that was probably meant; empty if none is near.
 

@@ -14,7 +14,7 @@ from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, ClassVar, Self
 
-from pydantic import BeforeValidator, Field, PrivateAttr
+from pydantic import Field, PrivateAttr
 
 from ..limits import HIGHEST_RIPPLE_ORDER, HIGHEST_SHAFT_ORDER, MOST_LIST_VALUES, MOST_RIPPLES
 from .fields import (
@@ -27,8 +27,8 @@ from .fields import (
     Whole,
     counted,
     join_words,
-    parse_firing_order,
 )
+from .firing_order import FiringOrder
 from .table import (
     FIT,
     INTERVAL_TOLERANCE_DEG,
@@ -216,8 +216,9 @@ class Layout(FileTable):
     stagger: Length = 0.0
     """Axial distance between adjacent rods on a throw, first bank towards the free end. Example:
     22"""
-    firing_order: Annotated[Numbers | None, BeforeValidator(parse_firing_order)] = None
-    """Numbers of the cylinders in the order in which they fire. Example: [1, 3, 4, 2]"""
+    firing_order: Annotated[Numbers | None, FiringOrder()] = None
+    """Numbers of the cylinders in the order in which they fire, or names with a letter for the bank
+    and a number that counts along it (1R-6L-5R-2L). Example: [1, 3, 4, 2]"""
     firing_intervals: Intervals | None = None
     """Angle from each firing to the next; left out: they follow from crank.throws, and without
     crank.throws they are equal. Example: [405, 315]
@@ -571,6 +572,15 @@ class EngineFile(FileTable):
         """Return a copy of this file with other values in one table; the values are not checked."""
         table: FileTable = getattr(self, key)
         return self.model_copy(update={key: table.model_copy(update=values)})
+
+    def with_inferred(self, key: str, **values: object) -> Self:
+        """Return a copy of this file with inferred values in one table. A key that the file does
+        not give still counts as not given, and is not written to files.
+        """
+        table: FileTable = getattr(self, key)
+        changed = table.model_copy(update=values)
+        changed.model_fields_set.intersection_update(table.model_fields_set)
+        return self.model_copy(update={key: changed})
 
     def tables(self) -> Iterator[tuple[str, FileTable]]:
         """Yield every table that the file has or that has defaults, with its dotted name (`crank`,

@@ -16,6 +16,7 @@ from ..core.records import Node
 from ..errors import InputError, Problem, wrong_type
 from ..limits import MOST_KEY_VALUES
 from .fields import RIGID
+from .firing_order import NamedOrder
 from .model import EngineFile
 from .table import FileTable, label_table
 from .toml import name_file, parse_toml, read_bytes
@@ -87,6 +88,8 @@ def list_tables(value: object) -> Any:
         return {key: list_tables(part) for key, part in written if part is not None and part != ()}
     if isinstance(value, Mapping):
         return {str(key): list_tables(inner) for key, inner in value.items()}
+    if isinstance(value, NamedOrder):
+        return value.text
     if isinstance(value, tuple):
         return [list_tables(inner) for inner in value]
     return RIGID if value == math.inf else value

@@ -23,9 +23,9 @@ from ..core.mechanisms.linkage import Rotary
 from ..core.records import Node
 from ..engine.engine import Engine, take_model
 from ..engine.figures import RodFigures
+from ..engine.firing.usual import list_numbers
 from ..engine.layout import Cell
 from ..engine.load import SPEED
-from ..engine.numbering import list_numbers
 from ..engine.parts import Parts
 from ..errors import MOMENTS_UNKNOWN
 from ..file.edit import HEADER, format_value

@@ -11,8 +11,8 @@ import numpy as np
 from ..core.cylinders import find_travel
 from ..core.phasors import Figure
 from ..engine.engine import Engine, Placed, SilentCylinders
+from ..engine.firing.usual import list_numbers, write_rows
 from ..engine.layout import plan_cylinders
-from ..engine.numbering import list_numbers, write_rows
 from ..file.fields import count_lambda_digits, join_words
 from ..forces.spectrum import find_relevant_orders
 from ..limits import HIGHEST_ORDER_UNASKED

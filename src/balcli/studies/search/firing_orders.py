@@ -18,8 +18,8 @@ import numpy as np
 
 from ...core.phasors import Array
 from ...engine.build import assemble
+from ...engine.firing.fits import find_fitting_splay
 from ...engine.layout import TOLERANCE_DEG, Cell, cycle_deg, plan_cylinders
-from ...engine.numbering import find_fitting_splay
 from ...errors import BalcliError
 from ...file.model import EngineFile
 from ...limits import MOST_CYLINDERS_FIRED, MOST_EVEN_CRANKS
