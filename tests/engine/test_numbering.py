@@ -1,15 +1,24 @@
 """Which engine a file means: usual numberings, tier by tier, on engines whose makers are known."""
 
+import pickle
 import re
+import tomllib
+from itertools import pairwise, permutations
 from typing import Any
 
 import numpy as np
 import pytest
+import tomli_w
+from oracle import momentum
 from support.cases import cases
 from support.engines import engine, list_problems, refused
+from support.paths import ROOT
 
 from balcli.engine.engine import Engine
+from balcli.engine.firing.common_pins import list_evenly_spaced
 from balcli.engine.load import load
+from balcli.engine.parse import parse_dict
+from balcli.engine.parts import Parts
 from balcli.errors import InputError
 from balcli.file.assumed import Assumed
 
@@ -24,10 +33,10 @@ BASE = {
 }
 
 
-def tables(order: str, bank_angle: float | None = 90, **more: Any) -> dict[str, Any]:
+def tables(order: str | list[str], bank_angle: float | None = 90, **more: Any) -> dict[str, Any]:
     """The tables of a maker's engine; `more` are keys of [crank] and [layout]."""
     crank = {key: more.pop(key) for key in ("splay", "throws") if key in more}
-    layout = {"firing_order": [int(n) for n in order.split("-")], **more}
+    layout = {"firing_order": order, **more}
     if bank_angle is not None:
         layout["bank_angle"] = bank_angle
     return BASE | {"crank": BASE["crank"] | crank, "layout": layout}
@@ -214,3 +223,239 @@ def test_a_turn_between_firings_that_the_crank_leaves_open_is_assumed():
     gas = {"gas": {"cycle": "otto", "compression_ratio": 9, "imep": 9}}
     assert Assumed("layout.firing_intervals", (405.0, 315.0), "deg") in load(twin | gas).inferred
     assert "layout.firing_intervals" not in [value.path for value in load(twin).inferred]
+
+
+# ------------------------------------------------------------------ cylinders that fire together
+FLAT_TWO_STROKE = {"banks": [-90, 90], "rods": "alternating", "strokes": 2}
+
+
+def read_flat(order: str, layout: dict[str, Any]) -> list[str]:
+    """The lines of the list for a flat two-stroke, without the last one."""
+    return read_lines(order, None, **FLAT_TWO_STROKE | layout)[:-1]
+
+
+@cases("engine/numbering", "a_flat_two_stroke_may_fire_evenly_or_in_pairs")
+def test_a_flat_two_stroke_may_fire_evenly_or_in_pairs(order, layout, lines):
+    found = read_flat(order, layout)
+    assert len(found) == len(lines)
+    for line, beginning in zip(found, lines, strict=True):
+        assert line.startswith(beginning)
+
+
+@cases("engine/numbering", "no_flat_two_stroke_is_asked_about_pairs")
+def test_no_flat_two_stroke_is_asked_about_pairs(order, crank, layout):
+    assert load(tables(order, None, **crank, **FLAT_TWO_STROKE | layout)).fires_deg
+
+
+def test_a_free_layout_may_fire_in_pairs_as_well():
+    twin = tables("1-2", None, strokes=2) | {"cylinder": {"1": {"bank": -90}, "2": {"bank": 90}}}
+    mistake = list_problems(twin)[0]
+    assert "one of 2 engines:\n    layout.firing_intervals = [0, 360]: throws 0, 180; cylinder 1 on throw 1;" in mistake
+
+
+@cases("engine/numbering", "cylinders_that_fire_together_on_a_given_crank")
+def test_cylinders_that_fire_together_on_a_given_crank(order, throws, banks, intervals, words):
+    layout = {"banks": banks, "strokes": 2} | ({"rods": "alternating"} if len(banks) > 1 else {})
+    engine = load(tables(order, None, throws=throws, **layout))
+    starts = [sum(intervals[:k]) for k in range(len(intervals))]
+    assert list(engine.fires_deg.values()) == pytest.approx(starts)
+    assert Assumed("layout.firing_intervals", tuple(intervals), "deg") in (engine.list_assumed() or ())
+    assert any(doubt.startswith(f"layout.firing_order: {words}") for doubt in engine.doubts)
+    given = tables(order, None, throws=throws, **layout, firing_intervals=intervals)
+    assert not load(given).doubts
+
+
+def test_a_four_stroke_is_proposed_to_fire_together_and_no_crank():
+    """All dead centres of this flat three are at one angle: one large piston against two small ones."""
+    three = tables("1-3-2", None, throws=[0, 180, 0]) | {
+        "cylinder": {"1": {"bank": -90}, "3": {"bank": -90}, "2": {"bank": 90}}
+    }
+    hint = list_problems(three)[0].partition("If cylinders fire together, it fits with ")[2]
+    lists = ["[0, 360, 360]", "[360, 0, 360]", "[360, 360, 0]"]
+    assert hint == " or with ".join(f"layout.firing_intervals = {each}" for each in lists)
+
+
+def test_a_numbering_along_the_crank_may_fire_together_as_well():
+    """Bank by bank, 1 and 2 would be at their dead centres a turn apart, and 3 and 4, too."""
+    boxer = tables("1-2-3-4", 180, throws=[0, 180, 0, 180], rods="alternating")
+    assert (
+        "If cylinders fire together, it fits with layout.firing_intervals = [0, 360, 0, 360] or with"
+        in list_problems(boxer)[0]
+    )
+
+
+# ------------------------------------------------------------------ common pins
+@cases("engine/numbering", "common_pins_that_fire_unevenly")
+def test_common_pins_that_fire_unevenly(order, angle, strokes, first):
+    lines = read_lines(order, angle, strokes=strokes)
+    assert lines[0].startswith(first)
+    assert "crank.splay" not in lines[0]
+    assert "crank.splay" in lines[1]
+
+
+@pytest.mark.parametrize(
+    ("order", "numbering", "hint"),
+    [
+        (
+            "1-2-7-3-4-5-6-8",
+            [[1, 3, 5, 7], [2, 4, 6, 8]],
+            "layout.firing_intervals = [60, 120, 90, 60, 120, 60, 90, 120] or with crank.splay = -30",
+        ),
+        (
+            "1-2-3-4-5-6",
+            [[1, 3, 5], [2, 4, 6]],
+            "layout.firing_intervals = [60, 180, 60, 180, 60, 180] or with crank.splay = -60",
+        ),
+    ],
+)
+def test_common_pins_are_a_hint_where_the_numbering_is_given(order, numbering, hint):
+    assert read_refusal(order, 60, numbering=numbering).partition("It fits with ")[2] == hint
+
+
+def test_pins_that_are_not_evenly_spaced_are_named_where_the_numbering_is_given():
+    told = read_refusal(
+        "1-12-7-4-3-10-9-5-2-11-8-6", 45, strokes=2, numbering=[[1, 2, 3, 4, 5, 6], [7, 8, 9, 10, 11, 12]]
+    )
+    assert told.endswith(
+        "It fits with the layout.firing_intervals of common pins (the two cylinders of a pin fire 45 deg apart) or with crank.splay = -15"
+    )
+
+
+def find_intervals_of(pins: list[float], order: list[int], angle: float) -> tuple[float, ...] | None:
+    """Intervals of a four-stroke vee on these pins, numbered bank by bank, if its dead centres come in the firing
+    order within one cycle, and none is under half the even one.
+    """
+    count = len(pins)
+    ready = {n: (angle * (n > count) - pins[(n - 1) % count]) % 360 for n in order}
+    found = [round((ready[b] - ready[a]) % 360, 6) or 360.0 for a, b in pairwise([*order, order[0]])]
+    return tuple(found) if abs(sum(found) - 720) < 1 and min(found) >= 180 / count - 1e-3 else None
+
+
+@pytest.mark.parametrize("count", [2, 3, 4, 5])
+def test_every_evenly_spaced_crank_is_tried(count):
+    """Against all arrangements of the pins, one by one; the orders are those of such cranks."""
+    random, fitting = np.random.default_rng(count), 0
+    angles = [[360 / count * k for k in range(count)]]
+    angles += [] if count % 2 else [[720 / count * (k // 2) for k in range(count)]]
+    cranks = [list(pins) for each in angles for pins in permutations(each) if pins[0] == 0]
+    numbering = [[*range(1, count + 1)], [*range(count + 1, 2 * count + 1)]]
+    for _ in range(60):
+        angle, pins = float(random.choice([45, 60, 72, 90])), cranks[random.integers(len(cranks))]
+        times = [(angle * bank - pin) % 360 + 360 * random.integers(2) for bank in (0, 1) for pin in pins]
+        order = [n + 1 for n in np.argsort(times).tolist()]
+        order = [*order[order.index(1) :], *order[: order.index(1)]]
+        wanted = {found for pins in cranks if (found := find_intervals_of(pins, order, angle))}
+        fitting += bool(wanted)
+        parts = Parts(parse_dict(tables("-".join(map(str, order)), angle, numbering=numbering)))
+        assert set(list_evenly_spaced(parts)) == wanted, (order, angle)
+    assert fitting > 3
+
+
+def test_a_two_stroke_has_no_pairs_of_pins():
+    """Pins at 0, 0, 180, 180 would give the dead centres in this order, and fire four cylinders within half a turn."""
+    parts = Parts(parse_dict(tables("1-2-5-6-3-4-7-8", 90, strokes=2, numbering=[[1, 2, 3, 4], [5, 6, 7, 8]])))
+    assert list(list_evenly_spaced(parts)) == []
+
+
+# ------------------------------------------------------------------ names with letters
+@cases("engine/numbering", "letters_name_the_banks")
+def test_letters_name_the_banks(order, keys, numbers, throws, words):
+    engine = load(tables(order, **{"bank_angle": None} | keys))
+    assert engine.model is not None
+    assert list(engine.model.layout.firing_order or ()) == numbers
+    assert find_throws(engine) == throws
+    assert Assumed("layout.firing_order", words) in engine.inferred
+    assert "layout.numbering" in [value.path for value in engine.inferred]
+    assert not any("numbering" in doubt for doubt in engine.doubts)
+
+
+@cases("engine/numbering", "letters_that_do_not_name_the_banks")
+def test_letters_that_do_not_name_the_banks(order, layout, words):
+    mistakes = list_problems(tables(order, **{"bank_angle": None} | layout))
+    assert len(mistakes) == 1
+    assert words in mistakes[0]
+
+
+def test_letters_that_fit_either_way_are_listed_in_numbers():
+    """One rod on each throw: every order has a crank."""
+    lines = read_lines("1L-1R-2L-2R-3L-3R", 180, **ALTERNATING)
+    numbering = "layout.numbering = [[1, 2, 3], [4, 5, 6]]"
+    assert lines[0].startswith(f"layout.firing_order = [1, 4, 2, 5, 3, 6], {numbering}: throws 0, 60, 120, 180,")
+    assert "cylinder 1 (1L) on the left bank" in lines[0]
+    assert lines[1].startswith(
+        f"layout.firing_order = [4, 1, 5, 2, 6, 3], {numbering}: throws 0, 300, 120, 60, 240, 180;"
+    )
+    assert "cylinder 1 (1R) on the left bank" in lines[1]
+
+
+def test_letters_stay_in_the_file_and_are_read_again():
+    order = "1R-6L-5R-2L-3R-4L-6R-1L-2R-5L-4R-3L"
+    engine = load(tables([name.lower() for name in order.split("-")], 60))
+    assert engine.to_dict()["layout"] == {"firing_order": order.lower(), "bank_angle": 60}
+    assert engine.vary({"operation.speed": 2000}).inferred == engine.inferred
+    numbered = engine.vary({"layout.firing_order": [*engine.model.layout.firing_order]})  # type: ignore[union-attr]
+    assert "layout.firing_order" not in [value.path for value in numbered.inferred]
+    copied = pickle.loads(pickle.dumps(engine.model))
+    assert copied.layout.firing_order.letters == ("R", "L")
+
+
+# ------------------------------------------------------------------ the lines of a list
+def list_engines_to_choose_from() -> list[dict[str, Any]]:
+    """The tables of each engine above that has a list."""
+    content = tomllib.loads((ROOT / "tests/cases/engine/numbering.toml").read_text(encoding="utf-8"))
+    several = content["several_engines_are_listed_the_better_balanced_first"]["rows"]
+    split = content["where_nothing_fits_intervals_of_shared_pins_come_before_split_pins"]["rows"]
+    flat = content["a_flat_two_stroke_may_fire_evenly_or_in_pairs"]["rows"]
+    common = content["common_pins_that_fire_unevenly"]["rows"]
+    return [
+        *(tables(order, angle, **ALTERNATING) for order, angle, *_ in several),
+        *(tables(order, angle) for order, angle, _ in split),
+        *(tables(order, None, **FLAT_TWO_STROKE | layout) for order, layout, _ in flat),
+        *(tables(order, angle, strokes=strokes) for order, angle, strokes, _ in common),
+        tables("1L-1R-2L-2R-3L-3R", 180, **ALTERNATING),
+    ]
+
+
+def paste(of_engine: dict[str, Any], line: str) -> dict[str, Any]:
+    """The tables with the keys of a line."""
+    keys = re.sub(r", (layout|crank)\.", r"\n\1.", line.partition(": throws")[0])
+    pasted = tomllib.loads(keys)
+    return of_engine | {name: of_engine[name] | pasted.get(name, {}) for name in ("crank", "layout")}
+
+
+def write_numbers(layout: dict[str, Any], line: str) -> list[int]:
+    """The firing order in numbers; cylinder 1 is on the first bank, and the line has its letter."""
+    order = layout["firing_order"]
+    if not isinstance(order, str):
+        return order
+    names = order.split("-")
+    if order.replace("-", "").isdecimal():
+        return [int(name) for name in names]
+    first = re.search(r"cylinder 1 \((\w+)\)", line)
+    assert first is not None
+    letter = first[1].strip("0123456789")
+    number = {name: int(name.strip("ABLR")) for name in names}
+    return [number[name] + (letter not in name) * len(names) // 2 for name in names]
+
+
+@pytest.mark.parametrize("of_engine", list_engines_to_choose_from(), ids=lambda of: str(of["layout"]["firing_order"]))
+def test_a_pasted_line_is_the_engine_that_it_describes(of_engine):
+    """Forces and moments of orders 1 and 2 from the momentum of every part."""
+    for line in list_problems(of_engine)[0].split("\n    ")[1:-1]:
+        if not line.startswith("common pins"):
+            check_pasted(paste(of_engine, line), line)
+
+
+def check_pasted(pasted: dict[str, Any], line: str) -> None:
+    """The engine has the throws, forces and moments that the line shows."""
+    throws = re.search(r": throws ([^;]*);", line)
+    assert throws is not None
+    assert find_throws(load(pasted)) == pytest.approx([float(angle) for angle in throws[1].split(", ")], abs=1e-3)
+    layout = pasted["layout"] | {"firing_order": write_numbers(pasted["layout"], line)}
+    curves = momentum.Engine.read(tomli_w.dumps(pasted | {"layout": layout})).curves()
+    for kind in ("force", "moment"):
+        shown = re.search(rf"{kind} (\S+) and (\S+) N", line)
+        assert shown is not None
+        for order in (1, 2):
+            right = sum(map(abs, curves.order(kind, order)))
+            assert float(shown[order]) == pytest.approx(right, rel=6e-4, abs=1e-6 * UNIT)

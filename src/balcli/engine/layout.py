@@ -76,6 +76,8 @@ def plan_cylinders(model: EngineFile) -> Plan:
     """
     crank, layout = model.crank, model.layout
     banks = count_banks(layout)
+    if problems := list(_check_letters(layout, banks)):
+        raise InputError(problems)
     shared = layout.rods == "shared" or banks == 1
     rods, cylinders = banks if shared else 1, len(layout.firing_order or ())
     if crank.throws is None and cylinders % rods:
@@ -102,7 +104,7 @@ def plan_cylinders(model: EngineFile) -> Plan:
     blank = Plan(banks, throws, tuple(Cell(*place, 0) for place in places), rods, in_rows)
     numbers, problems = _number_cylinders(layout, blank)
     problems += [*_check_rows(model, throws), *_check_throws(crank, throws)]
-    problems += _check_letters(layout, blank)
+    problems += _check_bank_sizes(layout, blank)
     if not shared and throws < banks:
         told = f'is "alternating", one rod a throw, for {counted(banks, "bank")} and '
         told += f'{counted(throws, "throw")}: give more throws, or "shared"'
@@ -238,9 +240,9 @@ def _check_firing_order(
 MOST_LETTERED_BANKS = 4  # as an X engine has; every way to give letters to banks is tried
 
 
-def _check_letters(layout: Layout, plan: Plan) -> Iterator[Problem]:
-    """Check that a firing order with letters has a letter for each bank, for as many cylinders as
-    the bank has, and that the file has no other numbering.
+def _check_letters(layout: Layout, banks: int) -> Iterator[Problem]:
+    """Check that a firing order with letters has a letter for each bank, and that the file has no
+    other numbering.
     """
     order = layout.firing_order
     if not isinstance(order, NamedOrder):
@@ -248,15 +250,21 @@ def _check_letters(layout: Layout, plan: Plan) -> Iterator[Problem]:
     if layout.has("numbering"):
         told = "firing_order has letters, and the letters say it; leave numbering out"
         yield Problem("layout.numbering", told)
-    path, letters = "layout.firing_order", join_words(order.letters)
-    if plan.in_rows or plan.banks > MOST_LETTERED_BANKS:
-        told = f"names the banks {letters}; letters are read for 2 to {MOST_LETTERED_BANKS} banks, "
-        yield Problem(path, f"{told}not for radials: write the numbers of the cylinders")
-    elif len(order.letters) != plan.banks:
-        told = f"names the banks {letters}, but layout has {counted(plan.banks, 'bank')}; "
-        yield Problem(path, f"{told}give bank_angle, or the angle of every bank in banks")
-    elif sorted(order.bank_sizes) != sorted(map(len, plan.groups)):
-        yield Problem(path, f"{_describe_bank_sizes(order)}, but {_describe_groups(plan)}")
+    told = f"names the banks {join_words(order.letters)}"
+    if layout.in_rows or banks > MOST_LETTERED_BANKS:
+        told += f"; letters are read for 2 to {MOST_LETTERED_BANKS} banks without rows: write the "
+        yield Problem("layout.firing_order", f"{told}numbers of the cylinders")
+    elif len(order.letters) != banks:
+        told += f", but layout has {counted(banks, 'bank')}; give bank_angle, or the angle of "
+        yield Problem("layout.firing_order", f"{told}every bank in banks")
+
+
+def _check_bank_sizes(layout: Layout, plan: Plan) -> Iterator[Problem]:
+    """Check that a firing order with letters has as many cylinders of each letter as a bank has."""
+    order, sizes = layout.firing_order, [len(group) for group in plan.groups]
+    if isinstance(order, NamedOrder) and sorted(order.bank_sizes) != sorted(sizes):
+        told = f"{_describe_bank_sizes(order)}, but the banks have {join_words(sizes)} cylinders"
+        yield Problem("layout.firing_order", told)
 
 
 def _describe_bank_sizes(order: NamedOrder) -> str:
@@ -264,11 +272,6 @@ def _describe_bank_sizes(order: NamedOrder) -> str:
     sizes = map(counted, order.bank_sizes, repeat("cylinder"))
     banks = [f"{size} of {letter}" for size, letter in zip(sizes, order.letters, strict=True)]
     return f"has {join_words(banks)}"
-
-
-def _describe_groups(plan: Plan) -> str:
-    """Return how many cylinders the banks have."""
-    return f"the banks have {join_words(len(group) for group in plan.groups)} cylinders"
 
 
 def _describe_not_once(given: Sequence[int], wanted: Sequence[int]) -> str:

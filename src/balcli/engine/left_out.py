@@ -12,7 +12,7 @@ from ..file.model import EngineFile, RodKeys
 from ..file.units import INERTIA
 from .firing.fits import count_throws_from_first, list_gaps
 from .firing.letters import describe_letters
-from .firing.together import describe_together
+from .firing.together import list_together
 from .firing.usual import list_numbers
 from .layout import TOLERANCE_DEG, are_places_known, bank_angles, find_row_angle
 from .parts import Parts
@@ -62,8 +62,8 @@ def _list_firing(parts: Parts) -> Iterator[Assumed]:
     gaps = tuple(round(gap, _DECIMALS) for gap in list_gaps(parts))
     # The crank does not determine in which of its turns a cylinder of a four-stroke fires.
     open_turn = has_gas and len(gaps) > 1 and max(gaps) > TURN + TOLERANCE_DEG
-    together = describe_together(parts) != ""
-    if layout.firing_intervals is None and (throws_inferred or open_turn or together):
+    inferred = throws_inferred or open_turn or list_together(parts)
+    if layout.firing_intervals is None and inferred:
         yield assume("layout.firing_intervals", layout, gaps)
     if not layout.has("strokes") and counts:
         yield assume("layout.strokes", layout, layout.strokes)

@@ -10,7 +10,7 @@ from ..file.model import EngineFile
 from ..limits import SMALL
 from .firing.candidates import Candidate
 from .firing.fits import count_throws_from_first, list_gaps
-from .firing.together import describe_together
+from .firing.together import describe_together, list_together
 from .firing.usual import list_tiers, write_rows
 from .layout import TOLERANCE_DEG, bank_angles
 from .parts import Parts
@@ -48,10 +48,10 @@ def doubt_firing(model: EngineFile) -> Iterator[str]:
     order = write_order(parts.order)
     if parts.throws_given:
         gaps = list_gaps(parts)
-        together = describe_together(parts)
+        together = list_together(parts)
         if layout.firing_intervals is None and together:
             yield (
-                f"layout.firing_order: {together} with these crank.throws; if that is "
+                f"layout.firing_order: {describe_together(together)} with these crank.throws; if that is "
                 f"right, give layout.firing_intervals = [{_join(gaps)}]"
             )
         if layout.firing_intervals is None and len(gaps) > 2 and max(gaps) > TURN + TOLERANCE_DEG:

@@ -37,7 +37,7 @@ def list_common_pin_intervals(parts: Parts) -> list[Intervals]:
     two_stroke = parts.model.layout.strokes == 2
     found = list(_list_alternating(parts))
     if two_stroke or parts.plan.throws <= MOST_PINS:
-        found += _list_evenly_spaced(parts)
+        found += list_evenly_spaced(parts)
     return list(dict.fromkeys(found))
 
 
@@ -54,7 +54,7 @@ def _list_alternating(parts: Parts) -> Iterator[Intervals]:
             yield _round([both - vee, vee] * pairs)
 
 
-def _list_evenly_spaced(parts: Parts) -> Iterator[Intervals]:
+def list_evenly_spaced(parts: Parts) -> Iterator[Intervals]:
     """Yield the intervals of all evenly spaced cranks that the firing order allows."""
     pins = parts.plan.throws
     yield from _CrankSearch(parts, [TURN / pins * k for k in range(pins)], 1).run()

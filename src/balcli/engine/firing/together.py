@@ -9,7 +9,7 @@ of 0 are proposed.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from itertools import combinations, islice, pairwise
 
 from ...core.phases import TURN
@@ -96,10 +96,8 @@ def _count_most_together(intervals: Intervals) -> int:
     return most
 
 
-def describe_together(parts: Parts) -> str:
-    """Return which cylinders fire together, "cylinders 1 and 2 fire together", one group after the
-    other; empty if none do.
-    """
+def list_together(parts: Parts) -> list[list[int]]:
+    """Return the numbers of the cylinders that fire together, a list for each group of them."""
     groups: list[tuple[float, list[int]]] = []
     cycle = cycle_deg(parts.model.layout)
     for number, fires in parts.fires_deg.items():
@@ -109,5 +107,9 @@ def describe_together(parts: Parts) -> str:
                 break
         else:
             groups.append((float(fires), [number]))
-    together = [join_words(group) for _, group in groups if len(group) > 1]
-    return ", ".join(f"cylinders {numbers} fire together" for numbers in together)
+    return [group for _, group in groups if len(group) > 1]
+
+
+def describe_together(groups: Iterable[Sequence[int]]) -> str:
+    """Return which cylinders fire together in words: "cylinders 1 and 2 fire together"."""
+    return ", ".join(f"cylinders {join_words(group)} fire together" for group in groups)
