@@ -51,8 +51,8 @@ def doubt_firing(model: EngineFile) -> Iterator[str]:
         together = list_together(parts)
         if layout.firing_intervals is None and together:
             yield (
-                f"layout.firing_order: {describe_together(together)} with these crank.throws; if that is "
-                f"right, give layout.firing_intervals = [{_join(gaps)}]"
+                f"layout.firing_order: {describe_together(together)} with these crank.throws; "
+                f"if that is right, give layout.firing_intervals = [{_join(gaps)}]"
             )
         if layout.firing_intervals is None and len(gaps) > 2 and max(gaps) > TURN + TOLERANCE_DEG:
             yield (
