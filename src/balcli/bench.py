@@ -29,7 +29,7 @@ from .engine.engine import Engine
 from .engine.parse import parse
 from .forces.spectrum import compute_spectra
 from .show.formats import Renderer, Rows
-from .show.sheet import Grid, Sheet, capitalized, number
+from .show.sheet import Column, Grid, Sheet, capitalized, number
 
 if TYPE_CHECKING:
     from .show.units import System
@@ -322,12 +322,18 @@ def sheet(result: Bench, _system: System) -> Sheet:
     grids = []
     for task in dict.fromkeys(r.task for r in result.rows):
         shown = [r for r in result.rows if r.task == task]
-        methods, times = [r.method for r in shown], [number(r.seconds * 1e6, 3) for r in shown]
         errors = ["rounding" if r.error < ROUNDING else f"{r.error:.1e}" for r in shown]
-        cells = tuple(zip(methods, times, errors, strict=True))
-        grids.append(Grid(capitalized(task), ("method", "µs", "relative error"), cells))
-    ratios = tuple((r.what, number(r.value, 3)) for r in result.ratios)
-    grids.append(Grid("Ratios of run times", ("", "ratio"), ratios))
+        columns = [
+            Column("method", [r.method for r in shown], words=True),
+            Column("µs", [number(r.seconds * 1e6, 3) for r in shown]),
+            Column("relative error", errors),
+        ]
+        grids.append(Grid(capitalized(task), columns))
+    ratios = [
+        Column("", [ratio.what for ratio in result.ratios], words=True),
+        Column("ratio", [number(ratio.value, 3) for ratio in result.ratios]),
+    ]
+    grids.append(Grid("Ratios of run times", ratios))
     return Sheet("Run time against error", tuple(grids))
 
 

@@ -82,7 +82,7 @@ def parts(subject, view=IN_BRIEF, **options):
     """Titles of a sheet's parts, and the first cells of its first table."""
     found = analysis.sheet(analyze(subject, only=[*UNASKED, "ladder"], **options), SYSTEMS["si"], view).parts
     first = next(part for part in found if isinstance(part, Grid))
-    return [part.title.split(":")[0].split(" (")[0] for part in found], [row[0] for row in first.rows]
+    return [part.title.split(":")[0].split(" (")[0] for part in found], list(first.columns[0].cells)
 
 
 BRIEF = [
@@ -107,11 +107,12 @@ def test_a_mean_turns_neither_way():
     text = GOOD.replace("throws = [0, 180, 180, 0]", "throws = [0]").replace("[1, 3, 4, 2]", "[1]")
     found = analyze(build_text(text + ripple))
     brief = next(p for p in analysis.sheet(found, SYSTEMS["si"]).parts if isinstance(p, Grid))
-    assert brief.rows[0][0] == "0"
-    assert brief.rows[0][2:4] == ("–", "–")
+    assert brief.columns[0].cells[0] == "0"
+    assert [column.head for column in brief.columns if column.cells[0] == "–"] == ["with crank", "against"]
     whole = analysis.sheet(found, SYSTEMS["si"], View(whole=True)).parts
     table = next(p for p in whole if p.title.startswith("Free force by order"))
-    assert table.rows[0][2:] == ("–",) * 4
+    unknown = [column.head for column in table.columns if column.cells[0] == "–"]
+    assert unknown == ["smallest", "axis, deg", "with crank", "against"]
 
 
 @cases("show/analysis", "only_picks_parts")

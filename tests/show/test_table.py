@@ -12,7 +12,7 @@ from support.paths import ENGINES
 from balcli import analyze, load
 from balcli.analysis import comparison, show as analysis
 from balcli.analysis.comparison import compare
-from balcli.show.sheet import Facts, Grid, Sheet, Text, View
+from balcli.show.sheet import Column, Facts, Grid, Sheet, Text, View
 from balcli.show.table import PROSE, WIDTH, count_places, fold, write_text
 from balcli.show.units import SYSTEMS
 
@@ -51,10 +51,9 @@ def pieces_for_rich(part: Grid | Facts | Text) -> list:
 
 def grid_for_rich(grid: Grid) -> Table:
     table = Table(box=box.SIMPLE_HEAD, padding=(0, 1, 0, 1), pad_edge=False, show_edge=False)
-    for k, name in enumerate(grid.columns):
-        left = k in grid.words
-        folded = {"overflow": "fold", "max_width": PROSE} if k and left else {"no_wrap": True}
-        table.add_column(name, justify="left" if left else "right", **folded)
+    for column in grid.columns:
+        folded = {"overflow": "fold", "max_width": PROSE} if table.columns and column.words else {"no_wrap": True}
+        table.add_column(column.head, justify="left" if column.words else "right", **folded)
     for row in grid.rows:
         table.add_row(*map(Line, row))
     return table
@@ -76,10 +75,11 @@ LONG = "x" * 60 + " end"
 
 @cases("show/table", "any_grid_is_as_rich_prints_it", LETTERS=LETTERS, LONG=LONG)
 def test_any_grid_is_as_rich_prints_it(cells):
-    columns = ("no.", "what it is", "figure")
+    words = (Column("no.", words=True), Column("what it is", words=True), Column("figure"))
+    figures = (Column("no."), Column("what it is"), Column("figure"))
     parts = (
-        Grid("Title of the grid", columns, tuple(cells), note="A note.", words=(0, 1)),
-        Grid("", columns, tuple(cells), words=()),
+        Grid.of_rows("Title of the grid", words, cells, "A note."),
+        Grid.of_rows("", figures, cells),
         Facts((("μ", LETTERS), ("name of a fact", "1"), ("七", "2"))),
         Text("Title", (LETTERS, LONG, "")),
     )
@@ -103,13 +103,17 @@ def test_control_characters_command_nobody():
     assert write_text([sheet]) == "a?[31m\n\nb?\nc?\n"
 
 
+def sheet_of_figures(figure):
+    """A table whose row of six equal figures is wide."""
+    columns = [Column("step", ["2 counterweights at every throw"], words=True)]
+    columns += [Column(f"a head of several words, unit {k}", [figure]) for k in range(6)]
+    return Sheet("s", (Grid("", columns),))
+
+
 def test_a_wide_table_is_narrowed_to_80_columns_but_no_figure_is_folded():
-    heads = ("step", *(f"a head of several words, unit {k}" for k in range(6)))
-    cells = ("2 counterweights at every throw", *("12345.6 ≠ 7",) * 6)
-    lines = write_text([Sheet("s", (Grid("", heads, (cells,)),))]).splitlines()
+    lines = write_text([sheet_of_figures("12345.6 ≠ 7")]).splitlines()
     assert max(map(len, lines[2:])) > 80  # six figures of 11 places do not fit
     assert any(line.count("12345.6 ≠ 7") == 6 for line in lines)
-    cells = ("2 counterweights at every throw", *("12345",) * 6)
-    lines = write_text([Sheet("s", (Grid("", heads, (cells,)),))]).splitlines()
+    lines = write_text([sheet_of_figures("12345")]).splitlines()
     assert max(map(len, lines)) == 80
     assert " ".join(" ".join(lines).split()).count("12345") == 6

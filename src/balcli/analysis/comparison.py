@@ -25,6 +25,7 @@ from ..show.result import Result
 from ..show.sheet import (
     NEGLIGIBLE,
     UNKNOWN,
+    Column,
     Facts,
     Grid,
     Sheet,
@@ -80,6 +81,11 @@ class Line:
     ratios: tuple[float, ...]
     kind: Annotated[Kind, HIDDEN]
     single: Annotated[tuple[float, ...], HIDDEN]
+
+    @property
+    def label(self) -> str:
+        """Heading of its row or column in a table."""
+        return "peak" if self.order is None else f"order {order_name(self.order)}"
 
     @property
     def largest(self) -> float:
@@ -326,8 +332,6 @@ def sheet(result: Comparison, system: System) -> Sheet:
         result: Comparison of the engines.
         system: System of units.
     """
-    first, *others = result.engines
-    heads = ("", first, *(head for name in others for head in (name, "ratio")))
     told = [tell_speed(engine) for engine in result.compared]
     speeds = ("speeds", "; ".join(told)) if len(set(told)) > 1 else ("speed", told[0])
     parts: list[Facts | Grid | Text] = [Facts((speeds,)), *assumed_facts(result.assumed)]
@@ -338,10 +342,7 @@ def sheet(result: Comparison, system: System) -> Sheet:
         if not lines:
             nothing.append(kind.label)
             continue
-        unit = fit_unit(kind, lines, system)
-        title = f"{capitalized(kind.label)}, {unit.name}: largest by order"
-        body = tuple(_row(line, unit, every=result.whole) for line in lines)
-        parts.append(Grid(title, heads, body))
+        parts.append(_lay_out_kind(kind, lines, result, system))
     for name, engine, ladder in zip(
         result.engines, result.compared, result.ladders or (), strict=False
     ):
@@ -392,15 +393,19 @@ def show_sizes(line: Line, unit: ShownUnit, *, every: bool, digits: int | None =
     ]
 
 
-def _row(line: Line, unit: ShownUnit, *, every: bool) -> tuple[str, ...]:
-    """Return a table row: values and, unless the first value is negligible, ratios to it."""
-    first, *others = show_sizes(line, unit, every=every)
-    ratios = (UNKNOWN if line.negligible[0] else number(ratio) for ratio in line.ratios[1:])
-    return (
-        "peak" if line.order is None else f"order {order_name(line.order)}",
-        first,
-        *(cell for pair in zip(others, ratios, strict=True) for cell in pair),
-    )
+def _lay_out_kind(kind: Kind, lines: list[Line], result: Comparison, system: System) -> Grid:
+    """Return a table of the values of each engine and, after the first engine, of their ratios to
+    its values, unless these are negligible.
+    """
+    unit = fit_unit(kind, lines, system)
+    cells = [show_sizes(line, unit, every=result.whole) for line in lines]
+    columns = [Column("", [line.label for line in lines], words=True)]
+    for k, name in enumerate(result.engines):
+        columns.append(Column(name, [row[k] for row in cells]))
+        if k > 0:
+            ratios = [UNKNOWN if ln.negligible[0] else number(ln.ratios[k]) for ln in lines]
+            columns.append(Column("ratio", ratios))
+    return Grid(f"{capitalized(kind.label)}, {unit.name}: largest by order", columns)
 
 
 RENDERER = Renderer(sheet=sheet, rows=rows)

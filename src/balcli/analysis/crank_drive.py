@@ -18,7 +18,7 @@ swings about the piston pin has the reduced length (J + m a^2)/(m a), which is l
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import partial
 from typing import NamedTuple
@@ -40,8 +40,8 @@ from ..forces.power import at_rated_speed, find_power, name_need
 from ..forces.quantity import TargetQuantity, refuse_stranger
 from ..forces.spectrum import compute_spectra, find_relevant_orders
 from ..show.engine_facts import name_cylinders
-from ..show.sheet import UNKNOWN, Grid, degrees, number, order_name, size_cell, size_text
-from ..show.units import System
+from ..show.sheet import UNKNOWN, Column, Grid, degrees, number, order_name, size_cell, size_text
+from ..show.units import ShownUnit, System
 from .parts import list_columns
 from .records import (
     Journal,
@@ -250,24 +250,43 @@ def _grid(
     system: System,
     with_stress: bool,
 ) -> Grid:
-    unit = system.moment.fit(max(each.range_Nm for each in torques))
-    stress = with_stress and any(each.stress for each in journals)
-    heads = ["place", f"z, {system.length.name}", f"largest, {unit.name}", "deg", "smallest", "deg"]
-    heads += ["range", "mean", *([f"stress, ±{system.stress.fit(1e9).name}"] if stress else [])]
-    rows = []
-    for each, torque in zip(journals, torques, strict=True):
-        at = each.position_mm
-        cells = [each.place, UNKNOWN if at is None else number(system.length.of(at / 1e3))]
-        for value, angle in ((torque.max_Nm, torque.max_deg), (torque.min_Nm, torque.min_deg)):
-            cells += [number(unit.of(value)), "" if angle is None else degrees(angle, 1e9)]
-        cells += [number(unit.of(torque.range_Nm)), number(unit.of(torque.mean_Nm))]
-        if stress:
-            shear = None if each.stress is None else each.stress.amplitude_Pa
-            cells.append(UNKNOWN if shear is None else number(system.stress.fit(1e9).of(shear)))
-        rows.append(tuple(cells))
+    unit = system.moment.fit(max(torque.range_Nm for torque in torques))
+    length = system.length
+    stress = system.stress.fit(1e9)
+
+    def write(sizes: Iterable[float]) -> list[str]:
+        return [number(unit.of(size)) for size in sizes]
+
+    columns = [
+        Column("place", [each.place for each in journals], words=True),
+        Column(f"z, {length.name}", [_write_place(each, length) for each in journals]),
+        Column(f"largest, {unit.name}", write(torque.max_Nm for torque in torques)),
+        Column("deg", [_write_angle(torque.max_deg) for torque in torques]),
+        Column("smallest", write(torque.min_Nm for torque in torques)),
+        Column("deg", [_write_angle(torque.min_deg) for torque in torques]),
+        Column("range", write(torque.range_Nm for torque in torques)),
+        Column("mean", write(torque.mean_Nm for torque in torques)),
+    ]
+    if with_stress and any(each.stress for each in journals):
+        stresses = [_write_stress(each.stress, stress) for each in journals]
+        columns.append(Column(f"stress, ±{stress.name}", stresses))
     widest = max(zip(torques, journals, strict=True), key=lambda pair: pair[0].range_Nm)[1]
     note = f"The range is largest in {widest.place}." if any(t.range_Nm for t in torques) else ""
-    return Grid(title, tuple(heads), tuple(rows), note)
+    return Grid(title, columns, note)
+
+
+def _write_place(journal: Journal, unit: ShownUnit) -> str:
+    if journal.position_mm is None:
+        return UNKNOWN
+    return number(unit.of(journal.position_mm / 1e3))
+
+
+def _write_angle(angle_deg: float | None) -> str:
+    return "" if angle_deg is None else degrees(angle_deg, 1e9)
+
+
+def _write_stress(stress: ShearStress | None, unit: ShownUnit) -> str:
+    return UNKNOWN if stress is None else number(unit.of(stress.amplitude_Pa))
 
 
 # ------------------------------------------------------------------ masses
@@ -333,9 +352,10 @@ def lay_out_masses(masses: Sequence[Masses], system: System) -> Grid:
     labels = _LABELS.copy()
     if not any(one.crosshead_kg for one in masses):
         del labels["crosshead_kg"]
-    heads = ("", *(name_cylinders(one.cylinders) for one in masses))
-    rows = ((name, *cells) for name, cells in list_columns(masses, labels, {}, system))
-    return Grid("Masses", heads, tuple(rows))
+    heads = [Column(name_cylinders(one.cylinders)) for one in masses]
+    figures = list_columns(masses, labels, {}, system)
+    rows = [(figure.head, *figure.cells) for figure in figures]
+    return Grid.of_rows("Masses", [Column("", words=True), *heads], rows)
 
 
 # ------------------------------------------------------------------ power related unbalance
@@ -371,9 +391,11 @@ def lay_out_related(related: PowerRelatedUnbalance, system: System) -> Grid:
     kind = "" if related.power_kind == "file" else f"{related.power_kind} "
     title = f"Power related unbalance ({kind}power {size_text(related.power_W, system.power)})"
     unit = system.moment.fit(max(each.moment_Nm for each in related.orders))
-    rows = tuple(
-        (order_name(order), size_cell(moment, unit), number(ratio), need or UNKNOWN)
-        for order, moment, ratio, need in related.orders
-    )
-    heads = ("order", f"M, {unit.name}", "PRU, N·m/kW", "compensator")
-    return Grid(title, heads, rows, "Moments and power at the speed of the file.", words=(3,))
+    orders = related.orders
+    columns = [
+        Column("order", [order_name(each.order) for each in orders]),
+        Column(f"M, {unit.name}", [size_cell(each.moment_Nm, unit) for each in orders]),
+        Column("PRU, N·m/kW", [number(each.Nm_per_kW) for each in orders]),
+        Column("compensator", [each.need or UNKNOWN for each in orders], words=True),
+    ]
+    return Grid(title, columns, "Moments and power at the speed of the file.")

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from ..file.model import Counterweight, Shaft, Slider
-from ..show.sheet import UNKNOWN, Grid, degrees, given, number
+from ..show.sheet import UNKNOWN, Column, Grid, degrees, given, number
 from ..sizing.planes import FIELDS, DeviceTable, find_free, find_unbalance, name_kind
 from ..sizing.remedy import Remedy
 from .records import find_value
@@ -34,26 +34,45 @@ def device_grid(remedy: Remedy, system: System) -> Grid:
         remedy: Devices.
         system: System of units.
     """
-    devices, free, length = remedy.devices, find_free(remedy.devices), system.length
+    devices = remedy.devices
+    free = find_free(devices)
+    length = system.length
     unit = system.unbalance.fit(max(map(find_unbalance, devices), default=0.0))
+    places = [
+        _tell_place(device, length, anywhere)
+        for device, anywhere in zip(devices, free, strict=True)
+    ]
+    columns = [
+        Column("device", [name_kind(device) for device in devices], words=True),
+        Column("speed ratio", [_tell_turns(device) for device in devices]),
+        Column(unit.name, [number(unit.of(find_unbalance(device))) for device in devices]),
+        Column("angle, deg", [_tell_angle(device) for device in devices], words=True),
+        Column(f"x, y, {length.name}", places, words=True),
+        Column(f"z, {length.name}", [_length(device.position, length) for device in devices]),
+    ]
+    return Grid("", columns, " ".join([ANGLES, *_explain_places(devices, free)]))
 
-    def cells(device: DeviceTable, anywhere: bool) -> tuple[str, ...]:
-        turns, angle, place = "1", degrees(device.angle), "crank axis"
-        if isinstance(device, Counterweight):
-            angle += " from pin 1"
-            place = f"crank of {device.engine}" if device.engine else place
-        else:
-            place = "free" if anywhere else ", ".join(_length(v, length) for v in device.at)
-            turns = f"{device.ratio:+d}" if isinstance(device, Shaft) else str(device.order)
-        if isinstance(device, Slider):
-            angle += f" along {degrees(device.direction)}"
-        unbalance, z = number(unit.of(find_unbalance(device))), _length(device.position, length)
-        return name_kind(device), turns, unbalance, angle, place, z
 
-    heads = ("speed ratio", unit.name, "angle, deg", f"x, y, {length.name}", f"z, {length.name}")
-    rows = tuple(cells(*each) for each in zip(devices, free, strict=True))
-    note = " ".join([ANGLES, *_explain_places(devices, free)])
-    return Grid("", ("device", *heads), rows, note, words=(0, 3, 4))
+def _tell_turns(device: DeviceTable) -> str:
+    """Return the speed of a device in multiples of the crank speed."""
+    if isinstance(device, Counterweight):
+        return "1"
+    return f"{device.ratio:+d}" if isinstance(device, Shaft) else str(device.order)
+
+
+def _tell_angle(device: DeviceTable) -> str:
+    """Return the angle of a device, and what it counts from unless that is x."""
+    angle = degrees(device.angle)
+    if isinstance(device, Counterweight):
+        return f"{angle} from pin 1"
+    return f"{angle} along {degrees(device.direction)}" if isinstance(device, Slider) else angle
+
+
+def _tell_place(device: DeviceTable, unit: ShownUnit, anywhere: bool) -> str:
+    """Return the place of a device's axis across the crank."""
+    if isinstance(device, Counterweight):
+        return f"crank of {device.engine}" if device.engine else "crank axis"
+    return "free" if anywhere else ", ".join(_length(v, unit) for v in device.at)
 
 
 def _explain_places(devices: Sequence[DeviceTable], free: Sequence[bool]) -> Iterator[str]:
@@ -98,17 +117,24 @@ def practical_grid(remedy: Remedy, practical: tuple[Practical, ...], system: Sys
     note = f"Force: centrifugal. Mass: at a radius of {radius}. Disc: semicircular, of steel."
     if remedy.sliders:
         note = f"Force: largest over a stroke. Mass: at an amplitude of {radius}."
-    rows = []
+    names = []
+    radii = []
+    thicknesses = []
     for k, (device, p) in enumerate(zip(remedy.devices, practical, strict=True), 1):
-        disc = [UNKNOWN, UNKNOWN]
-        if not (isinstance(device, Slider) or p.disc_radius_mm is None):  # it is a disc
-            thickness = p.disc_thickness_mm or 0.0
-            disc = [_length(size, length, 3) for size in (p.disc_radius_mm, thickness)]
-        at_speed = (given(p.speed_rpm), number(force.of(p.force_N)), number(mass.of(p.mass_kg)))
-        rows.append((f"{k} {name_kind(device)}", *at_speed, *disc))
-    units = (f"force, {force.name}", f"mass, {mass.name}")
-    sizes = (f"disc r, {length.name}", f"thick, {length.name}")
-    return Grid("Sizes of the weights", ("device", "rpm", *units, *sizes), tuple(rows), note)
+        names.append(f"{k} {name_kind(device)}")
+        is_disc = not (isinstance(device, Slider) or p.disc_radius_mm is None)
+        radii.append(_length(p.disc_radius_mm or 0.0, length, 3) if is_disc else UNKNOWN)
+        thick = p.disc_thickness_mm or 0.0
+        thicknesses.append(_length(thick, length, 3) if is_disc else UNKNOWN)
+    columns = [
+        Column("device", names, words=True),
+        Column("rpm", [given(p.speed_rpm) for p in practical]),
+        Column(f"force, {force.name}", [number(force.of(p.force_N)) for p in practical]),
+        Column(f"mass, {mass.name}", [number(mass.of(p.mass_kg)) for p in practical]),
+        Column(f"disc r, {length.name}", radii),
+        Column(f"thick, {length.name}", thicknesses),
+    ]
+    return Grid("Sizes of the weights", columns, note)
 
 
 def holes_grid(
@@ -127,11 +153,9 @@ def holes_grid(
     drill = f"{number(unit.of(tools.drill or 0.0))} {unit.name}"
     why = "--radius" if tools.radius else "the crank radius; --radius changes it"
     rim = f"from a rim at {list_radii(practical, unit)} ({why})"
-    rows = []
-    for k, (device, p) in enumerate(zip(remedy.devices, practical, strict=True), 1):
-        if p.holes is not None:
-            at, depth = degrees(p.hole_angle_deg or 0.0), _length(p.drill_depth_mm or 0.0, unit, 4)
-            rows.append((f"{k} {name_kind(device)}", at, f"{p.holes}", depth))
+    numbered = enumerate(zip(remedy.devices, practical, strict=True), 1)
+    drilled = [(k, device, p) for k, (device, p) in numbered if p.holes is not None]
+    holes = [p for _, _, p in drilled]
     if tools.slug is None:
         title = f"Holes to drill, {drill}"
         what = "Holes remove steel opposite to the weight that is needed. They are"
@@ -139,8 +163,14 @@ def holes_grid(
         title = f"Holes for slugs of {number(tools.slug / 1e3)} g/cm³, {drill}"
         what = "Slugs replace steel on the side of the weight that is needed. Holes are"
     note = f"{what} radial, {rim} inwards, and side by side along the axis."
-    heads = ("for", "holes at, deg", "holes", f"depth of each, {unit.name}")
-    return Grid(title, heads, tuple(rows), note)
+    depths = [_length(p.drill_depth_mm or 0.0, unit, 4) for p in holes]
+    columns = [
+        Column("for", [f"{k} {name_kind(device)}" for k, device, _ in drilled], words=True),
+        Column("holes at, deg", [degrees(p.hole_angle_deg or 0.0) for p in holes]),
+        Column("holes", [str(p.holes) for p in holes]),
+        Column(f"depth of each, {unit.name}", depths),
+    ]
+    return Grid(title, columns, note)
 
 
 def number_devices(devices: Iterable[DeviceTable]) -> Iterator[tuple[str, DeviceTable]]:

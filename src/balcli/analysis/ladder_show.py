@@ -13,7 +13,17 @@ from ..file.fields import join_words
 from ..forces.kinds import FORCE, MOMENT, Kind
 from ..forces.power import LIKELY
 from ..limits import SMALL
-from ..show.sheet import NEGLIGIBLE, UNKNOWN, Grid, capitalized, given, number, size_cell, size_text
+from ..show.sheet import (
+    NEGLIGIBLE,
+    UNKNOWN,
+    Column,
+    Grid,
+    capitalized,
+    given,
+    number,
+    size_cell,
+    size_text,
+)
 from ..sizing.ladder import SINGLE_SHAFTS, Ladder, LeftOut, Step
 
 if TYPE_CHECKING:
@@ -38,7 +48,7 @@ def ladder_grid(
         tell_fitted: Whether a note names the steps that `balcli balance` fits.
     """
     steps, scale = ladder.steps, ladder.scale
-    columns = [("step", [f"{row} {step.step}" for row, step in enumerate(steps)])]
+    columns = [Column("step", [f"{row} {step.step}" for row, step in enumerate(steps)], words=True)]
     forces = [step.peak_force_N for step in steps]
     columns.append(_size_column(FORCE, forces, scale.force_N, system))
     if scale.moment_Nm is not None:
@@ -47,9 +57,9 @@ def ladder_grid(
     has_loads = steps[0].main_bearing_N is not None
     if has_loads:
         columns.append(_load_column(ladder, system))
-    columns.append(("weights", [str(step.counterweights or UNKNOWN) for step in steps]))
-    columns.append(("shafts", [str(step.shafts or UNKNOWN) for step in steps]))
-    columns.append((system.mass.name, [_mass_cell(step, system) for step in steps]))
+    columns.append(Column("weights", [str(step.counterweights or UNKNOWN) for step in steps]))
+    columns.append(Column("shafts", [str(step.shafts or UNKNOWN) for step in steps]))
+    columns.append(Column(system.mass.name, [_mass_cell(step, system) for step in steps]))
     notes = [_BEARINGS] if has_loads else []
     notes += _tell_loads(ladder, system)
     notes += filter(None, [_tell_left_out(out, ladder, system) for out in ladder.left_out])
@@ -59,14 +69,12 @@ def ladder_grid(
     notes.append(_tell_scale(ladder, system))
     at = "mean " if engine.ripple else ""
     title = f"What balances it, step by step ({at}{given(float(engine.speed_rpm))} rpm)"
-    return Grid.of_columns(title, columns, "\n".join(notes))
+    return Grid(title, columns, "\n".join(notes))
 
 
 # ------------------------------------------------------------------ columns
-def _size_column(
-    kind: Kind, sizes: list[float], of_one: float, system: System
-) -> tuple[str, list[str]]:
-    """Return heading and cells of the largest forces or moments.
+def _size_column(kind: Kind, sizes: list[float], of_one: float, system: System) -> Column:
+    """Return the column of the largest forces or moments.
 
     Args:
         kind: FORCE or MOMENT.
@@ -81,16 +89,16 @@ def _size_column(
             cells.append(_HARDLY_ANYTHING)
         else:
             cells.append(size_cell(size if size > _ROUNDING * of_one else 0.0, unit))
-    return f"{kind.name}, {unit.name}", cells
+    return Column(f"{kind.name}, {unit.name}", cells)
 
 
-def _load_column(ladder: Ladder, system: System) -> tuple[str, list[str]]:
-    """Return heading and cells of the largest main bearing loads."""
+def _load_column(ladder: Ladder, system: System) -> Column:
+    """Return the column of the largest main bearing loads."""
     loads = [step.main_bearing_N or 0.0 for step in ladder.steps]
     unit = system.force.fit(max(loads))
     rounding = _ROUNDING * ladder.scale.force_N
     cells = [size_cell(load if load > rounding else 0.0, unit) for load in loads]
-    return f"main bearing, {unit.name}", cells
+    return Column(f"main bearing, {unit.name}", cells)
 
 
 def _mass_cell(step: Step, system: System) -> str:

@@ -7,7 +7,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -19,6 +19,7 @@ from ..show.sheet import (
     NEGLIGIBLE,
     NOTHING,
     UNKNOWN,
+    Column,
     Facts,
     Grid,
     capitalized,
@@ -153,7 +154,7 @@ def cylinder_tables(
         system: System of units.
         about_crank: Whether couple and torques are wanted.
     """
-    orders = ("order", [*map(order_name, share.orders)])
+    orders = Column("order", [*map(order_name, share.orders)], words=True)
     vectors, scalars = [orders], [orders]
     for kind, phasors in share.vectors():
         for way, part in (("with", phasors.forward), ("against", phasors.backward)):
@@ -162,19 +163,19 @@ def cylinder_tables(
         scalars.append(_column(kind.name, phasors.x.conj(), system.moment))
     title = f"Cylinder {cylinder} alone"
     if len(vectors) > 1:
-        yield Grid.of_columns(title, vectors)
+        yield Grid(title, vectors)
         title += ", about the crank"
     if len(scalars) > 1:
-        yield Grid.of_columns(title, scalars, "At crank angle θ: amplitude · cos(order θ − angle).")
+        yield Grid(title, scalars, "At crank angle θ: amplitude · cos(order θ − angle).")
 
 
-def _column(name: str, values: Complex, unit: ShownUnit) -> tuple[str, list[str]]:
-    """Return heading and cells of vectors as size and angle."""
+def _column(name: str, values: Complex, unit: ShownUnit) -> Column:
+    """Return a column of vectors as size and angle."""
     cells = [
         f"{number(unit.of(abs(v)))} ∠ {degrees(math.degrees(cmath.phase(v)))}" if v else NOTHING
         for v in values.tolist()
     ]
-    return f"{name}, {unit.name}", cells
+    return Column(f"{name}, {unit.name}", cells)
 
 
 def peak_facts(
@@ -207,19 +208,37 @@ def _table(
     """Return a table with a row for each order up to 2 and each higher order that is not balanced;
     with `every`, a row for each order.
     """
-    rows = tuple(
+    columns = [Column("order", words=True), *map(Column, heads)]
+    rows = [
         (order_name(order), *cells(k))
         for k, order in enumerate(phasors[0].orders)
         if every or order <= 2 or not all(p.balanced[k] for p in phasors)
-    )
-    return Grid(title, ("order", *heads), rows, note)
+    ]
+    return Grid.of_rows(title, columns, rows, note)
 
 
-def vector_cells(
+class VectorCells(NamedTuple):
+    """Cells of one order of a force or moment.
+
+    Attributes:
+        largest: Largest value.
+        smallest: Smallest value.
+        axis: Direction of the largest value, deg.
+        ahead: Size of the vector that turns with the crank.
+        against: Size of the vector that turns against the crank.
+    """
+
+    largest: str
+    smallest: str = ""
+    axis: str = ""
+    ahead: str = ""
+    against: str = ""
+
+
+def write_vector(
     phasors: Phasors, k: int, unit: ShownUnit, digits: int | None = None
-) -> tuple[str, str, str, str, str]:
-    """Return the cells of one order of a force or moment: largest and smallest value, axis, and the
-    sizes of the vectors that turn with and against the crank.
+) -> VectorCells:
+    """Return the cells of one order of a force or moment.
 
     Args:
         phasors: Force or moment.
@@ -228,19 +247,24 @@ def vector_cells(
         digits: As for `number`.
     """
     if phasors.balanced[k]:
-        return NOTHING, "", "", "", ""
-    values = (phasors.major, phasors.minor, abs(phasors.forward), abs(phasors.backward))
-    largest, smallest, ahead, against = (number(unit.of(float(v[k])), digits) for v in values)
+        return VectorCells(NOTHING)
+    largest = number(unit.of(float(phasors.major[k])), digits)
     if not phasors.orders[k]:  # a mean does not turn
-        return largest, UNKNOWN, UNKNOWN, UNKNOWN, UNKNOWN
-    return largest, smallest, degrees(float(phasors.axis_deg[k]), 180), ahead, against
+        return VectorCells(largest, UNKNOWN, UNKNOWN, UNKNOWN, UNKNOWN)
+    return VectorCells(
+        largest,
+        smallest=number(unit.of(float(phasors.minor[k])), digits),
+        axis=degrees(float(phasors.axis_deg[k]), 180),
+        ahead=number(unit.of(float(abs(phasors.forward)[k])), digits),
+        against=number(unit.of(float(abs(phasors.backward)[k])), digits),
+    )
 
 
 def _vector_table(kind: Kind, phasors: Phasors, unit: ShownUnit, every: bool) -> Grid:
     unit = fit_largest(unit, phasors)
     heads = ("largest", "smallest", "axis, deg", "with crank", "against")
     title = f"{capitalized(kind.label)} by order, {unit.name}"
-    return _table(title, heads, [phasors], lambda k: vector_cells(phasors, k, unit), every)
+    return _table(title, heads, [phasors], lambda k: write_vector(phasors, k, unit), every)
 
 
 def _scalar_table(spectra: Spectra, unit: ShownUnit, roll: str, what: str, every: bool) -> Grid:
@@ -290,9 +314,6 @@ def _peak(peak: Peak, unit: ShownUnit, least: float) -> str:
     return f"{size} at crank angle {at} deg{again}"
 
 
-_SHOWN = ("torque", "gas", "torque_total", "roll_total")  # names of kinds, in the order of columns
-
-
 def gas_grid(spectra: Spectra, system: System, pivot: str, view: View) -> Iterator[Grid]:
     """Yield a table by order of inertia torque, gas torque, their sum and the roll of the frame, if
     all are known. Negligible orders are omitted by default.
@@ -303,27 +324,35 @@ def gas_grid(spectra: Spectra, system: System, pivot: str, view: View) -> Iterat
         pivot: Axis of the roll, in words.
         view: Whether to show negligible orders as well, and to name the command that shows more.
     """
-    found = [phasors for kind, phasors in spectra.items() if kind.name in _SHOWN]
-    if len(found) < len(_SHOWN):
+    torque = spectra.torque
+    gas = spectra.gas
+    total = spectra.torque_total
+    roll = spectra.roll_total
+    if torque is None or gas is None or total is None or roll is None:
         return
-    unit, roll = fit_largest(system.moment, *found), found[-1]
-    least = NEGLIGIBLE * max(float(p.major.max(initial=0)) for p in found[:2])
-
-    def row(k: int, order: float) -> Iterator[str]:
-        yield order_name(order)
-        for phasors in found:
-            yield size_cell(size_or_mean(complex(phasors.x[k]), order), unit)
-        at = float(peak_deg(roll.x[k], order))
-        yield "" if math.isnan(at) else degrees(at)
-
-    rows = tuple(
-        tuple(row(k, order))
+    every = (torque, gas, total, roll)
+    unit = fit_largest(system.moment, *every)
+    least = NEGLIGIBLE * max(float(p.major.max(initial=0)) for p in (torque, gas))
+    shown = [
+        (k, order)
         for k, order in enumerate(spectra.orders.tolist())
-        if order in (1, 2) or view.every_order or max(p.major[k] for p in found) > least
-    )
-    yield Grid(
-        f"About {pivot} with gas, {unit.name}",
-        ("order", "inertia torque", "gas torque", "torque", "roll of the frame", "peak, deg"),
-        rows,
-        "Torque = inertia + gas." + " Mean torque, flywheel and more: balcli torque." * view.hints,
-    )
+        if order in (1, 2) or view.every_order or max(p.major[k] for p in every) > least
+    ]
+
+    def write(phasors: Phasors) -> list[str]:
+        x = phasors.x
+        return [size_cell(size_or_mean(complex(x[k]), order), unit) for k, order in shown]
+
+    peaks = [float(peak_deg(roll.x[k], order)) for k, order in shown]
+    columns = [
+        Column("order", [order_name(order) for _, order in shown], words=True),
+        Column("inertia torque", write(torque)),
+        Column("gas torque", write(gas)),
+        Column("torque", write(total)),
+        Column("roll of the frame", write(roll)),
+        Column("peak, deg", ["" if math.isnan(at) else degrees(at) for at in peaks]),
+    ]
+    note = "Torque = inertia + gas."
+    if view.hints:
+        note += " Mean torque, flywheel and more: balcli torque."
+    yield Grid(f"About {pivot} with gas, {unit.name}", columns, note)

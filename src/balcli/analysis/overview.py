@@ -4,7 +4,6 @@ peaks.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,9 +12,9 @@ from ..core.phasors import Phasors
 from ..forces.kinds import ROLL, ROLL_TOTAL, Kind
 from ..forces.spectrum import Spectra
 from ..show.engine_facts import tell_pivot
-from ..show.sheet import NEGLIGIBLE, Facts, Grid, number, order_name, size_text, small_text
+from ..show.sheet import NEGLIGIBLE, Column, Facts, Grid, number, order_name, size_text, small_text
 from ..show.units import System
-from .order_tables import fit_largest, peak_facts, vector_cells
+from .order_tables import fit_largest, peak_facts, write_vector
 
 if TYPE_CHECKING:
     from .answer import Analysis
@@ -48,15 +47,15 @@ def vectors_grid(spectra: Spectra, shown: list[float], system: System, *, hints:
         hints: Whether to name the option that shows more.
     """
     chosen = spectra.select_orders(shown)
-    columns: list[tuple[str, Sequence[str]]] = [("order", [*map(order_name, chosen.orders)])]
+    columns = [Column("order", [*map(order_name, chosen.orders)], words=True)]
     for kind, phasors in chosen.vectors():
         unit = fit_largest(system.unit(kind), phasors)
-        cells = (vector_cells(phasors, k, unit, 4) for k in range(len(shown)))
-        largest, _, _, ahead, against = zip(*cells, strict=True)
-        columns.append((f"{kind.name}, {unit.name}", largest))
-        columns += [("with crank", ahead), ("against", against)]
+        cells = [write_vector(phasors, k, unit, 4) for k in range(len(shown))]
+        columns.append(Column(f"{kind.name}, {unit.name}", [each.largest for each in cells]))
+        columns.append(Column("with crank", [each.ahead for each in cells]))
+        columns.append(Column("against", [each.against for each in cells]))
     title = "Largest by order, and its parts that turn with the crank and against it"
-    return Grid.of_columns(title, columns, tell_others(spectra, shown, system, hints=hints))
+    return Grid(title, columns, tell_others(spectra, shown, system, hints=hints))
 
 
 def name_column(kind: Kind) -> str:

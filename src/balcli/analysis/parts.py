@@ -29,7 +29,7 @@ from ..engine.devices import build_device, find_given_unbalance, find_sector, gr
 from ..engine.engine import Engine, refuse_geared
 from ..file.model import Counterweight, Shaft
 from ..show.figures import FigureRow, record_rows
-from ..show.sheet import UNKNOWN, Facts, Grid, Text, number, size_text
+from ..show.sheet import UNKNOWN, Column, Facts, Grid, Text, number, size_text
 from ..show.units import ShownUnit, System, name_with_unit
 from ..sizing.planes import measure_direction
 from .records import BalanceParts, BalancerShaft, CounterweightPart, ShaftBearing, ShaftGear
@@ -209,14 +209,15 @@ def _lay_out_bearings(shafts: Sequence[BalancerShaft], system: System) -> Grid:
     pairs = [(shaft.name, bearing) for shaft in shafts for bearing in shaft.bearings or ()]
     names, bearings = zip(*pairs, strict=True)
     unit = system.force.fit(max(bearing.largest_N for bearing in bearings))
-    columns = [("shaft", names), *list_columns(bearings, _BEARING, {"N": unit}, system)]
-    return Grid.of_columns("Balancer shafts", columns, _BEARINGS_NOTE)
+    shaft = Column("shaft", names, words=True)
+    columns = [shaft, *list_columns(bearings, _BEARING, {"N": unit}, system)]
+    return Grid("Balancer shafts", columns, _BEARINGS_NOTE)
 
 
 def list_columns(
     records: Sequence[object], labels: Mapping[str, str], units: Node, system: System
-) -> Iterator[tuple[str, list[str]]]:
-    """Yield heading and cells of each figure that is known for at least one record.
+) -> Iterator[Column]:
+    """Yield a column for each figure that is known for at least one record.
 
     Args:
         records: Records, one for each row.
@@ -230,7 +231,7 @@ def list_columns(
         values, unit_ = [getattr(record, key) for record in records], units[find_unit(key)]
         cells = [UNKNOWN if value is None else number(unit_.of(value)) for value in values]
         if set(cells) != {UNKNOWN}:
-            yield name_with_unit(label, unit_.name), cells
+            yield Column(name_with_unit(label, unit_.name), cells)
 
 
 def _tell_shaft(shaft: BalancerShaft, system: System) -> str:
@@ -249,12 +250,11 @@ def _tell_shaft(shaft: BalancerShaft, system: System) -> str:
 
 def _lay_out_counterweights(parts: Sequence[CounterweightPart], system: System) -> Grid:
     unit_ = system.unbalance.fit(max(abs(part.unbalance_kg_m) for part in parts))
-    numbers = [str(k) for k in range(1, len(parts) + 1)]
-    columns = list(list_columns(parts, _WEIGHT, {"kg·m": unit_}, system))
+    numbers = Column("no.", [str(k) for k in range(1, len(parts) + 1)], words=True)
+    columns = [numbers, *list_columns(parts, _WEIGHT, {"kg·m": unit_}, system)]
     notes = [_RADIUS_NOTE] * any(part.mass_kg is not None for part in parts)
     notes += [_CLEARANCE_NOTE] * any(part.clearance_m is not None for part in parts)
-    columns.insert(0, ("no.", numbers))
-    return Grid.of_columns("Counterweights", columns, " ".join(notes))
+    return Grid("Counterweights", columns, " ".join(notes))
 
 
 def list_part_rows(parts: BalanceParts) -> Iterator[FigureRow]:

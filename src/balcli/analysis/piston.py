@@ -31,7 +31,7 @@ from ..forces.quantity import TargetQuantity, refuse_stranger
 from ..show.engine_facts import name_cylinders, tell_speed
 from ..show.formats import Renderer, Rows
 from ..show.result import Result
-from ..show.sheet import NAMELESS, UNKNOWN, Facts, Grid, Sheet, assumed_facts, number
+from ..show.sheet import NAMELESS, UNKNOWN, Column, Facts, Grid, Sheet, assumed_facts, number
 from ..show.units import IMPERIAL, INCH, ShownUnit, System, name_with_unit
 
 # Rod ratio lam of a centred slider-crank for which the fourth derivative of the piston travel, by
@@ -338,15 +338,13 @@ def sheet(result: Pistons, system: System) -> Sheet:
                     f" two-term formula, above {_TWO_TERM_LIMIT}."
                 )
     names = dict.fromkeys(name for _, cells in columns for name in cells)
-    rows = tuple(
-        (_label(name, system), *(cells.get(name, "") for _, cells in columns)) for name in names
-    )
-    heads = ("", *(head for head, _ in columns))
+    labels = Column("", [_label(name, system) for name in names], words=True)
+    figures = [Column(head, [cells.get(name, "") for name in names]) for head, cells in columns]
     facts = Facts((("speed", tell_speed(result.engine, steady=True)),))
     speed = choose_unit("mean_speed_m_per_s", system)
     high_speed = f"{number(speed.of(_HIGH_SPEED))} {speed.name}"
     notes.append(_USUAL.format(1 / 3.8, 1 / 3.2, high_speed))
-    grid = Grid("Piston motion", heads, rows, " ".join(dict.fromkeys(notes)))
+    grid = Grid("Piston motion", [labels, *figures], " ".join(dict.fromkeys(notes)))
     return Sheet(result.engine.name or NAMELESS, (facts, *assumed_facts(result.assumed), grid))
 
 

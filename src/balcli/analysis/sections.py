@@ -5,8 +5,9 @@ orders are balanced.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -15,6 +16,7 @@ from ..forces.kinds import Kind
 from ..show.figures import FigureRow, clean, order_rows, peak_rows
 from ..show.sheet import (
     UNKNOWN,
+    Column,
     Facts,
     Grid,
     Text,
@@ -124,15 +126,18 @@ def _grid(along: AlongCrank, title: str, unit: ShownUnit, length: ShownUnit, not
     of each of the first orders.
     """
     unit = unit.fit(max(peak.value for peak in along.peaks))
-    orders = along.phasors.orders[:ORDERS_SHOWN]
-    heads = (f"place, {length.name}", "largest", "deg", *(f"order {order_name(n)}" for n in orders))
-    rows = []
-    for k, (z, peak) in enumerate(zip(along.z_m, along.peaks, strict=True)):
-        at = degrees(float(np.degrees(peak.theta))) if peak.value else ""
-        largest = size_cell(peak.value, unit, digits=None), at
-        sizes = (number(unit.of(float(size))) for size in along.at(k).major[:ORDERS_SHOWN])
-        rows.append((number(length.of(float(z))), *largest, *sizes))
-    return Grid(f"{title}, {unit.name}", heads, tuple(rows), note)
+    places = [float(z) for z in along.z_m]
+    angles = [degrees(math.degrees(peak.theta)) if peak.value else "" for peak in along.peaks]
+    columns = [
+        Column(f"place, {length.name}", [number(length.of(z)) for z in places], words=True),
+        Column("largest", [size_cell(peak.value, unit, digits=None) for peak in along.peaks]),
+        Column("deg", angles),
+    ]
+    sizes = [along.at(k).major for k, _ in enumerate(places)]
+    for n, order in enumerate(along.phasors.orders[:ORDERS_SHOWN]):
+        cells = [number(unit.of(float(size[n]))) for size in sizes]
+        columns.append(Column(f"order {order_name(order)}", cells))
+    return Grid(f"{title}, {unit.name}", columns, note)
 
 
 def _tell_largest(bending: AlongCrank, system: System) -> str:
@@ -151,18 +156,22 @@ def lay_out_guide(guide: GuideMoments, system: System) -> Grid:
         guide: Guide-force moments.
         system: System of units.
     """
-    both = (guide.h, guide.x)
-    unit = fit_largest(system.moment, *filter(None, both))
+    unit = fit_largest(system.moment, *filter(None, (guide.h, guide.x)))
+    orders = guide.h.orders
 
-    def cell(moment: Phasors | None, k: int) -> str:
-        return UNKNOWN if moment is None else size_cell(float(moment.major[k]), unit, digits=None)
+    def write(moment: Phasors | None) -> list[str]:
+        if moment is None:
+            return [UNKNOWN] * len(orders)
+        return [size_cell(float(size), unit, digits=None) for size in moment.major]
 
-    return Grid(
-        f"Guide-force moments {'of inertia and gas' if guide.with_gas else _ALONE}, {unit.name}",
-        ("order", "H-type", "X-type"),
-        tuple((order_name(n), *(cell(m, k) for m in both)) for k, n in enumerate(guide.h.orders)),
-        note=define_guide_moments(guide.height_m, system),
-    )
+    columns = [
+        Column("order", [order_name(order) for order in orders], words=True),
+        Column("H-type", write(guide.h)),
+        Column("X-type", write(guide.x)),
+    ]
+    what = "of inertia and gas" if guide.with_gas else _ALONE
+    note = define_guide_moments(guide.height_m, system)
+    return Grid(f"Guide-force moments {what}, {unit.name}", columns, note)
 
 
 def define_guide_moments(height_m: Array, system: System) -> str:
@@ -246,30 +255,58 @@ def lay_out_stars(stars: Sequence[Star], system: System) -> Grid:
     every: list[Star | Bank] = [*stars, *(bank for star in stars for bank in star.banks)]
     force = system.force.fit(max(abs(one.force) for one in every))
     moment = system.moment.fit(max(abs(one.moment or 0.0) for one in every))
-
-    def tell(one: Star | Bank, moments: Sequence[complex | None]) -> tuple[str, ...]:
-        size = number(force.of(abs(one.force))) if one.force else "closes"
-        if one.moment is None:
-            return (size,)
-        there = number(moment.of(abs(one.moment))) if one.moment else "closes"
-        return size, there if any(moments) else UNKNOWN
-
     rows = []
     for star in stars:
         about = order_name(star.order), _TURNS[star.turns]
-        moments = [ray.moment for bank in star.banks for ray in bank.cylinders]
         for bank in star.banks:
             directions = (
                 f"{degrees(angle)}: {', '.join(map(str, numbers))}"
                 for angle, numbers in bank.directions.items()
             )
-            rows.append((*about, "; ".join(directions), *tell(bank, moments)))
+            rows.append(_Sum(star, bank, *about, "; ".join(directions)))
             about = "", ""
         if len(star.banks) > 1:
-            rows.append(("", "", "all banks", *tell(star, moments)))
-    sums = f"force, {force.name}", f"moment, {moment.name}"
-    heads = ("order", "turns", "directions, deg: cylinders", *sums)
-    return Grid("Phasor stars", heads[: len(rows[0])], tuple(rows), _STARS, words=(0, 1, 2))
+            rows.append(_Sum(star, star, "", "", "all banks"))
+    columns = [
+        Column("order", [row.order for row in rows], words=True),
+        Column("turns", [row.turns for row in rows], words=True),
+        Column("directions, deg: cylinders", [row.directions for row in rows], words=True),
+        Column(f"force, {force.name}", [row.write_force(force) for row in rows]),
+    ]
+    if stars[0].moment is not None:
+        columns.append(Column(f"moment, {moment.name}", [row.write_moment(moment) for row in rows]))
+    return Grid("Phasor stars", columns, _STARS)
+
+
+class _Sum(NamedTuple):
+    """A row of the table of stars: a bank, or the sum of all banks.
+
+    Attributes:
+        star: Star to which the row belongs.
+        vectors: The bank, or the star for the sum of all banks.
+        order: Order; empty if the row above has it.
+        turns: Direction in which the vectors turn; empty if the row above has it.
+        directions: Directions of the vectors, and their cylinders.
+    """
+
+    star: Star
+    vectors: Star | Bank
+    order: str
+    turns: str
+    directions: str
+
+    def write_force(self, unit: ShownUnit) -> str:
+        """Return the size of the force; a word if it is 0."""
+        force = self.vectors.force
+        return number(unit.of(abs(force))) if force else "closes"
+
+    def write_moment(self, unit: ShownUnit) -> str:
+        """Return the size of the moment; a word if it is 0, a dash if no cylinder has one."""
+        moment = self.vectors.moment
+        rays = [ray for bank in self.star.banks for ray in bank.cylinders]
+        if not any(ray.moment for ray in rays):
+            return UNKNOWN
+        return number(unit.of(abs(moment))) if moment else "closes"
 
 
 def list_symmetry(why: Symmetry) -> Iterator[FigureRow]:

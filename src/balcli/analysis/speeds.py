@@ -28,6 +28,7 @@ from ..show.figures import clean, name_engine
 from ..show.formats import Renderer, Rows, name_cell, write_named
 from ..show.sheet import (
     NAMELESS,
+    Column,
     Facts,
     Grid,
     NamedResult,
@@ -110,15 +111,19 @@ class MarineOrder:
     torque_Nm: float
 
 
-FIGURES = (  # names as engineers write them, with `n` for the order
+# Names as engineers write them, with `n` for the order.
+_EXTERNAL = (
     Kind("force_v", "external vertical force FnV", "FnV", "force_v_N", dimension="force"),
     Kind("force_h", "external horizontal force FnH", "FnH", "force_h_N", dimension="force"),
     Kind("moment_v", "external vertical moment MnV", "MnV", "moment_v_Nm"),
     Kind("moment_h", "external horizontal moment MnH", "MnH", "moment_h_Nm"),
+)
+_INTERNAL = (
     Kind("guide_h", "H-type guide-force moment Hn", "Hn", "guide_h_Nm"),
     Kind("guide_x", "X-type guide-force moment Xn", "Xn", "guide_x_Nm"),
     Kind("torque", "torque on the crank Tn", "Tn", "torque_Nm"),
 )
+FIGURES = (*_EXTERNAL, *_INTERNAL)  # in the order of the fields of `MarineOrder`
 
 
 @dataclass(frozen=True)
@@ -322,11 +327,10 @@ def _kind_part(
         most = f" (at most {size_text(largest, system.unit(kind), 2)})" if largest else ""
         return Text("", (f"{'Negligible' if largest else 'Balanced'}: {kind.label}{most}.",))
     unit = fit_unit(kind, shown, system)
-    heads = ("peak" if line.order is None else f"order {order_name(line.order)}" for line in shown)
-    columns = [show_sizes(line, unit, every=whole) for line in shown]
-    rows = tuple(zip(map(given, speeds_rpm), *columns, strict=True))
+    columns = [Column("rpm", [given(speed) for speed in speeds_rpm])]
+    columns += [Column(line.label, show_sizes(line, unit, every=whole)) for line in shown]
     title = f"{capitalized(kind.label)}, {unit.name}: largest by order"
-    return Grid(title, ("rpm", *heads), rows, words=())
+    return Grid(title, columns)
 
 
 RENDERER = Renderer(sheet=sheet, document=write_named, rows=rows)
@@ -354,9 +358,9 @@ def lay_out_marine(one: NamedResult[MarineSheet], system: System) -> Sheet:
     parts: list[Facts | Grid | Text] = [head]
     if len(result.speeds) == 1:
         title = f"Guide-force moments Hn, Xn and torque on the crank Tn, {of_what}"
-        external = _grid_by_order("External forces and moments", FIGURES[:4], result, system)
+        external = _grid_by_order("External forces and moments", _EXTERNAL, result, system)
         parts.append(external._replace(note=_NAMES))
-        parts.append(_grid_by_order(title, FIGURES[4:], result, system))
+        parts.append(_grid_by_order(title, _INTERNAL, result, system))
     else:
         for kind in FIGURES:
             lines = [line for line in result.lines if line.kind == kind]
@@ -393,19 +397,22 @@ def _grid_by_order(title: str, kinds: Sequence[Kind], result: MarineSheet, syste
     that matters.
     """
     every = result.every_order
-    chosen = [line for line in result.lines if line.kind in kinds]
-    units, rows = [], []
-    for kind in kinds:
-        alike = (line for line in chosen if line.kind.dimension == kind.dimension)
-        units.append(fit_unit(kind, alike, system))
-    for order in dict.fromkeys(line.order for line in chosen):
-        lines = [line for line in chosen if line.order == order]
-        there = any(line.largest if every else not all(line.negligible) for line in lines)
+    lines = {(line.kind, line.order): line for line in result.lines}
+    orders = []
+    for order in dict.fromkeys(line.order for line in result.lines):
+        row = [lines[kind, order] for kind in kinds]
+        there = any(line.largest if every else not all(line.negligible) for line in row)
         if there or order in (0, 1, 2):
-            sizes = map(partial(show_sizes, every=every, digits=4), lines, units)
-            rows.append((order_name(order or 0), *(size for (size,) in sizes)))
-    heads = (f"{kind.symbol}, {unit.name}" for kind, unit in zip(kinds, units, strict=True))
-    return Grid(title, ("order", *heads), tuple(rows))
+            orders.append(order)
+    columns = [Column("order", [order_name(order or 0) for order in orders], words=True)]
+    for kind in kinds:
+        alike = [each for each in kinds if each.dimension == kind.dimension]
+        unit = fit_unit(kind, (line for line in result.lines if line.kind in alike), system)
+        cells = []
+        for order in orders:
+            cells += show_sizes(lines[kind, order], unit, every=every, digits=4)  # of the one speed
+        columns.append(Column(f"{kind.symbol}, {unit.name}", cells))
+    return Grid(title, columns)
 
 
 MARINE = Renderer(sheet=lay_out_marine, document=write_named, rows=list_marine)

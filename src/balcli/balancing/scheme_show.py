@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from itertools import chain
 from math import isnan, nan
 from typing import Any, NamedTuple
 
 from ..core.records import Node, find_unit, remove_unit
-from ..show.sheet import NEGLIGIBLE, UNKNOWN, Facts, Grid, degrees, number, size_text
+from ..show.sheet import NEGLIGIBLE, UNKNOWN, Column, Facts, Grid, degrees, number, size_text
 from ..show.units import ShownUnit, System
 from ..sizing.bobweights import NO_THROW, Bobweight, CardLine, FactorPeaks, PlaneNeed
 from ..sizing.planes import find_unbalance, measure_direction
@@ -192,19 +192,20 @@ def _find_growth(before: float, left: float) -> float:
 # ------------------------------------------------------------------ tables
 def _needs_grid(needs: Sequence[PlaneNeed], system: System) -> Grid:
     """Return the table of the unbalance that each plane needs, has and lacks."""
-    rows = [(need.position_mm, (need.wanted, need.present, need.missing)) for need in needs]
-    unit = system.unbalance.fit(max(abs(vector) for _, vectors in rows for vector in vectors))
-    at = "at, deg"
-    heads = (f"z, {system.length.name}", "wanted", at, "in the file", at, "missing", at)
-
-    def cells(position_mm: float, vectors: Sequence[complex]) -> Iterator[str]:
-        yield number(system.length.of(position_mm / 1e3))
-        for vector in vectors:
-            yield number(unit.of(abs(vector)))
-            yield degrees(measure_direction(vector)) if vector else "–"
-
-    title = f"Present and missing unbalance of each plane, {unit.name}"
-    return Grid(title, heads, tuple(tuple(cells(*row)) for row in rows))
+    length = system.length
+    series = {
+        "wanted": [need.wanted for need in needs],
+        "in the file": [need.present for need in needs],
+        "missing": [need.missing for need in needs],
+    }
+    unit = system.unbalance.fit(max(map(abs, chain(*series.values()))))
+    places = [number(length.of(need.position_mm / 1e3)) for need in needs]
+    columns = [Column(f"z, {length.name}", places, words=True)]
+    for name, vectors in series.items():
+        angles = [degrees(measure_direction(v)) if v else UNKNOWN for v in vectors]
+        columns.append(Column(name, [number(unit.of(abs(vector))) for vector in vectors]))
+        columns.append(Column("at, deg", angles))
+    return Grid(f"Present and missing unbalance of each plane, {unit.name}", columns)
 
 
 def card_grids(card: Sequence[Bobweight], *units: ShownUnit) -> Iterator[Grid]:
@@ -218,15 +219,18 @@ def card_grids(card: Sequence[Bobweight], *units: ShownUnit) -> Iterator[Grid]:
     alike: dict[tuple[CardLine, ...], list[Bobweight]] = {}
     for bobweight in card:
         alike.setdefault(bobweight.lines, []).append(bobweight)
-    heads = ("", "quantity × each", *(unit.name for unit in units))
     for pins in alike.values():
         names = ", ".join("+".join(map(str, pin.cylinders)) for pin in pins)
-        rows = tuple(
-            (name, how, *(number(unit.of(grams / 1e3), 5) for unit in units))
-            for name, how, grams in _list_masses(pins[0], units[0])
-        )
+        masses = list(_list_masses(pins[0], units[0]))
+        columns = [
+            Column("", [name for name, _, _ in masses], words=True),
+            Column("quantity × each", [how for _, how, _ in masses]),
+        ]
+        for unit in units:
+            sums = [number(unit.of(grams / 1e3), 5) for _, _, grams in masses]
+            columns.append(Column(unit.name, sums))
         note = "" if pins[0].throw_g else f"The throw itself {NO_THROW}."
-        yield Grid(f"Bobweight of pin{'s' * (len(pins) > 1)} {names}", heads, rows, note)
+        yield Grid(f"Bobweight of pin{'s' * (len(pins) > 1)} {names}", columns, note)
 
 
 def _list_masses(pin: Bobweight, unit: ShownUnit) -> Iterator[tuple[str, str, float]]:
@@ -262,26 +266,40 @@ def percent(share: float) -> str:
 
 
 def _sweep_grid(sweep: tuple[FactorPeaks, ...], system: System) -> Grid:
-    force, moment = system.force, system.moment
     unbalance = system.unbalance.fit(max(abs(row.counterweight_kg_m) for row in sweep))
-    masses = (f"bobweight, {system.scales.name}", f"weight, {unbalance.name}")
-    heads = ("factor", *masses, f"force, {force.name}", "along", "across", f"moment, {moment.name}")
-    rows = []
-    for row in sweep:
-        weights = system.scales.of(row.bobweight_g / 1e3), unbalance.of(row.counterweight_kg_m)
-        forces = map(force.of, (row.peak_force_N, row.along_N, row.across_N))
-        cells = map(number, (*weights, *forces, moment.of(row.peak_moment_Nm)))
-        rows.append((percent(row.factor), *cells))
+    scales = system.scales
+    force = system.force
+    moment = system.moment
+
+    def write(unit: ShownUnit, sizes: Iterable[float]) -> list[str]:
+        return [number(unit.of(size)) for size in sizes]
+
+    bobweights = write(scales, (row.bobweight_g / 1e3 for row in sweep))
+    weights = write(unbalance, (row.counterweight_kg_m for row in sweep))
+    columns = [
+        Column("factor", [percent(row.factor) for row in sweep], words=True),
+        Column(f"bobweight, {scales.name}", bobweights),
+        Column(f"weight, {unbalance.name}", weights),
+        Column(f"force, {force.name}", write(force, (row.peak_force_N for row in sweep))),
+        Column("along", write(force, (row.along_N for row in sweep))),
+        Column("across", write(force, (row.across_N for row in sweep))),
+        Column(f"moment, {moment.name}", write(moment, (row.peak_moment_Nm for row in sweep))),
+    ]
     note = (
         "Bobweight: of the first pin. Weight: largest counterweight to add. Force: largest force "
         "left, all orders added up. Along, across: largest components along and across bank 1."
     )
-    return Grid("Largest values by factor", heads, tuple(rows), note=note)
+    return Grid("Largest values by factor", columns, note)
 
 
 def _optima_grid(optima: Sequence[Node]) -> Grid:
-    heads = ("design", "criterion", "engine force", "k", "μ", "largest, mrω²", "mean, mrω²")
-    cells = ["{design}", "{criterion}", "{engine_force}", "{k:.5f}"]
-    cells += ["{mu:.6f}", "{largest:.6f}", "{mean:.6f}"]
-    rows = tuple(tuple(cell.format(**optimum) for cell in cells) for optimum in optima)
-    return Grid("Optima of both designs", heads, rows)
+    columns = [
+        Column("design", [optimum["design"] for optimum in optima], words=True),
+        Column("criterion", [optimum["criterion"] for optimum in optima]),
+        Column("engine force", [optimum["engine_force"] for optimum in optima]),
+        Column("k", [f"{optimum['k']:.5f}" for optimum in optima]),
+        Column("μ", [f"{optimum['mu']:.6f}" for optimum in optima]),
+        Column("largest, mrω²", [f"{optimum['largest']:.6f}" for optimum in optima]),
+        Column("mean, mrω²", [f"{optimum['mean']:.6f}" for optimum in optima]),
+    ]
+    return Grid("Optima of both designs", columns)

@@ -33,6 +33,7 @@ from ..show.sheet import (
     NAMELESS,
     NEGLIGIBLE,
     NOTHING,
+    Column,
     Facts,
     Grid,
     Sheet,
@@ -205,11 +206,15 @@ def _permitted(result: Balance, system: System) -> Iterator[Grid]:
             return f"{size / each:.1%}, {'over' if size > each else 'within'}"
         return f"±{each / size:.2%}" if size else "–"
 
-    permitted = number(unit.of(each))
+    columns = [
+        Column(head, [name for name, _ in found], words=True),
+        Column(f"{what}, {unit.name}", [number(unit.of(size)) for _, size in found]),
+        Column(f"permitted, {unit.name}", [number(unit.of(each))] * len(found)),
+        Column(last, [judge(size) for _, size in found]),
+    ]
     yield Grid(
         f"Permitted residual unbalance, ISO 21940-11, G {result.permitted.grade:g}",
-        (head, f"{what}, {unit.name}", f"permitted, {unit.name}", last),
-        tuple((name, number(unit.of(size)), permitted, judge(size)) for name, size in found),
+        columns,
         f"A crankshaft of {number(mass.of(result.permitted.mass_kg))} {mass.name} at "
         f"{result.before.engine.speed_rpm:g} rpm; all planes have equal shares.",
     )
@@ -279,7 +284,8 @@ def _orders(result: Balance, system: System) -> Iterator[Grid]:
     changed = (_find_changes(*sizes.swapaxes(0, 1)) & ~small.all(axis=1)) | every
     left = np.where(changed | small.any(axis=1), 0.0, sizes[:, 1])
     shown = np.flatnonzero(changed.any(axis=0))
-    columns = [("order", [order_name(order) for order in result.before.orders[shown]])]
+    orders = [order_name(order) for order in result.before.orders[shown]]
+    columns = [Column("order", orders, words=True)]
     unchanged = []
     for kind, changes, size, faint, after in zip(kinds, changed, sizes, small, left, strict=True):
         unit = fit_largest(system.unit(kind), *(state[kind.name] for state in states))
@@ -287,13 +293,13 @@ def _orders(result: Balance, system: System) -> Iterator[Grid]:
             heads = f"{name_column(kind)}, {unit.name}", "after"
             for head, values, tiny in zip(heads, size, faint, strict=True):
                 cells = (size_cell(float(values[n]), unit, negligible=tiny[n]) for n in shown)
-                columns.append((head, [*cells]))
-        if orders := result.before.orders[after > 0].tolist():
+                columns.append(Column(head, [*cells]))
+        if same := result.before.orders[after > 0].tolist():
             most = size_text(float(after.max()), system.unit(kind))
-            unchanged.append(f"{name_column(kind)} of {name_orders(orders)} (at most {most})")
+            unchanged.append(f"{name_column(kind)} of {name_orders(same)} (at most {most})")
     if len(shown):
         title = "Largest value by order, before and after"
-        yield Grid.of_columns(title, columns, _tell_unchanged(unchanged))
+        yield Grid(title, columns, _tell_unchanged(unchanged))
 
 
 def _peaks(result: Balance, system: System) -> Iterator[Grid]:
@@ -311,12 +317,20 @@ def _peaks(result: Balance, system: System) -> Iterator[Grid]:
     uneven = "Devices are sized for steady mean speed; both columns are for the uneven speed."
     if rows:
         notes = (_tell_unchanged(left), uneven if result.before.engine.ripple else "")
-        yield Grid(
-            "Largest over a revolution, all orders",
-            ("", "before", "at, deg", "after", "at, deg"),
-            tuple(rows),
-            note=" ".join(filter(None, notes)),
-        )
+        title = "Largest over a revolution, all orders"
+        heads = _head_before_and_after("at, deg")
+        yield Grid.of_rows(title, heads, rows, " ".join(filter(None, notes)))
+
+
+def _head_before_and_after(place: str) -> tuple[Column, ...]:
+    """Return the heads of a table of values and their places, before and after."""
+    return (
+        Column("", words=True),
+        Column("before"),
+        Column(place),
+        Column("after"),
+        Column(place),
+    )
 
 
 def _crank_loads(states: Sequence[CrankLoads | None], system: System) -> Iterator[Grid]:
@@ -335,12 +349,12 @@ def _crank_loads(states: Sequence[CrankLoads | None], system: System) -> Iterato
         places = (number(system.length.of(getattr(state, place) / 1e3)) for state in states)
         rows.append((f"{name}, {unit.name}", *chain(*zip(loads, places, strict=True))))
     if rows:
-        at = f"at z, {system.length.name}"
+        heads = _head_before_and_after(f"at z, {system.length.name}")
         note = (
             "Loads by inertia only; bearings half-way between throws. Where several places have "
             "the largest value, the first is listed."
         )
-        yield Grid("Within the crankshaft", ("", "before", at, "after", at), tuple(rows), note=note)
+        yield Grid.of_rows("Within the crankshaft", heads, rows, note)
 
 
 def _peak(peak: Peak, unit: ShownUnit) -> tuple[str, str]:

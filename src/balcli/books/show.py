@@ -13,7 +13,7 @@ from typing import TypeAlias
 
 from ..core.records import Node, to_document
 from ..show.formats import Renderer, Rows
-from ..show.sheet import UNKNOWN, Facts, Grid, Sheet, Text, number
+from ..show.sheet import UNKNOWN, Column, Facts, Grid, Sheet, Text, number
 from ..show.table import WIDTH, fold
 from ..show.units import System
 from .answer import find_gaps
@@ -23,7 +23,6 @@ from .recomputed import (
     STATEMENT,
     Cell,
     Erratum,
-    Row,
     Table,
     deviates,
     parse_decimal,
@@ -37,15 +36,13 @@ def sheet(table: Table, _system: System) -> Sheet:
     facts, title = Facts((("source", table.source),)), f"{table.name}: {table.title}"
     if STATEMENT in table.columns:
         return Sheet(title, (facts, *map(_lay_out_statement, table.errata), _explain(table.errata)))
-    columns = range(len(table.columns))
-    words = tuple(
-        j
-        for j in columns
-        if j == 0 or all(isinstance(row[j], str) and not _is_figure(row[j]) for row in table.exact)
-    )
-    cells = tuple(tuple(_shown(table, i, j) for j in columns) for i, _ in enumerate(table.exact))
-    marked = frozenset((e.row, table.columns.index(e.column)) for e in table.errata)
-    grid = Grid("", table.columns, cells, count_deviations(table), marked, words)
+    columns = []
+    for j, head in enumerate(table.columns):
+        cells = [_shown(table, i, j) for i, _ in enumerate(table.exact)]
+        words = j == 0 or all(_is_word(row[j]) for row in table.exact)
+        marked = [erratum.row for erratum in table.errata if erratum.column == head]
+        columns.append(Column(head, cells, words, marked))
+    grid = Grid("", columns, count_deviations(table))
     return Sheet(title, (facts, grid))
 
 
@@ -65,6 +62,10 @@ def count_deviations(table: Table) -> str:
 # ------------------------------------------------------------------ cells
 def _is_figure(cell: Cell) -> bool:
     return parse_decimal(str(cell)) is not None or parse_number(cell) is not None
+
+
+def _is_word(cell: Cell) -> bool:
+    return isinstance(cell, str) and not _is_figure(cell)
 
 
 def _shown(table: Table, i: int, j: int) -> str:
@@ -90,7 +91,6 @@ def _round_as_printed(value: float, text: str) -> str:
 RENDERER = Renderer(sheet=sheet, rows=rows)
 
 
-_SHOWN_OF_ERRATUM = ("row", "column", "printed", "exact")
 Errata: TypeAlias = Sequence[tuple[str, Erratum]]
 
 
@@ -103,9 +103,14 @@ def lay_out_errata(errata: Errata, _system: System) -> Sheet:
     parts: list[Grid | Text] = []
     for (table, category, kind), members in groups.items():
         if kind:
-            rows = tuple((e.label, e.column, e.printed, _exact(e)) for e in members)
+            columns = [
+                Column("row", [e.label for e in members], words=True),
+                Column("column", [e.column for e in members]),
+                Column("printed", [e.printed for e in members]),
+                Column("exact", [_exact(e) for e in members]),
+            ]
             note = kind if kind != category else ""
-            parts.append(Grid(f"{table}, {category}", _SHOWN_OF_ERRATUM, rows, note))
+            parts.append(Grid(f"{table}, {category}", columns, note))
         else:
             parts += map(_lay_out_statement, members)
     return Sheet("Errata", (*parts, _explain([e for _, e in errata])))
@@ -119,10 +124,15 @@ def _lay_out_statement(e: Erratum) -> Text:
 def _explain(errata: Sequence[Erratum]) -> Grid:
     """Return the classes of these errata, with their counts and meanings."""
     counts = Counter(e.category for e in errata)
-    rows = tuple((name, str(counts[name]), text) for name, text in CLASSES.items() if counts[name])
+    found = [name for name in CLASSES if counts[name]]
+    columns = [
+        Column("class", found, words=True),
+        Column("errata", [str(counts[name]) for name in found]),
+        Column("meaning", [CLASSES[name] for name in found], words=True),
+    ]
     figures = sum(e.column != STATEMENT for e in errata)
     note = f"{figures} printed figures, {len(errata) - figures} equations and sentences"
-    return Grid("Classes", ("class", "errata", "meaning"), rows, note=note, words=(0, 2))
+    return Grid("Classes", columns, note)
 
 
 def describe_errata(errata: Errata) -> list[Node]:
@@ -132,7 +142,7 @@ def describe_errata(errata: Errata) -> list[Node]:
 
 def list_errata(errata: Errata, _system: System) -> Rows:
     """Return CSV with one erratum in each line."""
-    columns = ("table", *_SHOWN_OF_ERRATUM, "kind", "class")
+    columns = ("table", "row", "column", "printed", "exact", "kind", "class")
     lines = [(t, e.label, e.column, e.printed, _exact(e), e.kind, e.category) for t, e in errata]
     return Rows(columns, lines)
 
@@ -146,13 +156,20 @@ ERRATA = Renderer(sheet=lay_out_errata, document=describe_errata, rows=list_erra
 
 def lay_out_list(tables: Sequence[Table], _system: System) -> Sheet:
     """Return a list of the tables with their errata, and a list of sources."""
-    lines = tuple((t.name, str(len(t.errata)), t.title) for t in tables)
+    columns = [
+        Column("name", [t.name for t in tables], words=True),
+        Column("errata", [str(len(t.errata)) for t in tables]),
+        Column("title", [t.title for t in tables], words=True),
+    ]
     errata = sum(len(t.errata) for t in tables)
     note = f"{errata} errata; --errata lists them, tables NAME shows one table"
-    titles = Grid("", ("name", "errata", "title"), lines, note=note, words=(0, 2))
     sources = {t.name.partition("-")[0]: t.source.partition(", Table ")[0] for t in tables}
-    printed = Grid("Sources", ("tables", "printed in"), tuple(sources.items()), words=(0, 1))
-    return Sheet("Printed tables, recomputed", (titles, printed))
+    printed = [
+        Column("tables", [*sources], words=True),
+        Column("printed in", [*sources.values()], words=True),
+    ]
+    parts = (Grid("", columns, note), Grid("Sources", printed))
+    return Sheet("Printed tables, recomputed", parts)
 
 
 def describe_list(tables: Sequence[Table]) -> list[Node]:
@@ -172,7 +189,6 @@ def list_tables(tables: Sequence[Table], _system: System) -> Rows:
 TABLE_LIST = Renderer(sheet=lay_out_list, document=describe_list, rows=list_tables)
 
 
-_SHOWN = ("F1", "F2", "M1", "M2")
 _NOTE = (
     "Largest values: F1 as a multiple of m r ω² (m: reciprocating mass of a cylinder, r: crank "
     "radius, ω: crank speed), F2 of A2 m r ω² (A2 ≈ r / rod length), M1 and M2 of these two "
@@ -183,17 +199,23 @@ _NOTE = (
 
 def lay_out_layouts(table: Table, _system: System) -> Sheet:
     """Return force and moment of orders 1 and 2, and the firing intervals of each engine."""
-    places = [table.columns.index(f"{name}_major") for name in _SHOWN]
-
-    def cells(row: Row) -> tuple[str, ...]:
-        name, title, *_ = map(str, row)
-        multiples = (number(float(row[k] or 0.0)) for k in places)
-        gaps = "/".join(f"{gap:g}" for gap in find_gaps(name))  # such as 90/150 for uneven firing
-        return title.partition(" (")[0], *multiples, gaps or UNKNOWN
-
-    rows = tuple(map(cells, table.exact))
-    grid = Grid("", ("engine", *_SHOWN, "fires every"), rows, note=_NOTE)
+    names = map(str, _list_exact(table, "engine"))
+    titles = [str(title).partition(" (")[0] for title in _list_exact(table, "layout")]
+    # Such as 90/150 for uneven firing.
+    gaps = ["/".join(f"{gap:g}" for gap in find_gaps(name)) for name in names]
+    columns = [Column("engine", titles, words=True)]
+    for name in ("F1", "F2", "M1", "M2"):
+        sizes = _list_exact(table, f"{name}_major")
+        columns.append(Column(name, [number(float(size or 0.0)) for size in sizes]))
+    columns.append(Column("fires every", [each or UNKNOWN for each in gaps]))
+    grid = Grid("", columns, _NOTE)
     return Sheet("Free forces and moments of common engines", (grid,))
+
+
+def _list_exact(table: Table, heading: str) -> list[Cell]:
+    """Return the exact cells of a column."""
+    place = table.columns.index(heading)
+    return [row[place] for row in table.exact]
 
 
 LAYOUTS = Renderer(sheet=lay_out_layouts, rows=rows)
@@ -203,16 +225,22 @@ def lay_out_published(table: Table, _system: System) -> Sheet:
     """Return a table for each chapter (forces, balancing and so on), with a line for each problem
     and the verdicts on its figures.
     """
-    places = [table.columns.index(name) for name in ("chapter", "source", "title", "verdict")]
+    verdicts = [str(verdict) for verdict in _list_exact(table, "verdict")]
+    names = ("chapter", "source", "title")
+    places = zip(*(_list_exact(table, name) for name in names), strict=True)
     chapters: dict[str, dict[str, Counter[str]]] = {}
-    for chapter, source, title, verdict in ([str(row[k]) for k in places] for row in table.exact):
-        problems = chapters.setdefault(chapter, {})
+    for (chapter, source, title), verdict in zip(places, verdicts, strict=True):
+        problems = chapters.setdefault(str(chapter), {})
         problems.setdefault(f"{source}: {title}", Counter()).update([verdict])
     grids = []
     for chapter, problems in chapters.items():
-        rows = tuple((name, _tell_verdicts(verdicts)) for name, verdicts in problems.items())
-        grids.append(Grid(chapter, ("problem", "figures"), rows, words=(0, 1)))
-    told = _tell_verdicts(Counter(str(row[places[-1]]) for row in table.exact))
+        figures = [_tell_verdicts(counts) for counts in problems.values()]
+        columns = [
+            Column("problem", [*problems], words=True),
+            Column("figures", figures, words=True),
+        ]
+        grids.append(Grid(chapter, columns))
+    told = _tell_verdicts(Counter(verdicts))
     note = (
         f"{sum(map(len, chapters.values()))} problems, {len(table.exact)} figures: {told} "
         "(listed by --errata). --format csv lists every figure."

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from functools import partial
+from itertools import chain
 from typing import Any
 
 from ..core.records import Node, find_unit, list_figures, remove_unit, to_document
@@ -12,10 +13,11 @@ from ..forces.curves import find_constant_inertia
 from ..forces.kinds import GAS, TORQUE, TORQUE_TOTAL
 from ..limits import MOST_HARMONICS_UNASKED
 from ..show.engine_facts import list_silent, tell_speed, tell_strokes
-from ..show.figures import FigureRow, order_rows
+from ..show.figures import FigureRow, Harmonic, order_rows
 from ..show.formats import Renderer, Rows
 from ..show.sheet import (
     NAMELESS,
+    Column,
     Facts,
     Grid,
     Sheet,
@@ -30,7 +32,7 @@ from ..show.sheet import (
 from ..show.units import System
 from .flywheel import Flywheel
 from .loads import CycleLoads
-from .records import TorqueAnalysis, write_whole
+from .records import TorqueAnalysis, Torques, write_whole
 
 _NO_INERTIA = "The uneven speed is not known: no inertia is given ([crank] inertia, [flywheel])."
 _size = partial(size_text, digits=None)  # a size with the default number of digits
@@ -196,17 +198,17 @@ def _make_load_tables(loads: CycleLoads, system: System) -> Iterator[Grid | Text
     ):
         unit = system.force.fit(max((load.max_N for load in each), default=0.0))
         columns = [
-            (word, [str(getattr(load, word)) for load in each]),
-            (f"largest, {unit.name}", [number(unit.of(load.max_N)) for load in each]),
-            ("at, deg", [tenths(load.max_deg) for load in each]),
-            (f"mean, {unit.name}", [number(unit.of(load.mean_N)) for load in each]),
+            Column(word, [str(getattr(load, word)) for load in each], words=True),
+            Column(f"largest, {unit.name}", [number(unit.of(load.max_N)) for load in each]),
+            Column("at, deg", [tenths(load.max_deg) for load in each]),
+            Column(f"mean, {unit.name}", [number(unit.of(load.mean_N)) for load in each]),
         ]
         pressures = [load.pressure_Pa for load in each if load.pressure_Pa is not None]
         if len(pressures) == len(each):
             stress = system.stress.fit(max(pressures, default=0.0))
-            columns.append((stress.name, [number(stress.of(one)) for one in pressures]))
+            columns.append(Column(stress.name, [number(stress.of(one)) for one in pressures]))
         if each:
-            yield Grid.of_columns(title, columns, note)
+            yield Grid(title, columns, note)
     if loads.obstacle:
         yield Text("Main bearings", (f"Not known: {loads.obstacle}.",))
 
@@ -215,28 +217,49 @@ def _make_order_table(result: TorqueAnalysis, system: System) -> Grid:
     """Return a table of torque by order, without orders in which neither the engine nor the
     shown cylinder has a torque.
     """
-    orders, alone = list(result.orders), f"gas of {result.cylinder}"
-    note = "--orders lists higher orders." * (len(orders) == MOST_HARMONICS_UNASKED)
-    kinds = {"torque": [order.torques.torque_Nm for order in orders]}
-    if result.engine is not None:
-        keys = {"gas": "gas_torque_Nm", "inertia": "inertia_torque_Nm", "total": "torque_Nm"}
-        kinds = {kind: [getattr(o.torques, key) for o in orders] for kind, key in keys.items()}
-        kinds[alone] = [getattr(order.one_cylinder, keys["gas"]) for order in orders]
+    every = [order.torques for order in result.orders]
+    alone: list[Harmonic] = []
+    if result.engine is None:
+        kinds = {"torque": _list_harmonics(every, "torque_Nm")}
+        angle = "peak, deg"
+        note = "--orders lists higher orders." * (len(every) == MOST_HARMONICS_UNASKED)
+        shown = [*range(len(every))]
+        names = [f"{order.order:g}" for order in result.orders]
+    else:
+        kinds = {
+            "gas": _list_harmonics(every, "gas_torque_Nm"),
+            "inertia": _list_harmonics(every, "inertia_torque_Nm"),
+            "total": _list_harmonics(every, "torque_Nm"),
+        }
+        alone = _list_harmonics([order.one_cylinder for order in result.orders], "gas_torque_Nm")
+        angle = "at, deg"
         note = f"The last column is the gas torque of cylinder {result.cylinder} only."
-    lines = list(zip(orders, *kinds.values(), strict=True))
-    unit = system.moment.fit(max((h.amplitude for _, *line in lines for h in line), default=0.0))
-    if result.engine is not None:
-        lines = [line for line in lines if not all(h.balanced for h in line[1:])]
-    names = [order_name(o.order) if result.engine else f"{o.order:g}" for o, *_ in lines]
-    columns = [("order", names)]
-    for k, kind in enumerate(kinds, 1):
-        pairs = [(line[0].order, line[k]) for line in lines]
-        values = (h.amplitude if n else h.cos for n, h in pairs)
-        columns.append((kind, [number(unit.of(v), 4 if kind == alone else 5) for v in values]))
-        if kind != alone:
-            head = "at, deg" if result.engine else "peak, deg"
-            columns.append((head, [degrees(h.peak_deg) if h.amplitude else "" for _, h in pairs]))
-    return Grid.of_columns(f"Torque by order, {unit.name}", columns, note)
+        rows = enumerate(zip(*kinds.values(), alone, strict=True))
+        shown = [k for k, row in rows if not all(harmonic.balanced for harmonic in row)]
+        names = [order_name(order.order) for order in result.orders]
+    columns = [Column("order", [names[k] for k in shown], words=True)]
+    unit = system.moment.fit(max((h.amplitude for h in chain(*kinds.values(), alone)), default=0.0))
+
+    def write(harmonics: list[Harmonic], digits: int) -> list[str]:
+        cells = []
+        for k in shown:
+            harmonic = harmonics[k]
+            value = harmonic.amplitude if result.orders[k].order else harmonic.cos
+            cells.append(number(unit.of(value), digits))
+        return cells
+
+    for name, harmonics in kinds.items():
+        columns.append(Column(name, write(harmonics, 5)))
+        at = [degrees(harmonics[k].peak_deg) if harmonics[k].amplitude else "" for k in shown]
+        columns.append(Column(angle, at))
+    if alone:
+        columns.append(Column(f"gas of {result.cylinder}", write(alone, 4)))
+    return Grid(f"Torque by order, {unit.name}", columns, note)
+
+
+def _list_harmonics(parts: Iterable[Torques | None], key: str) -> list[Harmonic]:
+    """Return one torque of every order."""
+    return [getattr(part, key) for part in parts]
 
 
 RENDERER = Renderer(sheet=sheet, rows=rows)

@@ -6,16 +6,16 @@ the right.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from itertools import cycle
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..core.records import Node, angle_deg, list_figures, to_document
 from ..show.formats import Renderer, Rows, name_cell
 from ..show.plot_style import BLUE, INK, MANY_LOOKS, PAPER, SOFT, fit_name, open_figure, put_title
-from ..show.sheet import UNKNOWN, Facts, Grid, Sheet, Text, degrees, number
+from ..show.sheet import UNKNOWN, Column, Facts, Grid, Sheet, Text, degrees, number
 from ..show.units import System
 from .answer import FieldBalance, Permitted
 
@@ -27,7 +27,6 @@ if TYPE_CHECKING:
 
 
 _HEADER = ("part", "speed_rpm", "name", "figure", "value", "unit")
-Column: TypeAlias = tuple[str, list[str]]  # heading and cells of a table's column
 _WAY = {"with": "the way the rotor turns", "against": "against the way the rotor turns"}
 
 
@@ -87,11 +86,21 @@ def _show_senses(result: FieldBalance) -> Text:
     return Text("How angles count", (senses, picture))
 
 
-def _list_polar(head: str, values: Iterable[complex], digits: int = 4) -> list[Column]:
-    """Return two columns of weights or readings: magnitudes below `head`, and angles."""
+def _list_polar(
+    head: str, values: Iterable[complex], digits: int = 4, marked: Collection[int] = ()
+) -> list[Column]:
+    """Return two columns of weights or readings: magnitudes below `head`, and angles.
+
+    Args:
+        head: Heading of the magnitudes.
+        values: Weights or readings.
+        digits: Digits of the magnitudes.
+        marked: Rows with highlighted magnitudes.
+    """
     values = [complex(value) for value in values]
+    sizes = [number(abs(value), digits) for value in values]
     angles = [degrees(angle_deg(value)) if value else UNKNOWN for value in values]
-    return [(head, [number(abs(value), digits) for value in values]), ("at, deg", angles)]
+    return [Column(head, sizes, marked=marked), Column("at, deg", angles)]
 
 
 def _tell_weight(result: FieldBalance, value: complex) -> str:
@@ -99,22 +108,23 @@ def _tell_weight(result: FieldBalance, value: complex) -> str:
 
 
 def _show_corrections(result: FieldBalance, system: System) -> Grid:
-    file, unit, every = result.file, result.weight_unit, result.corrections
-    columns = [("plane", [each.plane for each in every])]
-    columns += _list_polar(f"weight, {unit}", [each.weight for each in every])
+    file = result.file
+    unit = result.weight_unit
+    every = result.corrections
+    at_limit = [k for k, each in enumerate(every) if each.at_limit]
+    columns = [Column("plane", [each.plane for each in every], words=True)]
+    columns += _list_polar(f"weight, {unit}", [each.weight for each in every], marked=at_limit)
     if result.trimmed:
         columns += _list_polar(f"add now, {unit}", [each.step for each in every])
     if file.radius is not None:
         radii = dict(zip(file.planes, file.radius, strict=True))
         lengths = [number(system.length.of(radii[each.plane] / 1e3)) for each in every]
-        columns.append((f"radius, {system.length.name}", lengths))
         unbalances = [_show_g_mm(each.unbalance_g_mm, system) for each in every]
-        columns.append((f"unbalance, {system.unbalance.name}", unbalances))
+        columns.append(Column(f"radius, {system.length.name}", lengths))
+        columns.append(Column(f"unbalance, {system.unbalance.name}", unbalances))
     shares = [f"{each.own_effect:.0%}{', at its limit' * each.at_limit}" for each in every]
-    columns.append(("own effect", shares))
-    note = " ".join(_explain_corrections(result))
-    marked = frozenset((k, 1) for k, each in enumerate(every) if each.at_limit)
-    return Grid.of_columns("Corrections", columns, note)._replace(marked=marked)
+    columns.append(Column("own effect", shares))
+    return Grid("Corrections", columns, " ".join(_explain_corrections(result)))
 
 
 def _show_g_mm(value: float | None, system: System) -> str:
@@ -142,9 +152,16 @@ def _explain_corrections(result: FieldBalance) -> Iterator[str]:
 
 
 def _show_pieces(result: FieldBalance, system: System) -> Grid:
-    file, length = result.file, system.length
-    heads = ["plane", "hole" if file.drill else "place", "at, deg", f"weight, {file.weight_unit}"]
-    heads += [f"drill, {length.name}", f"depth, {length.name}"] if file.drill else []
+    file = result.file
+    length = system.length
+    heads = [
+        Column("plane", words=True),
+        Column("hole" if file.drill else "place"),
+        Column("at, deg"),
+        Column(f"weight, {file.weight_unit}"),
+    ]
+    if file.drill:
+        heads += [Column(f"drill, {length.name}"), Column(f"depth, {length.name}")]
     lines: list[tuple[str, ...]] = []
     for each in result.corrections:
         k = file.planes.index(each.plane)
@@ -168,31 +185,37 @@ def _show_pieces(result: FieldBalance, system: System) -> Grid:
         )
     if result.trimmed and (file.drill or file.most):
         note += " Limits and depths ignore earlier weights and holes, which are not in the file."
-    return Grid(f"{what}{when}", tuple(heads), tuple(lines), note)
+    return Grid.of_rows(f"{what}{when}", heads, lines, note)
 
 
 def _show_permitted(result: FieldBalance, found: Permitted, system: System) -> Grid:
-    file, unit, mass, every = result.file, system.unbalance.name, system.mass, found.planes
-    names = "permitted", "there now", "scatter"
-    heads = ("plane", *(f"{name}, {unit}" for name in names), "", f"after, {unit}")
-    rows = []
-    for each in every:
-        figures = each.permitted_g_mm, each.present_g_mm, each.scatter_g_mm, each.after_g_mm
-        *cells, after = (_show_g_mm(value, system) for value in figures)
-        rows.append((each.plane, *cells, each.verdict, after))
+    file = result.file
+    unit = system.unbalance.name
+    mass = system.mass
+    every = found.planes
+    not_reached = [k for k, each in enumerate(every) if not each.reached]
+
+    def write(sizes: Iterable[float | None]) -> list[str]:
+        return [_show_g_mm(size, system) for size in sizes]
+
+    columns = [
+        Column("plane", [each.plane for each in every], words=True),
+        Column(f"permitted, {unit}", write(each.permitted_g_mm for each in every)),
+        Column(f"there now, {unit}", write(each.present_g_mm for each in every)),
+        Column(f"scatter, {unit}", write(each.scatter_g_mm for each in every)),
+        Column("", [each.verdict for each in every], words=True, marked=not_reached),
+        Column(f"after, {unit}", write(each.after_g_mm for each in every)),
+    ]
     spread = "largest error of 'there now' (95 %), estimated from the residuals of the fit"
     if every[0].scatter_g_mm is None:
         spread = "unknown, because the fit has as many unknowns as readings; add a run"
     state = f"in '{result.trimmed}'" if result.trimmed else "of the rotor as found"
     return Grid(
         f"Permitted residual unbalance, ISO 21940-11, G {file.grade:g}",
-        heads,
-        tuple(rows),
+        columns,
         f"{mass.of(file.mass or 0.0):g} {mass.name} at {file.speed:g} rpm: permitted eccentricity "
         f"{number(1e3 * found.specific_mm)} µm. There now: unbalance {state}, from its readings; "
         f"after: unbalance after the corrections. Scatter: {spread}.",
-        marked=frozenset((k, 4) for k, each in enumerate(every) if not each.reached),
-        words=(0, 4),
     )
 
 
@@ -207,7 +230,7 @@ def _name_readings(result: FieldBalance) -> list[str]:
 
 def _show_readings(result: FieldBalance) -> Grid:
     unit = f", {result.unit}" if result.unit else ""
-    columns = [("reading", _name_readings(result))]
+    columns = [Column("reading", _name_readings(result), words=True)]
     columns += _list_polar(f"as found{unit}", result.runs.found)
     if result.trimmed:
         columns += _list_polar(f"{result.runs.state}{unit}", result.before)
@@ -222,11 +245,11 @@ def _show_readings(result: FieldBalance) -> Grid:
     else:
         which = "that the places and limits allow" if result.limited else "possible"
         note += f"The sum of squares of the readings is the least {which}."
-    return Grid.of_columns("Readings, predicted after the corrections", columns, note)
+    return Grid("Readings, predicted after the corrections", columns, note)
 
 
 def _show_influence(result: FieldBalance) -> Grid:
-    columns = [("reading", _name_readings(result))]
+    columns = [Column("reading", _name_readings(result), words=True)]
     for each in result.corrections:
         effects = result.influence[:, result.file.planes.index(each.plane)]
         columns += _list_polar(each.plane, effects, 5)
@@ -236,7 +259,7 @@ def _show_influence(result: FieldBalance) -> Grid:
     )
     if result.trimmed and result.file.influence is None:
         note += " The coefficients are fitted to all runs by least squares."
-    return Grid.of_columns("Influence coefficients", columns, note)
+    return Grid("Influence coefficients", columns, note)
 
 
 RENDERER = Renderer(sheet=sheet, rows=rows)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from typing import NamedTuple
 
 from ..core.records import Node, angle_deg, find_unit, list_figures, remove_unit, to_document
 from ..show.formats import Renderer, Rows, name_cell
@@ -10,6 +11,7 @@ from ..show.sheet import (
     NAMELESS,
     NOTHING,
     UNKNOWN,
+    Column,
     Facts,
     Grid,
     Sheet,
@@ -24,6 +26,27 @@ from .answer import LocomotiveBalance
 
 Results = Sequence[LocomotiveBalance]
 Values = list[float | None]  # in SI units; None: unknown
+
+
+class _Series(NamedTuple):
+    """A figure of several wheels or factors, for a column.
+
+    Attributes:
+        name: Name of the figure.
+        values: Values in SI units.
+        unit: Unit in which they are shown.
+    """
+
+    name: str
+    values: Values
+    unit: ShownUnit
+
+    def write(self, *, words: bool = False) -> Column:
+        """Return a column in the unit that fits the values; `words`: as for `Column`."""
+        unit = self.unit.fit(max((v for v in self.values if v is not None), default=0.0))
+        return Column(name_with_unit(self.name, unit.name), _write(self.values, unit), words)
+
+
 _LEFT_OUT = ("format", "axles", "rails", "name", "wheels", "plane_mm")
 
 
@@ -104,19 +127,19 @@ def _make_wheel_table(result: LocomotiveBalance, system: System) -> Grid:
     loads = zip(_write(least, force), _write(most, force), strict=True)
     angles = [degrees(angle_deg(w.unbalance)) if w.unbalance else "" for w in wheels]
     columns = [
-        ("axle", [axle.name for axle in result.axles for _ in axle.wheels]),
-        _write_column("wheel z", _list_values(wheels, "plane_mm"), system.length),
-        _write_column("mass", _list_values(wheels, "mass_kg"), system.mass),
-        _write_column("unbalance", [abs(wheel.unbalance) for wheel in wheels], system.unbalance),
-        ("angle, deg", angles),
-        _write_column("hammer blow", blow, force),
-        (f"rail load, {force.name}", ["…".join(pair) for pair in loads]),
-        _write_column("lifts at", _list_values(wheels, "lift_km_h"), system.velocity),
+        Column("axle", [axle.name for axle in result.axles for _ in axle.wheels], words=True),
+        _Series("wheel z", _list_values(wheels, "plane_mm"), system.length).write(),
+        _Series("mass", _list_values(wheels, "mass_kg"), system.mass).write(),
+        _Series("unbalance", [abs(wheel.unbalance) for wheel in wheels], system.unbalance).write(),
+        Column("angle, deg", angles),
+        _Series("hammer blow", blow, force).write(),
+        Column(f"rail load, {force.name}", ["…".join(pair) for pair in loads]),
+        _Series("lifts at", _list_values(wheels, "lift_km_h"), system.velocity).write(),
     ]
     note = "Angles count from cylinder 1's crank pin, in the direction of rotation."
     if result.factor is None:
         note = "No factor is given: the figures are those of the counterweights in the file."
-    return Grid.of_columns("Wheels", columns, note)
+    return Grid("Wheels", columns, note)
 
 
 def _list_values(parts: Iterable[object], key: str) -> Values:
@@ -126,12 +149,6 @@ def _list_values(parts: Iterable[object], key: str) -> Values:
     return [None if value is None else value * size for value in values]
 
 
-def _write_column(name: str, values: Values, unit: ShownUnit) -> tuple[str, list[str]]:
-    """Return heading and cells of a column in the unit that fits its figures."""
-    unit = unit.fit(max((value for value in values if value is not None), default=0.0))
-    return name_with_unit(name, unit.name), _write(values, unit)
-
-
 def _write(values: Values, unit: ShownUnit) -> list[str]:
     return [UNKNOWN if value is None else number(unit.of(value)) for value in values]
 
@@ -139,24 +156,27 @@ def _write(values: Values, unit: ShownUnit) -> list[str]:
 # ------------------------------------------------------------------ several factors
 def sheet_of_factors(results: Results, system: System) -> Sheet:
     """Return a table with a row for each factor."""
-    columns = [_write_column(*column) for column in _list_columns(results, system)]
+    factors, *others = _list_series(results, system)
+    columns = [factors.write(words=True), *(series.write() for series in others)]
     speed = _tell_speed(results[0].speed_rpm, results[0].speed_km_h, system)
     title = f"{results[0].engine.name or NAMELESS}: balance factors"
     note = "Blows: worst wheel and worst rail. Lifts at: speed at which the first wheel lifts."
-    return Sheet(title, (Facts((("speed", speed),)), Grid.of_columns("", columns, note)))
+    return Sheet(title, (Facts((("speed", speed),)), Grid("", columns, note)))
 
 
 def rows_of_factors(results: Results, system: System) -> Rows:
     """Return a row of CSV for each factor."""
-    columns = list(_list_columns(results, system))
-    cells = ([value and unit.of(value) for value in values] for _, values, unit in columns)
-    heads = [name_with_unit(name, unit.name) for name, _, unit in columns]
+    heads = []
+    cells = []
+    for name, values, unit in _list_series(results, system):
+        heads.append(name_with_unit(name, unit.name))
+        cells.append([value and unit.of(value) for value in values])
     return Rows(heads, zip(*cells, strict=True))
 
 
-def _list_columns(results: Results, system: System) -> Iterator[tuple[str, Values, ShownUnit]]:
-    """Yield name, figures and unit of every column."""
-    yield "factor", _list_values(results, "factor"), ShownUnit("", 1)
+def _list_series(results: Results, system: System) -> Iterator[_Series]:
+    """Yield the figures of every column."""
+    yield _Series("factor", _list_values(results, "factor"), ShownUnit("", 1))
     for name, choose, of_which, key, unit in (
         ("largest mass", max, "wheels", "mass_kg", system.mass),
         ("wheel blow", max, "wheels", "hammer_blow_N", system.force),
@@ -167,7 +187,7 @@ def _list_columns(results: Results, system: System) -> Iterator[tuple[str, Value
     ):
         each = [getattr(result, of_which) if of_which else [result] for result in results]
         known = ([v for v in _list_values(parts, key) if v is not None] for parts in each)
-        yield name, [choose(values) if values else None for values in known], unit
+        yield _Series(name, [choose(values) if values else None for values in known], unit)
 
 
 RENDERER = Renderer(sheet=sheet, rows=rows)

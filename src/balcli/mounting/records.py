@@ -95,6 +95,16 @@ class WorstForce(NamedTuple):
     mode: Annotated[int, HIDDEN]
     resonance: MetMode | None = None
 
+    @property
+    def largest(self) -> float:
+        """Largest force, N."""
+        return self.force_N
+
+    @property
+    def alone(self) -> float:
+        """Force of the order alone, N."""
+        return self.order_force_N
+
 
 class MountForce(NamedTuple):
     """Force of one mount by order and speed.
@@ -142,6 +152,16 @@ class WorstMotion(NamedTuple):
     order_motion_mm: float
     mode: Annotated[int, HIDDEN]
     resonance: MetMode | None = None
+
+    @property
+    def largest(self) -> float:
+        """Largest motion, mm."""
+        return self.motion_mm
+
+    @property
+    def alone(self) -> float:
+        """Motion by the order alone, mm."""
+        return self.order_motion_mm
 
 
 class PointMotion(NamedTuple):

@@ -14,6 +14,7 @@ from ..show.figures import clean, silent_entries
 from ..show.formats import Renderer, Rows, name_cell
 from ..show.sheet import (
     NAMELESS,
+    Column,
     Facts,
     Grid,
     Sheet,
@@ -57,12 +58,13 @@ class Kind(NamedTuple):
     def find_highest(self, response: BodyResponse) -> MountForce | PointMotion:
         """Return the place with the largest value; the first of equal ones."""
         places = self.places(response)
-        return places[int(find_first_largest([place.worst[0] for place in places]))]
+        return places[int(find_first_largest([place.worst.largest for place in places]))]
 
     def tell_worst(self, place: MountForce | PointMotion) -> str:
         """Return a place's largest value and its speed as text."""
-        value, rpm, *_ = place.worst
-        return f"{self.show(value)} {self.unit.name} at {number(rpm, 4)} rpm"
+        worst = place.worst
+        size = f"{self.show(worst.largest)} {self.unit.name}"
+        return f"{size} at {number(worst.speed_rpm, 4)} rpm"
 
 
 def list_kinds(system: System) -> tuple[Kind, Kind]:
@@ -92,14 +94,15 @@ def _answer(result: MountReport, response: BodyResponse, kinds: Sequence[Kind]) 
     """Yield sentences on the largest force and motion, their cause, and the effect of a scheme."""
     force = kinds[0]
     place = force.find_highest(response)
-    value, _, order, alone, *_ = worst = place.worst
-    yield (
-        f"Largest mount force: {force.tell_worst(place)} at mount {place.name}; order "
-        f"{order_name(order)} alone makes {force.show(alone)} {force.unit.name}. "
-        f"{_explain(result, response, worst)}"
-        if value
-        else "The orders included put no force on the mounts."
-    )
+    worst = place.worst
+    if worst.largest:
+        alone = f"{force.show(worst.alone)} {force.unit.name}"
+        yield (
+            f"Largest mount force: {force.tell_worst(place)} at mount {place.name}; order "
+            f"{order_name(worst.order)} alone makes {alone}. {_explain(result, response, worst)}"
+        )
+    else:
+        yield "The orders included put no force on the mounts."
     for kind in kinds[1:]:
         place = kind.find_highest(response)
         yield f"Largest motion: {kind.tell_worst(place)} at point {place.name}."
@@ -122,9 +125,10 @@ def _tell_gas(response: BodyResponse) -> str:
 
 def _compare(own: BodyResponse, other: BodyResponse, kind: Kind) -> str:
     """Return the largest value of another response as text, with the change in percent."""
-    before, place = kind.find_highest(own).worst[0], kind.find_highest(other)
+    before = kind.find_highest(own).worst.largest
+    place = kind.find_highest(other)
     of = "force of any mount" if kind.part == "mount" else f"motion at {place.name}"
-    more = f" ({place.worst[0] / before - 1:+.0%})" if before else ""
+    more = f" ({place.worst.largest / before - 1:+.0%})" if before else ""
     return f"the largest {of} is {kind.tell_worst(place)}{more}"
 
 
@@ -145,37 +149,40 @@ def _explain(result: MountReport, response: BodyResponse, worst: WorstForce | Wo
 
 def _grid_worst(result: MountReport, kind: Kind) -> Grid:
     """Return a table of the largest value of each mount or point, in this and other responses."""
-    columns = [(kind.part, [place.name for place in kind.places(result.responses[0])])]
+    columns = [
+        Column(kind.part, [place.name for place in kind.places(result.responses[0])], words=True)
+    ]
     heads = ["all orders", *(f"with {other.name}" for other in result.beside)]
     for head, response in zip(heads, result.responses, strict=True):
         every = [place.worst for place in kind.places(response)]
-        columns.append((head, [kind.show(worst[0]) for worst in every]))
-        columns.append(("at, rpm", [number(worst.speed_rpm, 4) for worst in every]))
+        columns.append(Column(head, [kind.show(worst.largest) for worst in every]))
+        columns.append(Column("at, rpm", [number(worst.speed_rpm, 4) for worst in every]))
         if response is result.response:
-            columns.append(("largest order", [order_name(worst.order) for worst in every]))
-            columns.append(("alone", [kind.show(worst[3]) for worst in every]))
+            columns.append(Column("largest order", [order_name(worst.order) for worst in every]))
+            columns.append(Column("alone", [kind.show(worst.alone) for worst in every]))
     note = "Largest value in the cycle at any speed of the range; orders add with their phases."
     title = f"Largest {kind.figure} of each {kind.part}, {kind.unit.name}"
-    return Grid.of_columns(title, columns, note)
+    return Grid(title, columns, note)
 
 
 def _grid_modes(result: MountReport) -> Grid:
     modes = result.modes
     columns = [
-        ("mode", [str(k) for k, _ in enumerate(modes, 1)]),
-        ("Hz", [number(mode.frequency_Hz, 4) for mode in modes]),
-        ("motion", [mode.motion for mode in modes]),
+        Column("mode", [str(k) for k, _ in enumerate(modes, 1)], words=True),
+        Column("Hz", [number(mode.frequency_Hz, 4) for mode in modes]),
+        Column("motion", [mode.motion for mode in modes], words=True),
     ]
     for axis in AXES:
         shares = (round(mode.energy_percent[axis], 1) + 0.0 for mode in modes)
-        columns.append((f"{axis} %", [f"{share:.1f}" for share in shares]))
+        columns.append(Column(f"{axis} %", [f"{share:.1f}" for share in shares]))
     if any(mode.loss_factor for mode in modes):
-        columns.append(("damping %", [f"{50 * mode.loss_factor:.1f}" for mode in modes]))
+        damping = [f"{50 * mode.loss_factor:.1f}" for mode in modes]
+        columns.append(Column("damping %", damping))
     note = (
         "x, y, z %: kinetic energy of motion along the axes; rx, ry, rz %: of rotation about them; "
         "products of inertia may make some negative. Hz: with dynamic stiffness, without damping."
     )
-    return Grid.of_columns("Natural modes", columns, note)._replace(words=(0, 2))
+    return Grid("Natural modes", columns, note)
 
 
 def _tell_body(result: MountReport, length: ShownUnit) -> Facts:
@@ -190,33 +197,33 @@ def _tell_body(result: MountReport, length: ShownUnit) -> Facts:
 
 def _grid_rest(result: MountReport, system: System, length: ShownUnit) -> Grid:
     mounts = result.static.mounts
-    columns = [("mount", [mount.name for mount in mounts])]
+    columns = [Column("mount", [mount.name for mount in mounts], words=True)]
     for k, axis in enumerate("xyz"):
         forces = [number(system.force.of(mount.force_N[k]), 4) for mount in mounts]
-        columns.append((f"{axis}, {system.force.name}", forces))
+        columns.append(Column(f"{axis}, {system.force.name}", forces))
     for k, axis in enumerate("xyz"):
         travels = [number(length.of(mount.travel_mm[k]), 3) for mount in mounts]
-        columns.append((f"travel {axis}, {length.name}", travels))
+        columns.append(Column(f"travel {axis}, {length.name}", travels))
     leaning = ""
     if result.response and result.response.loads.mean and not result.mounted.carries_load:
         mean = number(system.moment.of(abs(result.response.loads.mean)), 4)
         leaning = f" and the reaction to the load's mean torque of {mean} {system.moment.name}"
     note = f"Forces of the body on its mounts under its weight{leaning}, with static stiffness."
-    return Grid.of_columns("At rest", columns, note)
+    return Grid("At rest", columns, note)
 
 
 def _grid_meetings(result: MountReport) -> Grid:
     met = [{one.order: one.speed_rpm for one in mode.meets} for mode in result.modes]
     every = sorted({order for each in met for order in each})
     columns = [
-        ("mode", [str(k) for k, _ in enumerate(met, 1)]),
-        ("Hz", [number(mode.frequency_Hz, 4) for mode in result.modes]),
+        Column("mode", [str(k) for k, _ in enumerate(met, 1)], words=True),
+        Column("Hz", [number(mode.frequency_Hz, 4) for mode in result.modes]),
     ]
     for order in every[:_COLUMNS]:
         speeds = [number(rpm.get(order, math.nan), 4) for rpm in met]
-        columns.append((f"order {order_name(order)}", speeds))
+        columns.append(Column(f"order {order_name(order)}", speeds))
     note = "The JSON output has all orders." if len(every) > _COLUMNS else ""
-    return Grid.of_columns("Where orders meet modes, rpm", columns, note)
+    return Grid("Where orders meet modes, rpm", columns, note)
 
 
 def _pick(count: int, most: int) -> list[int]:
@@ -226,21 +233,25 @@ def _pick(count: int, most: int) -> list[int]:
 
 def _grid_speeds(result: MountReport, response: BodyResponse, force: Kind) -> Grid:
     speeds = _pick(len(response.speeds_rpm), _ROWS)
-    columns = [("rpm", [number(response.speeds_rpm[s], 4) for s in speeds])]
+    columns = [Column("rpm", [number(response.speeds_rpm[s], 4) for s in speeds], words=True)]
     labels = ("", *(f", {other.name}" for other in result.beside))
     for label, each in zip(labels, result.responses, strict=True):
         for mount in each.mounts:
             forces = [number(force.unit.of(mount.peak_N[s]), 4) for s in speeds]
-            columns.append((f"{mount.name}{label}", forces))
+            columns.append(Column(f"{mount.name}{label}", forces))
     title = f"Force of each mount by speed, all orders together, {force.unit.name}"
-    return Grid.of_columns(title, columns)
+    return Grid(title, columns)
 
 
 def _grid_passed(response: BodyResponse, system: System) -> Grid:
     rpm = response.speeds_rpm
     speeds = _pick(len(rpm), _COLUMNS - 1)
-    heads = ["order", "load", f"rigid, {number(float(rpm[-1]), 4)} rpm"]
-    heads += [f"{number(rpm[s], 4)} rpm" for s in speeds]
+    heads = [
+        Column("order", words=True),
+        Column("load", words=True),
+        Column(f"rigid, {number(float(rpm[-1]), 4)} rpm"),
+        *(Column(f"{number(rpm[s], 4)} rpm") for s in speeds),
+    ]
     loads = [(each, key, load) for each in response.passed for key, load in each.rigid.items()]
     rows = []
     for passed, key, load in loads:
@@ -256,7 +267,7 @@ def _grid_passed(response: BodyResponse, system: System) -> Grid:
         "Load through the mounts, as a share of the load of the same engine on rigid mounts; "
         "moments about the centre of gravity."
     )
-    return Grid("Passed on to the frame", tuple(heads), tuple(rows), note, words=(0, 1))
+    return Grid.of_rows("Passed on to the frame", heads, rows, note)
 
 
 # ------------------------------------------------------------------ CSV

@@ -30,7 +30,7 @@ FORMULA = ("=", "+", "-", "@", "\t", "\r", "\uff1d", "\uff0b", "\uff0d", "\uff20
 _PARTED = re.compile(r'[",;\t\r\n]')
 
 
-Column: TypeAlias = "Sequence[Any] | NDArray[Any]"
+Values: TypeAlias = "Sequence[Any] | NDArray[Any]"
 
 
 class Columns(NamedTuple):
@@ -41,7 +41,7 @@ class Columns(NamedTuple):
         units: Units of some columns, by column name.
     """
 
-    values: Mapping[str, Column]
+    values: Mapping[str, Values]
     units: Mapping[str, str] = MappingProxyType({})
 
 

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from html import escape
-from itertools import repeat
 
 from ..engine.engine import Engine
 from .engine_facts import engine_facts
-from .formats import Columns
-from .sheet import NAMELESS, Facts, Grid, Sheet, Text, number
+from .formats import Columns, Values
+from .sheet import NAMELESS, Column, Facts, Grid, Sheet, Text, number
 from .units import SI
 
 ENDS = 5  # number of rows that are shown at each end of a long table
@@ -22,16 +21,21 @@ def show_engine(engine: Engine) -> str:
 
 def outline(columns: Columns) -> Grid:
     """Return a table of the first and last rows of columns."""
-    heads = [
-        f"{name}, {columns.units[name]}" if columns.units.get(name) else name
-        for name in columns.values
-    ]
-    length = len(next(iter(columns.values.values())))
-    shown = range(length) if length <= 2 * ENDS else [*range(ENDS), *range(length - ENDS, length)]
-    rows = [tuple(number(column[k]) for column in columns.values.values()) for k in shown]
-    if length > len(rows):
-        rows.insert(ENDS, ("...",) * len(heads))
-    return Grid("", tuple(heads), tuple(rows), note=f"{length} rows", words=())
+    outlined = []
+    length = 0
+    for name, values in columns.values.items():
+        unit = columns.units.get(name)
+        head = f"{name}, {unit}" if unit else name
+        outlined.append(Column(head, _write_ends(values)))
+        length = len(values)
+    return Grid("", outlined, f"{length} rows")
+
+
+def _write_ends(values: Values) -> list[str]:
+    """Return the first and last values of a column, or all values if there are few."""
+    if len(values) <= 2 * ENDS:
+        return [number(value) for value in values]
+    return [*map(number, values[:ENDS]), "...", *map(number, values[-ENDS:])]
 
 
 def html_text(sheet: Sheet, doubts: tuple[str, ...] = ()) -> str:
@@ -54,14 +58,23 @@ def _block(part: Grid | Facts | Text) -> str:
     if isinstance(part, Facts):
         pairs = (_cell("th", name, "left") + _cell("td", fact, "left") for name, fact in part.pairs)
         return f"{text}<table>\n{''.join(map(_row, pairs))}</table>\n"
-    sides = ["left" if k in part.words else "" for k in range(len(part.columns))]
-    head = _row("".join(map(_cell, repeat("th"), part.columns, sides)))
+    return text + _write_table(part)
+
+
+def _write_table(grid: Grid) -> str:
+    head = _row("".join(_cell("th", column.head, _side(column)) for column in grid.columns))
     body = ""
-    for i, row in enumerate(part.rows):
-        marked = [(i, k) in part.marked for k in range(len(row))]
-        body += _row("".join(map(_cell, repeat("td"), row, sides, marked)))
-    text += f"<table>\n<thead>{head}</thead>\n<tbody>\n{body}</tbody>\n</table>\n"
-    return text + (f"<p><small>{escape(part.note)}</small></p>\n" if part.note else "")
+    for i, row in enumerate(grid.rows):
+        cells = ""
+        for column, text in zip(grid.columns, row, strict=True):
+            cells += _cell("td", text, _side(column), i in column.marked)
+        body += _row(cells)
+    note = f"<p><small>{escape(grid.note)}</small></p>\n" if grid.note else ""
+    return f"<table>\n<thead>{head}</thead>\n<tbody>\n{body}</tbody>\n</table>\n{note}"
+
+
+def _side(column: Column) -> str:
+    return "left" if column.words else ""
 
 
 def _row(cells: str) -> str:

@@ -18,7 +18,7 @@ from ..errors import BalcliError
 from ..files import replacing
 from ..names import RENDERERS, import_name
 from ..version import __version__
-from .formats import Column, Columnar, Columns, Renderer, Rows, stamp
+from .formats import Columnar, Columns, Renderer, Rows, Values, stamp
 from .notebook import html_text, outline
 from .sheet import Sheet
 from .units import SI
@@ -123,7 +123,7 @@ def list_columns(result: Result) -> Columns:
     return found._replace(values={k: _fill_gaps(column) for k, column in found.values.items()})
 
 
-def _fill_gaps(column: Column) -> Column:
+def _fill_gaps(column: Values) -> Values:
     """Return numbers with gaps as an array with nan. From a list with None, other libraries would
     make columns of objects, with which they cannot compute.
     """
@@ -137,7 +137,7 @@ def _read_columns(rows: Rows) -> Columns:
     column, whose name ends in `_text`.
     """
     lines = list(rows.lines)
-    values: dict[str, Column] = {}
+    values: dict[str, Values] = {}
     for k, head in enumerate(rows.header):
         name = f"{head} ({k + 1})" if head in values else head  # an engine may be called "order"
         cells = [line[k] for line in lines]

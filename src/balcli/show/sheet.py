@@ -40,31 +40,55 @@ NEGLIGIBLE = 1e-3
 NOTHING, UNKNOWN = "balanced", "–"  # words for a force of 0, and for an unknown force
 
 
+class Column(NamedTuple):
+    """A column of a table.
+
+    Attributes:
+        head: Heading.
+        cells: Text of each row; empty in the heads of `Grid.of_rows`.
+        words: Whether the cells are words, which are left-aligned and may be folded; figures are
+            right-aligned and never folded.
+        marked: Numbers of the rows whose cells are highlighted; the first row is 0.
+    """
+
+    head: str
+    cells: Sequence[str] = ()
+    words: bool = False
+    marked: Collection[int] = ()
+
+
 class Grid(NamedTuple):
-    """A table of texts; the first column has the headings of rows. Cells in `marked` (row, column)
-    are highlighted; columns in `words` are left-aligned. Lines of `note` are shown as lines.
+    """A table of texts; the first column has the headings of rows. Lines of `note` are shown as
+    lines.
     """
 
     title: str
-    columns: tuple[str, ...]
-    rows: tuple[tuple[str, ...], ...]
+    columns: Sequence[Column]
     note: str = ""
-    marked: frozenset[tuple[int, int]] = frozenset()
-    words: tuple[int, ...] = (0,)
 
     @classmethod
-    def of_columns(
-        cls, title: str, columns: Iterable[tuple[str, Iterable[str]]], note: str = ""
+    def of_rows(
+        cls, title: str, heads: Sequence[Column], rows: Iterable[Sequence[str]], note: str = ""
     ) -> Grid:
-        """Return a table with the given columns.
+        """Return a table with the given rows.
 
         Args:
             title: Title of the table.
-            columns: Heading and cells of every column.
+            heads: Columns without cells.
+            rows: Cells of each row, one for each column.
             note: Note below the table.
         """
-        heads, cells = zip(*columns, strict=True)
-        return cls(title, heads, tuple(zip(*cells, strict=True)), note)
+        cells: list[list[str]] = [[] for _ in heads]
+        for row in rows:
+            for column, cell in zip(cells, row, strict=True):
+                column.append(cell)
+        filled = zip(heads, cells, strict=True)
+        return cls(title, [head._replace(cells=column) for head, column in filled], note)
+
+    @property
+    def rows(self) -> list[tuple[str, ...]]:
+        """Cells of each row."""
+        return list(zip(*(column.cells for column in self.columns), strict=True))
 
 
 class Facts(NamedTuple):

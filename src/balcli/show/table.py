@@ -9,12 +9,14 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import chain, zip_longest
+from typing import NamedTuple
 
 from ..errors import legible
-from .sheet import Facts, Grid, Sheet, Text
+from .sheet import Column, Facts, Grid, Sheet, Text
 
 WIDTH = 80  # width of prose, and of tables if folding allows
 GAP = 3  # number of blanks between the columns of a grid
+_SMALLER_GAP = 2  # gap in a grid that is too wide with the usual one
 FACTS_GAP = 2  # number of blanks between names and their values
 LABEL = 12  # headings of rows up to this width (`order 10`) are not folded
 PROSE = 50  # largest width of columns of words; figures are never folded
@@ -69,47 +71,69 @@ def _lines(sheet: Sheet, terminal: int | None) -> Iterator[list[Piece]]:
 
 def _divide(grid: Grid, width: int) -> Iterator[Grid]:
     """Yield tables with as many columns as fit the width, each with the first column."""
-    least = [_measure(grid, k)[1] for k in range(len(grid.columns))]
-    pieces = [[0]]
-    for k in range(1, len(least)):
-        wider = [*pieces[-1], k]
-        if len(wider) > 2 and sum(least[j] + 2 for j in wider) - 2 > width:
-            pieces.append([0, k])
-        else:
-            pieces[-1] = wider
+    first, *others = grid.columns
+    start = _measure_heads(first).least
+    pieces = [[first]]
+    used = start
+    for column in others:
+        least = _measure(column).least + _SMALLER_GAP
+        if len(pieces[-1]) > 1 and used + least > width:
+            pieces.append([first])
+            used = start
+        pieces[-1].append(column)
+        used += least
     for piece in pieces:
-        yield grid._replace(
-            columns=tuple(grid.columns[k] for k in piece),
-            rows=tuple(tuple(row[k] for k in piece) for row in grid.rows),
-            marked=frozenset((i, piece.index(k)) for i, k in grid.marked if k in piece),
-            words=tuple(place for place, k in enumerate(piece) if k in grid.words),
-        )
+        yield grid._replace(columns=piece)
 
 
 def _grid_lines(grid: Grid, width: int) -> Iterator[list[Piece]]:
     """Yield headings, a rule, and the rows; words are left-aligned, figures right-aligned."""
-    every = range(len(grid.columns))
-    natural, narrow = zip(*(_measure(grid, k) for k in every), strict=True)
-    whole = [natural[0], *narrow[1:]]  # headings of rows are not folded
-    for gap, least in ((GAP, natural), (2, whole), (1, whole), (2, narrow)):
+    first, *others = grid.columns
+    heads = _measure_heads(first)
+    measured = [_measure(column) for column in others]
+    natural = [heads.natural, *(each.natural for each in measured)]
+    narrow = [heads.least, *(each.least for each in measured)]
+    whole = [heads.natural, *narrow[1:]]
+    lay_outs = ((GAP, natural), (_SMALLER_GAP, whole), (1, whole), (_SMALLER_GAP, narrow))
+    for gap, least in lay_outs:
         if sum(least) + gap * (len(least) - 1) <= width:
             break
     widths = _share_out(width, least, natural, gap)
-    yield from _row_lines(grid, grid.columns, [_PLAIN] * len(widths), widths, gap)
-    yield [("─" * (sum(widths) + gap * (len(widths) - 1)), _PLAIN)]
+    rule = "─" * (sum(widths) + gap * (len(widths) - 1))
+    plain = [_PLAIN] * len(widths)
+    yield from _row_lines(grid, [column.head for column in grid.columns], plain, widths, gap)
+    yield [(rule, _PLAIN)]
     for i, row in enumerate(grid.rows):
-        styles = [_RED if (i, k) in grid.marked else _PLAIN if k else _BOLD for k in every]
+        styles = [_BOLD, *plain[1:]]
+        for k, column in enumerate(grid.columns):
+            if i in column.marked:
+                styles[k] = _RED
         yield from _row_lines(grid, row, styles, widths, gap)
 
 
-def _measure(grid: Grid, k: int) -> tuple[int, int]:
-    """Return the preferred and the least width of a column; figures are never folded."""
-    texts = [grid.columns[k], *(row[k] for row in grid.rows)]
-    widths = [*map(count_places, texts)]
-    if k not in grid.words:
-        return max(widths), max([_longest_word(texts[:1]), *widths[1:]])
-    natural = min(max(widths), PROSE) if k else max(widths)
-    return natural, max(_longest_word(texts), 0 if k else min(natural, LABEL))
+class _Width(NamedTuple):
+    """Width of a column: without folding, and the least one."""
+
+    natural: int
+    least: int
+
+
+def _measure(column: Column) -> _Width:
+    """Return the widths of a column; figures are never folded, but their heading is."""
+    cells = max(map(count_places, column.cells), default=0)
+    natural = max(count_places(column.head), cells)
+    if column.words:
+        return _Width(min(natural, PROSE), _longest_word([column.head, *column.cells]))
+    return _Width(natural, max(_longest_word([column.head]), cells))
+
+
+def _measure_heads(column: Column) -> _Width:
+    """Return the widths of the first column; headings of rows are folded last, short ones never."""
+    if not column.words:
+        return _measure(column)
+    texts = [column.head, *column.cells]
+    natural = max(map(count_places, texts))
+    return _Width(natural, max(_longest_word(texts), min(natural, LABEL)))
 
 
 def _longest_word(texts: Iterable[str]) -> int:
@@ -139,10 +163,11 @@ def _row_lines(
     """Yield the lines of a row, as many as its longest folded cell needs."""
     folded = [fold(cell, width) for cell, width in zip(cells, widths, strict=True)]
     for texts in zip_longest(*folded, fillvalue=""):
-        yield [
-            (" " * gap * (k > 0) + _justify(text, widths[k], k in grid.words), style)
-            for k, (text, style) in enumerate(zip(texts, styles, strict=True))
-        ]
+        pieces: list[Piece] = []
+        for column, text, style, width in zip(grid.columns, texts, styles, widths, strict=True):
+            margin = " " * gap if pieces else ""
+            pieces.append((margin + _justify(text, width, column.words), style))
+        yield pieces
 
 
 def _justify(text: str, width: int, to_the_left: bool) -> str:
@@ -227,13 +252,14 @@ def _part(part: Grid | Facts | Text) -> str:
 
 def _list_rows(grid: Grid) -> Iterator[str]:
     """Yield heading, rule and rows of a table."""
-    yield _line(map(escape, grid.columns))
-    yield _line("---" if k in grid.words else "---:" for k in range(len(grid.columns)))
+    yield _line(escape(column.head) for column in grid.columns)
+    yield _line("---" if column.words else "---:" for column in grid.columns)
     for i, row in enumerate(grid.rows):
-        yield _line(
-            f"**{escape(cell)}**" if (i, k) in grid.marked else escape(cell)
-            for k, cell in enumerate(row)
-        )
+        cells = [escape(cell) for cell in row]
+        for k, column in enumerate(grid.columns):
+            if i in column.marked:
+                cells[k] = f"**{cells[k]}**"
+        yield _line(cells)
 
 
 def _line(cells: Iterable[str]) -> str:

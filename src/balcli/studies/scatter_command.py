@@ -19,7 +19,7 @@ from ..shell.output import refuse_overwriting, show
 from ..shell.progress import exit_if_cut_short, reporting_until_stopped
 from ..shell.values import optional
 from ..show.formats import Renderer, Rows
-from ..show.sheet import NAMELESS, Grid, Sheet, assumed_facts, count_name, number
+from ..show.sheet import NAMELESS, Column, Grid, Sheet, assumed_facts, count_name, number
 from ..show.units import name_with_unit, unit_of_name
 from .quantity_names import tell_speeds
 
@@ -56,7 +56,10 @@ def sheet(result: Scatter, system: System) -> Sheet:
     """Return a table of percentiles and a table of the tolerances that matter most, with each
     quantity in a fitting unit.
     """
-    lines, causes = [], []
+    heads = [Column("quantity", words=True)]
+    heads += [Column(name) for name in _list_sizes(next(iter(result.quantities.values())))]
+    lines = []
+    causes = []
     for name, spread in result.quantities.items():
         unit = unit_of_name(result.units[name]).fit(max(map(abs, (spread.max, spread.nominal))))
         head = name_with_unit(name, unit.name)
@@ -66,10 +69,9 @@ def sheet(result: Scatter, system: System) -> Sheet:
     notes = (f"{_list_tolerances(result)}.", f"{BOUND}.", tell_speeds(result.quantities))
     note = " ".join(filter(None, notes))
     title = f"Spread of {count_name(result.samples)} random {result.varied}"
-    heads = tuple(rows(result, system).header[:-1])
-    spread_of_all = Grid(title, heads, tuple(lines), note)
-    heads, title = ("quantity", "change", "tolerance of"), "Change by each single tolerance"
-    changes = Grid(f"{title}, largest first", heads, tuple(causes), words=(0, 2))
+    spread_of_all = Grid.of_rows(title, heads, lines, note)
+    heads = [Column("quantity", words=True), Column("change"), Column("tolerance of", words=True)]
+    changes = Grid.of_rows("Change by each single tolerance, largest first", heads, causes)
     name = result.model.name or NAMELESS
     return Sheet(name, (*assumed_facts(result.assumed), spread_of_all, changes))
 

@@ -29,7 +29,7 @@ from ..shell.output import is_seen, refuse_overwriting, show, write_figure
 from ..shell.progress import reporting
 from ..shell.values import optional
 from ..show.formats import Format, Renderer, Rows
-from ..show.sheet import NAMELESS, UNKNOWN, Grid, Sheet
+from ..show.sheet import NAMELESS, UNKNOWN, Column, Grid, Sheet
 from ..show.units import System
 from .quantity_names import describe_names
 
@@ -46,13 +46,21 @@ def sheet(result: NamedNumbers, _system: System) -> Sheet:
     single cylinders that the file does not give has one row for all cylinders.
     """
     note = "–: not in the file; N stands for the number of a cylinder."
-    heads = ("name", "value", "unit", "meaning")
-    lines = tuple(dict.fromkeys(_list_rows(result.numbers)))
-    numbers = Grid("Numbers: sweep --vary NAME=VALUES", heads, lines, note, words=(0, 3))
+    heads = [
+        Column("name", words=True),
+        Column("value"),
+        Column("unit"),
+        Column("meaning", words=True),
+    ]
+    lines = dict.fromkeys(_list_rows(result.numbers))
+    numbers = Grid.of_rows("Numbers: sweep --vary NAME=VALUES", heads, lines, note)
+    columns = [
+        Column("name", [q.name for q in result.quantities], words=True),
+        Column("unit", [q.unit for q in result.quantities]),
+        Column("meaning", [q.meaning for q in result.quantities], words=True),
+    ]
     note = "N stands for an order or a number, PART for one of the words after the colon."
-    title = "Quantities: --quantity NAME,... (or search --minimise)"
-    names = tuple((q.name, q.unit, q.meaning) for q in result.quantities)
-    quantities = Grid(title, ("name", "unit", "meaning"), names, note, words=(0, 2))
+    quantities = Grid("Quantities: --quantity NAME,... (or search --minimise)", columns, note)
     return Sheet(result.engine.name or NAMELESS, (numbers, quantities))
 
 

@@ -21,7 +21,7 @@ from ..limits import MOST_PICTURE_VARIANTS
 from ..show import plot_style as style
 from ..show.figures import name_engine
 from ..show.formats import Columnar, Columns, json_text
-from ..show.sheet import NAMELESS, Grid, Sheet, assumed_facts, count_name, given, number
+from ..show.sheet import NAMELESS, Column, Grid, Sheet, assumed_facts, count_name, given, number
 from ..show.units import ShownUnit, name_with_unit, unit_of_name
 from .quantity_names import tell_speeds
 from .sweep import split_columns
@@ -106,22 +106,20 @@ def make_sheet(sweep: Sweep, figures: Array) -> Sheet:
         sweep: Sweep of the variants.
         figures: Parameters and quantities of the first variants, shape (variants, columns).
     """
-    largest = np.nanmax(np.abs(figures), axis=0, initial=0).tolist()
-    units = [
-        unit_of_name(name).fit(size)
-        for name, size in zip(sweep.units.values(), largest, strict=True)
-    ]
-    asked = len(sweep.parameters)  # number of columns with values of parameters
-    rows = [
-        (*(given(value, 8) for value in row[:asked]), *map(number, row[asked:]))
-        for row in (figures / [unit.size for unit in units]).tolist()
-    ]
-    heads = map(name_with_unit, sweep.columns, (unit.name for unit in units))
+    shown: list[Column] = []
+    varied = [parameter.path for parameter in sweep.parameters]
+    for name, values in zip(sweep.columns, figures.T, strict=True):
+        largest = float(np.nanmax(np.abs(values), initial=0))
+        unit = unit_of_name(sweep.units[name]).fit(largest)
+        sizes = (values / unit.size).tolist()
+        cells = [given(size, 8) for size in sizes] if name in varied else [*map(number, sizes)]
+        is_first = not shown
+        shown.append(Column(name_with_unit(name, unit.name), cells, words=is_first))
     note = tell_speeds((q.name for q in sweep.quantities), sweep.columns)
     if missing := sweep.variants - len(figures):
         whole, others = count_name(sweep.variants), count_name(missing)
         note = f"{whole} variants, {others} of them not shown; -o X.csv writes all. {note}"
-    grid = Grid("", tuple(heads), tuple(rows), note.rstrip())
+    grid = Grid("", shown, note.rstrip())
     head = assumed_facts(sweep.assumed)
     return Sheet(f"{sweep.file.name or NAMELESS}: variants", (*head, grid))
 

@@ -26,6 +26,7 @@ from ..show.engine_facts import list_silent
 from ..show.formats import Renderer, Rows, name_cell
 from ..show.sheet import (
     UNKNOWN,
+    Column,
     Facts,
     Grid,
     Sheet,
@@ -206,31 +207,32 @@ def _show_modes(result: TorsionAnalysis) -> Grid | Text:
     modes = result.modes
     places = ([*mode.node_in, *(f"at {name}" for name in mode.node_at)] for mode in modes)
     columns = [
-        ("mode", [str(mode.number) for mode in modes]),
-        ("Hz", [number(mode.frequency_Hz, 6) for mode in modes]),
-        ("1/min", [number(mode.frequency_Hz * 60, 6) for mode in modes]),
-        ("nodes", [str(mode.nodes) for mode in modes]),
-        ("node in", [", ".join(each) or UNKNOWN for each in places]),
+        Column("mode", [str(mode.number) for mode in modes], words=True),
+        Column("Hz", [number(mode.frequency_Hz, 6) for mode in modes]),
+        Column("1/min", [number(mode.frequency_Hz * 60, 6) for mode in modes]),
+        Column("nodes", [str(mode.nodes) for mode in modes]),
+        Column("node in", [", ".join(each) or UNKNOWN for each in places], words=True),
     ]
     note = "Node in: shafts whose ends turn against each other."
     note += _name_left_out(result.system, ".")
-    return Grid.of_columns("Natural modes", columns, note)._replace(words=(0, 4))
+    return Grid("Natural modes", columns, note)
 
 
 def _show_shapes(result: TorsionAnalysis, system: System) -> Grid:
     names, inertias, gears = zip(*result.nodes, strict=True)
+    known = [inertia or math.nan for inertia in inertias]
     columns = [
-        ("node", names),
-        (system.inertia.name, [number(system.inertia.of(each or math.nan)) for each in inertias]),
+        Column("node", names, words=True),
+        Column(system.inertia.name, [number(system.inertia.of(each)) for each in known]),
     ]
     if any(gear != 1 for gear in gears):
-        columns.append(("gear", [number(gear) for gear in gears]))
+        columns.append(Column("gear", [number(gear) for gear in gears]))
     for mode in result.modes[:_MOST_MODES]:
         angles = [f"{angle + 0.0:.4f}" for angle in mode.shape.round(4).tolist()]
-        columns.append((f"mode {mode.number}", angles))
+        columns.append(Column(f"mode {mode.number}", angles))
     note = "Actual angle of each inertia, not reduced to the crank; the largest is 1."
     note += _count_in_json(len(result.modes) - _MOST_MODES, "mode")
-    return Grid.of_columns("Inertias and shapes", columns, note)
+    return Grid("Inertias and shapes", columns, note)
 
 
 def _count_in_json(left: int, what: str) -> str:
@@ -246,15 +248,15 @@ def _show_criticals(result: TorsionAnalysis) -> Grid | Text:
         return Text(title, (f"None: no order meets a mode that it drives. {scope}",))
     shown = [each for each in criticals if each.work_share >= _LEAST_SHARE][:_MOST_CRITICALS]
     columns = [
-        ("mode", [str(each.mode) for each in shown]),
-        ("order", [order_name(each.order) for each in shown]),
-        ("rpm", [number(each.speed_rpm) for each in shown]),
-        ("phase sum", [number(each.phase_sum) for each in shown]),
-        ("share", [f"{each.work_share:.1%}" for each in shown]),
+        Column("mode", [str(each.mode) for each in shown], words=True),
+        Column("order", [order_name(each.order) for each in shown]),
+        Column("rpm", [number(each.speed_rpm) for each in shown]),
+        Column("phase sum", [number(each.phase_sum) for each in shown]),
+        Column("share", [f"{each.work_share:.1%}" for each in shown]),
     ]
     note = f"Sorted by work. Share: part of all work done on that mode. {scope}"
     note += _count_in_json(len(criticals) - len(shown), "critical speed")
-    return Grid.of_columns(title, columns, note)
+    return Grid(title, columns, note)
 
 
 def _name_scope(result: TorsionAnalysis) -> str:
@@ -285,14 +287,16 @@ def _show_holzer(result: TorsionAnalysis, table: HolzerTable, system: System) ->
     names, inertias, angles, torques, sums, springs, twists = zip(*table.rows, strict=True)
     unit = system.moment.fit(max(map(abs, (*torques, *sums))))
     known = [k or math.nan for k in springs]  # the last node has no shaft
+    rigidities = [number(stiffness.of(k)).replace("inf", "rigid") for k in known]
+    twisted = [number(x if k else math.nan) for x, k in zip(twists, springs, strict=True)]
     columns = [
-        ("node", names),
-        (f"J, {inertia.name}", [number(inertia.of(each)) for each in inertias]),
-        ("angle", [number(_settle(angle, angles), 6) for angle in angles]),
-        ("J ω² angle", [number(unit.of(_settle(torque, torques))) for torque in torques]),
-        ("sum", [number(unit.of(_settle(size, torques))) for size in sums]),
-        (f"k, {stiffness.name}", [number(stiffness.of(k)).replace("inf", "rigid") for k in known]),
-        ("twist", [number(x if k else math.nan) for x, k in zip(twists, springs, strict=True)]),
+        Column("node", names, words=True),
+        Column(f"J, {inertia.name}", [number(inertia.of(each)) for each in inertias]),
+        Column("angle", [number(_settle(angle, angles), 6) for angle in angles]),
+        Column("J ω² angle", [number(unit.of(_settle(torque, torques))) for torque in torques]),
+        Column("sum", [number(unit.of(_settle(size, torques))) for size in sums]),
+        Column(f"k, {stiffness.name}", rigidities),
+        Column("twist", twisted),
     ]
     what, omega = f"mode {table.mode}" if table.mode else "trial", 2 * np.pi * table.frequency_Hz
     title = f"Holzer's table, {what}: {number(omega, 7)} rad/s; torques in {unit.name}"
@@ -301,7 +305,7 @@ def _show_holzer(result: TorsionAnalysis, table: HolzerTable, system: System) ->
         end = table.rows[table.end]
         angle = number(_settle(end.angle, angles), 6)
         left = f"an angle of {angle} at {end.node}, which is fixed."
-    return Grid.of_columns(title, columns, f"Left over at the end: {left}")
+    return Grid(title, columns, f"Left over at the end: {left}")
 
 
 def _settle(value: float, others: Sequence[float]) -> float:
@@ -319,23 +323,23 @@ def _show_response(
     unit = system.moment.fit(max(sums))
     each = [shaft.worst for shaft in response.shafts]
     columns = [
-        ("shaft", [shaft.name for shaft in response.shafts]),
-        (f"± {unit.name}", [number(unit.of(most.half_peak_to_peak_Nm)) for most in each]),
-        ("at rpm", [number(most.speed_rpm) for most in each]),
-        (f"sum, {unit.name}", [number(unit.of(total)) for total in sums]),
+        Column("shaft", [shaft.name for shaft in response.shafts], words=True),
+        Column(f"± {unit.name}", [number(unit.of(most.half_peak_to_peak_Nm)) for most in each]),
+        Column("at rpm", [number(most.speed_rpm) for most in each]),
+        Column(f"sum, {unit.name}", [number(unit.of(total)) for total in sums]),
     ]
     if any(result.system.stress_by_torque):
         stress = system.stress.fit(0.0)
         known = (math.nan if most.stress_Pa is None else most.stress_Pa for most in each)
-        columns.append((stress.name, [number(stress.of(size)) for size in known]))
-    columns.append(("largest orders", [_name_orders(most, unit) for most in each]))
+        columns.append(Column(stress.name, [number(stress.of(size)) for size in known]))
+    orders = [_name_orders(most, unit) for most in each]
+    columns.append(Column("largest orders", orders, words=True))
     note = (
         "±: half of peak to peak at the worst speed, all orders added with their phases. sum: sum "
         f"of their amplitudes, too large because orders do not peak together. {worst}"
         f"{_name_gas(result, ' The gas torque is the same at every speed.')}"
     )
-    table = Grid.of_columns(f"Vibratory torque, {span}", columns, note)
-    return table._replace(words=(0, len(columns) - 1))
+    return Grid(f"Vibratory torque, {span}", columns, note)
 
 
 def _name_span(ends: Sequence[float] | Real) -> str:

@@ -18,8 +18,8 @@ from ...shell.options import EnginePath, FormatOption, Output
 from ...shell.output import refuse_leaving_files, refuse_overwriting, show, write_file
 from ...shell.progress import exit_if_cut_short, reporting, reporting_until_stopped
 from ...shell.values import optional
-from ...show.formats import Column, Columns, Renderer, Rows
-from ...show.sheet import NAMELESS, Grid, Sheet, assumed_facts, number
+from ...show.formats import Columns, Renderer, Rows, Values
+from ...show.sheet import NAMELESS, Column, Grid, Sheet, assumed_facts, number
 from ...show.units import name_with_unit, unit_of_name
 from ..quantity_names import tell_speeds
 
@@ -34,7 +34,7 @@ _EQUAL = 1e-9  # objectives that differ by less than this ratio are equally good
 def columns(result: Search) -> Columns:
     """Return one row for each arrangement; throws and firing orders are texts with hyphens."""
     first = result.results[0]
-    found: dict[str, Column] = {}
+    found: dict[str, Values] = {}
     for key, value in first.design.items():
         settings = [one.design[key] for one in result.results]
         found[key] = list(map(_exactly, settings)) if isinstance(value, list) else settings
@@ -55,19 +55,19 @@ def sheet(result: Search, _system: System) -> Sheet:
     """Return a table of the best arrangements, with each figure in a fitting unit. The objective
     has no column if it is a single quantity with weight 1, which has a column of its own.
     """
-    design, found = result.results[0].design, columns(result)
-    shown: list[tuple[str, list[str]]] = []  # heading and cells of each column
+    design = result.results[0].design
+    found = columns(result)
+    shown: list[Column] = []
     for name, column in found.values.items():
         unit = found.units.get(name, "")
         if name in design:
             settings = [_setting(one.design[name]) for one in result.results]
-            shown.append((name_with_unit(_in_words(name), unit), settings))
+            shown.append(Column(name_with_unit(_in_words(name), unit), settings, words=True))
         elif name != "objective" or [*result.objective.weights.values()] != [1.0]:
             fit = unit_of_name(unit).fit(max(column))
             figures = [number(value / fit.size) for value in column]
-            shown.append((name_with_unit(name, fit.name), figures))
-    grid = Grid.of_columns(_title(result), shown, " ".join(_notes(result)))
-    grid = grid._replace(words=tuple(range(len(design))))
+            shown.append(Column(name_with_unit(name, fit.name), figures))
+    grid = Grid(_title(result), shown, " ".join(_notes(result)))
     return Sheet(result.model.name or NAMELESS, (*assumed_facts(result.assumed), grid))
 
 
