@@ -105,7 +105,7 @@ def _left_out(key: str, table: type[FileTable], definition: dict[str, Any]) -> s
     ):
         return f"needed, or {' or '.join(others)}"
     default = table.model_fields[key].default
-    return "–" if default is None or default in ((), "") else f"{_toml(default)}"
+    return "–" if default is None or default in ((), "", {}) else f"{_toml(default)}"
 
 
 def _describe_inner(

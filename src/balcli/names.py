@@ -92,6 +92,7 @@ CHAPTERS = {
     "torsion": "file.torsion_tables",
     "body": "file.mount_tables",
     "locomotive": "file.locomotive_tables",
+    "check": "file.check_table",
 }
 # Optional tables that a file may have several times.
 CHAPTER_LISTS = {

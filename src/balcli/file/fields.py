@@ -232,6 +232,26 @@ class Number(_Field):
         return {"type": ["number", "string"], **unit, **limits}
 
 
+class AnyFigure(_Field):
+    """A number, or text with a unit. Its dimension is not known here; the reader of the table
+    checks it.
+    """
+
+    def read(self, value: object) -> float | str:
+        if isinstance(value, str) and value.strip():
+            return value
+        if isinstance(value, bool) or not isinstance(value, (int, float)):
+            raise ValueError(
+                f"{shorten(value)} is not a figure; give a number, or text with a unit"
+            )
+        if not math.isfinite(value):
+            raise ValueError(f"{shorten(value)} is not a finite number")
+        return value
+
+    def json(self) -> Node:
+        return {"anyOf": [{"type": "number"}, {"type": "string"}]}
+
+
 class Whole(_Field):
     """A whole number (4.0 counts as 4); if `halves` is true, a multiple of 1/2."""
 

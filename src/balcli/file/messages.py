@@ -28,7 +28,17 @@ TABLES = ("crank", "rod", "piston", "crosshead", "layout", "bobweight", "operati
 DEVICES = ("counterweight", "shaft", "slider")
 KNOWN = (*TEXTS, *TABLES, *CHAPTERS, "cylinder", *DEVICES, *CHAPTER_LISTS)
 # Keys allowed in a file with [[engine]]; all other keys belong in the files that [[engine]] names
-_OF_WHOLE = ("operation", "frame", "flywheel", "body", *DEVICES, "engine", "mount", "point")
+_OF_WHOLE = (
+    "operation",
+    "frame",
+    "flywheel",
+    "body",
+    *DEVICES,
+    "engine",
+    "mount",
+    "point",
+    "check",
+)
 BESIDE_ENGINES = (*TEXTS, *_OF_WHOLE)
 
 
@@ -183,10 +193,12 @@ _NEAR_ELSEWHERE = 0.75
 
 def format_heading(path: str) -> str:
     """Return the heading of the table with this path: `[rod]`, `[[shaft]]` for `shaft.2`,
-    `[cylinder.3]`.
+    `[cylinder.3]`, `[check.limits]`.
     """
     if path == "cylinder" or path.startswith("cylinder."):
         return f"[{path if '.' in path else 'cylinder.3'}]"
+    if path.startswith("check.limits."):  # the rest is the name of a quantity
+        return "[check.limits]"
     name = ".".join(part for part in path.split(".") if not part.isdecimal())
     several = path[-1:].isdecimal() or name in DEVICES or name in CHAPTER_LISTS
     return f"[[{name}]]" if several else f"[{name}]"

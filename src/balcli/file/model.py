@@ -62,6 +62,7 @@ from .table import (
 from .units import ANGLE, LENGTH, PLAIN, POWER, TIME, TORQUE, UNBALANCE
 
 if TYPE_CHECKING:
+    from .check_table import Check
     from .engine_tables import Engine
     from .gas_tables import Bearing, Flywheel, Gas
     from .locomotive_tables import Axle, Locomotive
@@ -521,6 +522,7 @@ class EngineFile(FileTable):
     bearing: "Bearing | None" = None
     torsion: "Torsion | None" = None
     locomotive: "Locomotive | None" = None
+    check: "Check | None" = None
     cylinder: dict[int, Override] = {}  # noqa: RUF012 - pydantic copies it
     """Figures of cylinders that differ from the others, by cylinder number."""
     counterweight: tuple[Counterweight, ...] = ()

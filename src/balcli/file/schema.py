@@ -69,6 +69,8 @@ def tidy_schema(schema: Node) -> Node:
     if len(options) == 1:
         del node["anyOf"]
         node = options[0] | node
+    elif options:
+        node["anyOf"] = options
     for field in node.get("properties", {}).values():
         field.pop("title", None)
         if not field.get("default") or isinstance(field["default"], dict):

@@ -103,7 +103,8 @@ def parse_quantity(text: str, *, with_gas: bool = False) -> Quantity:
         raise BalcliError(f"{text} is not a quantity: {told}")
     if part not in allowed:
         told = f"after the order comes one of {', '.join(allowed)}"
-        raise BalcliError(f"{text} is not a quantity: {told}")
+        hint = suggest_nearest(part, allowed, told)
+        raise BalcliError(f"{text} is not a quantity: {hint}")
     if kind == "torque" and with_gas:
         return Quantity(TORQUE_TOTAL.name, order, part, called=kind)
     return Quantity(kind, order, part)
