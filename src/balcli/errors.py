@@ -97,12 +97,14 @@ class Problem(NamedTuple):
         missing: Paths of the missing keys that cause the mistake.
         meant: For an unknown key, the path of the key that was probably meant, "" if no key is
             similar; None if the key is known.
+        line: Line in the file, for mistakes in the syntax; None if it is not known.
     """
 
     path: str
     message: str
     missing: tuple[str, ...] = ()
     meant: str | None = None
+    line: int | None = None
 
     @classmethod
     def of_missing(cls, path: str, hint: str) -> Problem:

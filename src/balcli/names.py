@@ -64,7 +64,7 @@ DOCUMENTS = {
     "analysis": "analysis.answer:Analysis",
     "balance": "balancing.answer:Balance",
     "bench": "bench:Bench",
-    "check": "regression.comparison:Check",
+    "check": "regression.records:Check",
     "compare": "analysis.comparison:Comparison",
     "curves": "analysis.curves:Curves",
     "field": "field_balancing.answer:FieldBalance",

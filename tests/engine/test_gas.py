@@ -1,6 +1,7 @@
 """[gas] of an engine file: what is built of it, and every mistake by its path."""
 
 import math
+import os
 
 import numpy as np
 import pytest
@@ -124,6 +125,15 @@ def test_where_a_diagram_may_lie(beside, tmp_path):
     outside = 'gas.indicator: "../p.csv" is outside the folder of the engine file; put it there'
     for name, told in {"q.csv": f"gas.indicator: {tmp_path}/q.csv: no such file", "../p.csv": outside}.items():
         assert list_problems(beside(f'indicator = "{name}"\n')) == [told]
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no named pipes here")
+def test_a_diagram_that_is_a_named_pipe_is_refused(beside, tmp_path):
+    """Reading it would wait for ever."""
+    path = beside('indicator = "pipe.csv"\n')
+    os.mkfifo(tmp_path / "pipe.csv")
+    told = 'gas.indicator: "pipe.csv" is a named pipe or a device; give a regular file'
+    assert list_problems(path) == [told]
 
 
 UNITS = "(or pressure_MPa, pressure_kPa, pressure_Pa, pressure_psi, pressure_barg, pressure_psig)"

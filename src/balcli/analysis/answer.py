@@ -263,7 +263,7 @@ def analyze(
         cylinders=_analyze_cylinders(engine, visible.orders, shown) if by_cylinder else None,
         inner=find_inner_loads(engine, asked) if "inner" in wanted else None,
         guide=compute_guide_moments(engine, asked, guide_height_m) if "guide" in wanted else None,
-        travel=_list_strokes(engine) if has_linkage else None,
+        travel=list_strokes(engine) if has_linkage else None,
         why=explain_symmetry(engine, visible.orders, provable) if reasons else None,
         stars=_find_stars(engine, due, shown) if reasons else None,
         small=small,
@@ -350,7 +350,7 @@ def _size(engine: Engine, ladder: Ladder, asked: Array | None, wanted: Collectio
     return Sizing(remedy, analyze(fit_devices(engine, remedy), asked, left))
 
 
-def _list_strokes(engine: Engine) -> tuple[Stroke, ...]:
+def list_strokes(engine: Engine) -> tuple[Stroke, ...]:
     """Return strokes and dead centres, sorted by cylinder number."""
     columns = ((values + 0.0).tolist() for values in find_travel(engine.cylinders))
     return tuple(sorted(map(Stroke, engine.numbers, *columns)))

@@ -102,7 +102,8 @@ def locate_beside(folder: Path, name: str) -> Path:
         name: Name in the engine file.
 
     Raises:
-        BalcliError: The path leaves the folder, or no file can have that name.
+        BalcliError: The path leaves the folder, no file can have that name, or it is a named pipe
+            or a device, from which balcli would read without end.
     """
     try:
         home = folder.resolve()
@@ -111,6 +112,8 @@ def locate_beside(folder: Path, name: str) -> Path:
         raise BalcliError(f"{shorten(name)}: cannot be read ({error})") from None
     if not place.is_relative_to(home):
         raise BalcliError(f"{shorten(name)} is outside the folder of the engine file; put it there")
+    if place.exists() and not (place.is_file() or place.is_dir()):
+        raise BalcliError(f"{shorten(name)} is a named pipe or a device; give a regular file")
     return folder / name
 
 

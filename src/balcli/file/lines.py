@@ -10,12 +10,17 @@ from __future__ import annotations
 import tomllib
 from bisect import bisect_left
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from typing import Any
 
 from ..core.records import Node
 
 _MOST_LINES = 2000  # lines of a file in which keys are found; an engine file has up to 300
 _LONGEST_STATEMENT = 200  # lines of a value, such as a list of positions
+
+
+class _TooLongError(Exception):
+    """A statement has too many lines."""
 
 
 class LineFinder:
@@ -38,7 +43,11 @@ class LineFinder:
         Args:
             path: Dotted name as in messages about mistakes: `shaft.2.ratio`, `crank.throws.1`.
         """
-        keys = path.split(".")
+        with suppress(_TooLongError):
+            return self._find(path.split("."))
+        return None
+
+    def _find(self, keys: Sequence[str]) -> int | None:
         depth = _count_keys(self._read(len(self._lines)), keys)
         if depth == 0:
             return None
@@ -55,10 +64,10 @@ class LineFinder:
 
     def _count_whole(self, count: int) -> int:
         """Return how many of the first lines belong to whole statements."""
-        for whole in range(count, max(count - _LONGEST_STATEMENT, 0), -1):
+        for whole in range(count, max(count - _LONGEST_STATEMENT, -1), -1):
             if self._parse(whole) is not None:
                 return whole
-        return 0
+        raise _TooLongError
 
     def _parse(self, count: int) -> Node | None:
         """Return the content of the first lines of the file; None if they are no valid TOML."""

@@ -96,11 +96,13 @@ def parse_toml(text: str | bytes, file: str, right: str = ENGINE_FILE) -> Node:
         InputError: The text is not TOML, or exceeds a limit.
     """
     decoded, message = _decode(text, right)
+    line: int | None = None
     if not message:
         try:
             return tomllib.loads(decoded)
         except tomllib.TOMLDecodeError as error:
-            message = f"is not valid TOML: {str(error)[:300]}{_explain(decoded, str(error))}"
+            line = _find_line(decoded, str(error))
+            message = f"is not valid TOML: {str(error)[:300]}{_explain(decoded, line)}"
         except RecursionError:
             decoded = ""
             message = _TOO_DEEP
@@ -111,7 +113,7 @@ def parse_toml(text: str | bytes, file: str, right: str = ENGINE_FILE) -> Node:
     key = r"""^(?:[\w."' \t-]++=|[ \t]*+\[{1,2}[\w. \t-]*(?:\]|$))"""
     if re.search(r"^[ \t]*[^\s#]", decoded, re.M) and not re.search(key, decoded, re.M):
         message = f"is {right}"
-    raise InputError([Problem("", message)], file)
+    raise InputError([Problem("", message, line=line)], file)
 
 
 def _decode(text: str | bytes, right: str) -> tuple[str, str]:
@@ -138,13 +140,18 @@ def _decode(text: str | bytes, right: str) -> tuple[str, str]:
     return decoded, ""
 
 
-def _explain(text: str, error: str) -> str:
-    """Return the line that an error of tomllib names (if it names none, the last line), and the
-    remedy for some slips: units without quotes, lists without brackets, a decimal comma.
-    """
+def _find_line(text: str, error: str) -> int:
+    """Return the line that an error of tomllib names; if it names none, the last line."""
+    last = text.rstrip("\n").count("\n") + 1
     place = re.search(r"\(at line (\d+), ", error)
-    lines = text.rstrip("\n").split("\n")
-    shown = lines[min(int(place[1]), len(lines)) - 1 if place else -1].strip()
+    return last if place is None else min(int(place[1]), last)
+
+
+def _explain(text: str, line: int) -> str:
+    """Return a line that is not valid, and the remedy for some slips: units without quotes, lists
+    without brackets, a decimal comma.
+    """
+    shown = text.split("\n")[line - 1].strip()
     if not 0 < len(shown) <= _LONGEST_LINE or not shown.isprintable():
         return ""
     assigned = re.fullmatch(r"([\w.-]+)\s*=\s*([^#]+?)\s*(?:#.*)?", shown)

@@ -2,17 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
-from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 import typer
 
 from ..core.records import to_document
-from ..errors import BalcliError, Exit, OtherKindError, legible, name_option
-from ..file.fields import counted
+from ..errors import (
+    ArgumentError,
+    BalcliError,
+    Exit,
+    InputError,
+    OtherKindError,
+    is_verbose,
+    legible,
+    name_option,
+    tell,
+)
 from ..shell.file_names import format_option
 from ..shell.inputs import exit_on_errors, find_engine_files, find_expected, read_engine, try_each
 from ..shell.output import emit, make_folder_of, write_file
@@ -21,112 +30,143 @@ from ..shell.values import argument
 from ..show.formats import Format, json_text
 
 if TYPE_CHECKING:
-    from .comparison import CheckedEngine, Difference
+    from ..engine.engine import Engine
+    from ..file.lines import LineFinder
+    from .records import CheckedEngine
+    from .rules import Rules
 
-
-REPORTS = (Format.TABLE, Format.JSON, Format.JUNIT)
-REPORT = "junit: an XML report for continuous integration."
-UPDATE = "Record the present results in the folder expected/ next to each engine file."
-TOLERANCE = "Allowed change of a figure, as a share of the largest figure of the same quantity."
+FORMATS = (Format.TABLE, Format.JSON, Format.JUNIT, Format.GITHUB)
+FORMAT = (
+    "junit: an XML report for continuous integration; github: annotations for GitHub Actions, with "
+    "file and line."
+)
+UPDATE = (
+    "Record the present results in the folder expected/ next to each engine file. Records that "
+    "still hold are not written."
+)
+TOLERANCE = (
+    "Allowed change of a figure, as a share of the largest figure of the same quantity; default: "
+    "[check] of the engine file, else 1e-9."
+)
 
 
 def check(
     paths: Annotated[list[Path], argument("PATH...", "Engine files, or folders of them.")],
     update: Annotated[bool, typer.Option("--update", help=UPDATE)] = False,
-    tolerance: Annotated[float, typer.Option(help=TOLERANCE, min=0, max=1)] = 1e-9,
-    form: Annotated[Format | None, format_option(REPORTS, REPORT)] = None,
+    tolerance: Annotated[
+        float | None, typer.Option(help=TOLERANCE, min=0, max=1, show_default=False)
+    ] = None,
+    form: Annotated[Format | None, format_option(FORMATS, FORMAT)] = None,
 ) -> None:
     """Recompute engines and compare them with their recorded results; exit status 1 if a figure
-    changed.
+    changed, or if a quantity is beyond a limit of the engine file.
 
-    A record holds the result of `analyze` (orders, peaks, displacement, dead centres) and, if the
-    file has tables for them, main figures of `torque`, `mounts` and `torsion`. A record whose
-    engine file is missing counts as a difference. Other kinds of files in a folder are skipped.
+    A record holds the result of `analyze` (orders, peaks, displacement, strokes, dead centres), the
+    main figures of `torque`, `mounts` and `torsion` if the file has tables for them, and the inputs
+    of the file. So changed inputs are named first; figures that follow from them are summed up
+    (--verbose lists them). A record whose engine file is missing counts as a difference. Other
+    kinds of files in a folder are skipped.
+
+    The table [check] of an engine file has tolerances and limits by quantity.
 
     \b
     Examples:
-      balcli check v8.toml --update
-      balcli check v8.toml
-      balcli check v8.toml --tolerance 1e-6 --format junit
+      balcli check --update engines
+      balcli check engines
+      balcli check engines --format github
+      balcli check v8.toml --tolerance 1e-6 --verbose
     """
-    from .comparison import Check, find_abandoned
+    from .comparison import find_abandoned
 
+    if update and tolerance is not None:
+        raise ArgumentError("{update} records, {tolerance} is for comparing: give one of them")
     files = find_engine_files(paths)
     expected = find_expected(paths)
     found = {*files} - {*paths}
-    work = partial(_check_engine, update=update, tolerance=tolerance)
+    work = partial(_check_file, update=update, tolerance=tolerance)
     with reporting_until_stopped("engines", len(files)) as progress:
         results, others = try_each(each_until_stopped(files, progress), work, found)
     checked = [*results, *find_abandoned(expected)]
-    errors = [*(each.error for each in results if each.error), *others]
-    compared = sum(each.error is None for each in results)
-    moved = sum(len(each.differences) for each in checked)
-    if form is Format.JSON:
-        emit(json_text(to_document(Check(engines=tuple(checked)))))
-    elif form is Format.JUNIT:
-        emit(_write_junit(checked))
-    else:
-        done = " recorded" if update else f", {counted(moved, 'difference')}"
-        lines = [line for each in checked for line in _list_lines(each)]
-        emit(legible("\n".join([*lines, counted(compared, "engine") + done])))
-    exit_on_errors(errors)
+    emit(_render(checked, form or Format.TABLE, updated=update))
+    exit_on_errors([*(each.error for each in results if each.error), *others])
     exit_if_cut_short(progress)
     if not checked:
         raise BalcliError(f"{paths[0]}: has no engine files (*.toml)")
-    if moved:
+    if any(each.differences or each.broken_limits for each in checked):
         raise typer.Exit(Exit.DIFFERENCE)
 
 
-def _check_engine(path: Path, *, update: bool, tolerance: float) -> CheckedEngine:
-    """Compare an engine file with its record, or (`update`) write the record."""
-    from .comparison import (
-        CheckedEngine,
-        check_target,
-        find_differences,
-        find_record,
-        record_result,
-    )
+def _check_file(path: Path, *, update: bool, tolerance: float | None) -> CheckedEngine:
+    """Compare an engine file with its record and its limits; with `update`, write the record.
 
-    differences: list[Difference] = []
+    Raises:
+        OtherKindError: The file is no engine file.
+    """
+    from ..file.lines import LineFinder
+    from .comparison import check_engine
+    from .records import CheckedEngine, spell_path
+    from .rules import read_rules
+
     try:
-        engine = read_engine(str(path)).engine
+        loaded = read_engine(str(path))
+        rules = read_rules(loaded.engine, str(path), tolerance)
+        lines = LineFinder(loaded.text)
         if update:
-            write_file(record_result(engine), make_folder_of(check_target(path)))
-        else:
-            differences = find_differences(engine, find_record(path), tolerance)
+            return _record(loaded.engine, path, rules, lines)
+        return check_engine(loaded.engine, path, rules, lines)
     except OtherKindError:
         raise
+    except InputError as error:
+        return _refuse(path, error)
     except BalcliError as error:
-        return CheckedEngine(engine=str(path), differences=(), error=error.tell(name_option))
-    return CheckedEngine(engine=str(path), differences=tuple(differences))
+        return CheckedEngine(engine=spell_path(path), error=error.tell(name_option))
 
 
-def _list_lines(checked: CheckedEngine) -> Iterator[str]:
-    """Yield a line for each quantity with changed figures, followed by these figures."""
-    for cause in dict.fromkeys(each.cause for each in checked.differences):
-        moved = [each for each in checked.differences if each.cause == cause]
-        if cause is None:
-            yield from (f"{checked.engine}: {each}" for each in moved)
-            continue
-        largest = max((each.share for each in moved if each.share is not None), default=None)
-        share = "" if largest is None else f", by up to {largest:.1e} of the largest figure"
-        yield f"{checked.engine}: {cause}: {counted(len(moved), 'figure')} changed{share}"
-        yield from (f"  {each}" for each in moved)
+def _record(engine: Engine, path: Path, rules: Rules, lines: LineFinder) -> CheckedEngine:
+    """Write the record of an engine, unless its record holds without any tolerance and has the
+    present inputs.
+    """
+    from .comparison import check_engine
+    from .recording import check_target, record_result
+    from .rules import Tolerances
+
+    target = check_target(path)
+    checked = check_engine(engine, path, rules._replace(tolerances=Tolerances()), lines)
+    if not checked.differences and checked.changed_inputs == ():
+        return checked
+    write_file(record_result(engine), make_folder_of(target))
+    return replace(checked, differences=(), changed_inputs=(), fault=None, written=True)
 
 
-def _write_junit(checked: Sequence[CheckedEngine]) -> str:
-    """Return an XML report in JUnit's format, with a test case for each engine."""
-    suite = Element("testsuite", name="balcli check", tests=str(len(checked)))
-    suite.set("failures", str(sum(bool(each.differences) for each in checked)))
-    suite.set("errors", str(sum(each.error is not None for each in checked)))
-    for each in checked:
-        case = SubElement(suite, "testcase", classname="balcli", name=legible(each.engine))
-        if each.error:
-            first = legible(each.error.partition("\n")[0])
-            SubElement(case, "error", message=first).text = legible(each.error)
-        if each.differences:
-            message = counted(len(each.differences), "difference")
-            failure = SubElement(case, "failure", message=message)
-            failure.text = legible("\n".join(_list_lines(each)))
-    indent(suite)
-    return tostring(suite, encoding="utf-8", xml_declaration=True).decode()
+def _refuse(path: Path, error: InputError) -> CheckedEngine:
+    """Return the result for a file with mistakes, each with its line."""
+    from ..file.lines import LineFinder
+    from ..file.toml import read_bytes
+    from .records import CheckedEngine, Mistake, spell_path
+    from .show import describe_mistakes
+
+    lines = LineFinder(read_bytes(path) if path.is_file() else b"")
+    mistakes = [
+        Mistake(each.path, tell(each.message, name_option), each.line or lines.find(each.path))
+        for each in error.problems
+    ]
+    mistakes.sort(key=lambda mistake: mistake.line or 0)
+    engine = spell_path(path)
+    told = describe_mistakes(engine, mistakes, error.more)
+    return CheckedEngine(engine=engine, mistakes=tuple(mistakes), error=told)
+
+
+def _render(checked: Sequence[CheckedEngine], form: Format, *, updated: bool) -> str:
+    """Return the result in a format."""
+    from . import reports, show
+    from .records import Check
+
+    if form is Format.JSON:
+        return json_text(to_document(Check(engines=tuple(checked))))
+    if form is Format.JUNIT:
+        return reports.write_junit(checked)
+    if form is Format.GITHUB:
+        return "\n".join(reports.list_annotations(checked))
+    lines = [*show.list_lines(checked, every_figure=is_verbose())]
+    lines.append(show.count_recorded(checked) if updated else show.count_engines(checked))
+    return legible("\n".join(lines))

@@ -1,342 +1,350 @@
-"""Compare recorded results of engines with what balcli computes now.
+"""Compare the record of an engine with the figures that balcli computes now.
 
-A record is the JSON document of `analyze` (orders, peaks, displacement, dead centres) and the
-main figures of `torque`, `mounts` and `torsion` if the engine file has tables for them.
-Two records agree if every value agrees: texts and whole numbers exactly, figures within a share of
-the largest figure of the same quantity, such as `force_N`. Axes, phases, peak angles and the
-balance of an order are not compared, because they follow from its vectors, which are compared. The
-angle of a peak over all orders may move to another peak that is equally high.
+Every figure and text of the record is compared:
+
+* Texts and whole numbers have to be equal.
+* Sizes may differ by a share of the largest figure of their group (such as `force_N`), and by
+  rounding. An order that one of the two does not show has the figure 0.
+* Directions and phases of a vector may turn as far as a change of the vector within its tolerance
+  can turn it; if the vector itself is within the tolerance, they are not compared. Axes are
+  compared modulo 180 deg.
+* Whether an order is balanced is not compared if both vectors are within the tolerance.
+* Angles of peaks may differ by 0.001 deg, those of dead centres by 0.000001 deg. The angle of a
+  peak over all orders may move to another peak that is equally high.
 """
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
-from pathlib import Path
-from types import NoneType
-from typing import Any, Literal
+from dataclasses import replace
+from pathlib import Path as FilePath
+from typing import Any
 
 import numpy as np
 
-from ..analysis.answer import Analysis, analyze
-from ..core.records import Node, to_document
-from ..crank_torque.answer import torque
-from ..engine.engine import Engine
+from ..core.records import Node
+from ..engine.engine import Engine, take_model
 from ..errors import BalcliError
-from ..file.model import EngineFile
-from ..forces.kinds import GAS, GAS_KINDS, KINDS
+from ..file.lines import LineFinder
 from ..forces.spectrum import Spectra, compute_spectra, find_relevant_orders
-from ..limits import LARGEST_FILE_BYTES
-from ..mounting.answer import mounts
-from ..torsional_vibration.answer import torsion
+from .inputs import find_changed
+from .naming import (
+    ASSUMED,
+    describe_figure,
+    find_group,
+    find_unit_of,
+    list_figures,
+    name_cause,
+    name_quantities,
+)
+from .recording import (
+    BROKEN,
+    INPUTS,
+    TRAVEL,
+    Described,
+    describe_engine,
+    explain_unreadable,
+    find_record,
+    list_abandoned,
+    read_record,
+)
+from .records import CheckedEngine, Difference, Fault, Path, spell_path
+from .rules import Rules, Tolerances, find_broken_limits
 
-TOLERANCE = 1e-9  # share of the largest figure of a quantity; rounding is allowed in addition
 PEAK_ANGLE_DEG = 1e-3  # allowed change of a peak's angle; rounding changes it more than the value
 DEAD_CENTER_DEG = 1e-6  # allowed change of the angle of a dead centre
-RECORDED = (*KINDS, "peak")
-# Keys by which members of lists are matched; an assumed value has `path`, and may have `engine`.
-_LABELS = ("order", "mode", "name", "cylinder", "path", "engine")
-_DERIVED = ("axis_deg", "phase_deg", "peak_deg", "balanced")
-_MALFORMED = (LookupError, TypeError, AttributeError, RecursionError)
-_BROKEN = (OSError, ValueError, OverflowError, BalcliError, *_MALFORMED)
+DIRECTION_DEG = 1e-9  # allowed change of a direction; rounding of its computation
+ALWAYS_RECORDED = (1, 2)  # orders that every record shows
+_UNCOMPARED = ("version", INPUTS)  # parts of a record that are no result
+_DIRECTIONS = {"axis_deg": 180.0, "phase_deg": 360.0, "peak_deg": 360.0}  # with their periods
+_PEAKS: Mapping[Path, str] = {
+    ("peak", "force_deg"): "force",
+    ("peak", "moment_deg"): "moment",
+}
 
 
-@dataclass(frozen=True, kw_only=True)
-class Difference:
-    """A figure that differs from its record, or the reason why a record could not be compared.
-
-    Attributes:
-        cause: Quantity (`force`) or part of the record (`torsion`) that has the figure; null for a
-            missing or broken record.
-        figure: Name of the figure that changed, or the reason.
-        recorded: Recorded value; null if there is none.
-        now: Present value; null if there is none.
-        share: Change / largest figure of the same quantity; null for angles and texts.
-    """
-
-    cause: str | None
-    figure: str
-    recorded: float | bool | str | None
-    now: float | bool | str | None
-    share: float | None
-
-    @classmethod
-    def of_record(cls, reason: str) -> Difference:
-        """Return the difference for a record that cannot be compared."""
-        return cls(cause=None, figure=reason, recorded=None, now=None, share=None)
-
-    def __str__(self) -> str:
-        if self.cause is None:
-            return self.figure
-        values = " -> ".join(
-            f"{v:.10g}" if isinstance(v, float) else str(v) for v in (self.recorded, self.now)
-        )
-        share = "" if self.share is None else f" ({self.share:.1e} of the largest figure)"
-        return f"{self.figure}: {values}{share}"
+Figures = Mapping[Path, Any]
 
 
-@dataclass(frozen=True, kw_only=True)
-class CheckedEngine:
-    """An engine file and the differences from its record.
-
-    Attributes:
-        engine: Path of the engine file.
-        differences: Every figure that changed.
-        error: Reason why the file could not be compared; None if it was compared.
-    """
-
-    engine: str
-    differences: tuple[Difference, ...]
-    error: str | None = None
-
-
-@dataclass(frozen=True, kw_only=True)
-class Check:
-    """Engines compared with their recorded results.
-
-    Attributes:
-        engines: All engines, compared or not.
-    """
-
-    format: Literal["balcli.check/1"] = "balcli.check/1"
-    engines: tuple[CheckedEngine, ...]
-
-
-_Path = tuple[str, ...]  # keys from the top of the document, and labels such as `order 2`
-
-
-def _find_group(path: _Path) -> str:
-    """Return the group of a figure: the first key of its path that ends in a unit, or the label of
-    an assumed value. The tolerance is a share of the largest figure of the group.
-    """
-    units = ("_N", "_Nm", "_Hz", "_mm", "_Pa", "_J", "_W", "_m", "_m3")
-    for key in path:
-        if key.endswith(units) or key.startswith("path "):
-            return key
-    return path[-1]
-
-
-def _name_cause(path: _Path) -> str:
-    """Return the quantity of a figure, or the part of the record that has it, for messages."""
-    names = {kind.key: kind.name for kind in (*KINDS.values(), *GAS_KINDS.values())}
-    found = [names[key] for key in path if key in names]
-    return found[0] if found else next((key for key in path if key != "orders"), "")
-
-
-# ------------------------------------------------------------------ files
-def find_record(engine_file: Path) -> Path:
-    """Return the path at which the result of an engine file is recorded."""
-    return engine_file.parent / "expected" / f"{engine_file.stem}.json"
-
-
-def find_abandoned(files: Iterable[Path]) -> Iterator[CheckedEngine]:
-    """Yield a difference for each record among `files` whose engine file is missing."""
-    for record in files:
-        engine_file = record.parent.with_name(f"{record.stem}.toml")
-        if not engine_file.exists() and _is_record(record):
-            reason = (
-                f"its result is recorded in {record.parent.name}/{record.name}, but there is no "
-                f"{engine_file.name}; restore it, or delete the record"
-            )
-            found = (Difference.of_record(reason),)
-            yield CheckedEngine(engine=str(engine_file), differences=found)
-
-
-def _is_record(path: Path) -> bool:
-    try:
-        return bool(_read(path)["format"] == Analysis.format)
-    except _BROKEN:
-        return False
-
-
-def _read(record: Path) -> Any:
-    """Return the content of a record.
-
-    Raises:
-        BalcliError: The file is not a regular file, or is larger than an engine file may be.
-        OSError, ValueError: The file cannot be read.
-    """
-    if not record.is_file():
-        raise BalcliError("it is not a regular file")
-    with record.open("rb") as file:
-        content = file.read(LARGEST_FILE_BYTES + 1)
-    if len(content) > LARGEST_FILE_BYTES:
-        raise BalcliError(f"it has more than {LARGEST_FILE_BYTES} bytes")
-    return json.loads(content.decode())
-
-
-def check_target(engine_file: Path) -> Path:
-    """Return the path at which to record the result of an engine file.
-
-    Raises:
-        BalcliError: The record is a link that leads out of the engine's folder.
-    """
-    record, folder = find_record(engine_file), engine_file.parent.resolve()
-    if not record.resolve().is_relative_to(folder):
-        raise BalcliError(
-            f"{record}: is a link that leads out of the engine's folder; nothing is recorded"
-        )
-    return record
-
-
-# ------------------------------------------------------------------ what is recorded
-def record_result(engine: Engine) -> str:
-    """Return the text of the record of an engine."""
-    return json.dumps(_describe(engine)[0], indent=1, ensure_ascii=False) + "\n"
-
-
-def _describe(engine: Engine, orders: Iterable[float] | None = None) -> tuple[Node, Spectra]:
-    """Return the record of an engine and the phasors of its orders."""
-    only = RECORDED if engine.gas is None else (*RECORDED, GAS.name)
-    found = analyze(engine, orders, only)
-    document = to_document(found) | _describe_chapters(engine)
-    del document["verdict"]  # it follows from the orders, and would change with every rule of words
-    return document, found.spectra
-
-
-def _describe_chapters(engine: Engine) -> Node:
-    """Return main figures of torque, mounts and torsion if the engine file has tables for them."""
-    model: EngineFile | None = engine.model
-    found: Node = {}
-    if engine.gas is not None:
-        left_out = {"orders", "format", "version", "speed_rpm"}
-        on_crank = torque(engine).to_dict().items()
-        found["torque"] = {key: value for key, value in on_crank if key not in left_out}
-    if model is not None and model.body is not None and model.mount:
-        mounted = mounts(engine).to_dict()
-        largest = [{"name": m["name"], **m["worst"]} for m in mounted["response"]["mounts"]]
-        found["mounts"] = {"modes": _number_modes(mounted), "largest": largest}
-    if model is not None and model.torsion is not None:
-        twisted = torsion(engine).to_dict()
-        criticals = twisted.get("criticals", [])
-        found["torsion"] = {"modes": _number_modes(twisted), "criticals": criticals}
-    return found
-
-
-def _number_modes(document: Node) -> list[Node]:
-    modes = enumerate(document["modes"], 1)
-    return [{"mode": n, "frequency_Hz": mode["frequency_Hz"]} for n, mode in modes]
-
-
-# ------------------------------------------------------------------ comparison
-def find_differences(
-    engine: Engine, record: Path, tolerance: float = TOLERANCE
-) -> list[Difference]:
-    """Return every figure of an engine that differs from its record.
+# ------------------------------------------------------------------ engines and records
+def check_engine(engine: Engine, file: FilePath, rules: Rules, lines: LineFinder) -> CheckedEngine:
+    """Compare an engine with its record, and its quantities with their limits.
 
     Args:
-        engine: The engine.
-        record: Path of the record.
-        tolerance: Allowed change, as a share of the largest figure of the same quantity.
+        engine: Engine of the file.
+        file: Path of the engine file.
+        rules: Its tolerances and limits.
+        lines: Finder of the lines in the file.
+
+    Raises:
+        BalcliError, InputError: A figure of the engine cannot be computed.
     """
+    compared = _compare_with_record(engine, file, rules.tolerances, lines)
+    return replace(compared, broken_limits=find_broken_limits(engine, rules.limited, lines))
+
+
+def find_abandoned(files: Iterable[FilePath]) -> Iterator[CheckedEngine]:
+    """Yield a difference for each record among `files` whose engine file is missing."""
+    for engine_file, record in list_abandoned(files):
+        reason = (
+            f"its result is recorded in {record.parent.name}/{record.name}, but there is no "
+            f"{engine_file.name}; restore it, or delete the record"
+        )
+        yield _refuse(engine_file, Fault.ABANDONED, reason)
+
+
+def _refuse(file: FilePath, fault: Fault, reason: str) -> CheckedEngine:
+    """Return the result for an engine that cannot be compared, with the reason as a difference."""
+    difference = Difference(cause=None, figure=reason)
+    return CheckedEngine(engine=spell_path(file), differences=(difference,), fault=fault)
+
+
+def _compare_with_record(
+    engine: Engine, file: FilePath, tolerances: Tolerances, lines: LineFinder
+) -> CheckedEngine:
+    record = find_record(file)
     where = f"{record.parent.name}/{record.name}"
     if not record.exists():
         reason = f"no result is recorded in {where}; check --update records it"
-        return [Difference.of_record(reason)]
-    document, spectra = _describe(engine)
+        return _refuse(file, Fault.MISSING, reason)
+    present = describe_engine(engine)
     try:
-        recorded = _read(record)
-        if document == recorded:
-            return []
-        orders = {entry["order"] for entry in recorded["orders"]}
-        if not orders <= set(spectra.orders):
-            document, spectra = _describe(engine, {*orders, *spectra.orders})
-        old, new = dict(_list_leaves(recorded)), dict(_list_leaves(document))
-        numbers = [value for value in old.values() if isinstance(value, (int, float))]
-        if not all(map(math.isfinite, numbers)):
-            raise BalcliError("a figure is not finite")
-        found = _compare(old, new, _find_roundings(spectra), tolerance)
-        return [one for one in found if not _is_equal_peak(engine, one, tolerance)]
-    except _BROKEN as error:
-        broken = f"the result recorded in {where} cannot be read ({_describe_error(error)})"
-        return [Difference.of_record(f"{broken}; check --update records it anew")]
+        recorded = read_record(record)
+        inputs = recorded.get(INPUTS) if isinstance(recorded, dict) else None
+        changed = None
+        if isinstance(inputs, dict):
+            changed = find_changed(take_model(engine), inputs, lines)
+        return CheckedEngine(
+            engine=spell_path(file),
+            changed_inputs=changed,
+            differences=tuple(find_differences(engine, recorded, present, tolerances)),
+            recorded_with=recorded.get("version"),
+        )
+    except BROKEN as error:
+        reason = (
+            f"the result recorded in {where} cannot be read ({explain_unreadable(error)}); "
+            "check --update records it anew"
+        )
+        return _refuse(file, Fault.UNREADABLE, reason)
 
 
-def _is_equal_peak(engine: Engine, moved: Difference, tolerance: float) -> bool:
-    """Return whether a difference is only that between the angles of two equally high peaks."""
-    kind = {"peak force_deg": "force", "peak moment_deg": "moment"}.get(moved.figure)
-    degrees = moved.recorded, moved.now
-    if kind is None or None in degrees:  # no angle: a peak of 0, whose value is compared
-        return kind is not None
-    curve = compute_spectra(engine, find_relevant_orders(engine), [kind])[kind]
-    then, now = np.abs(curve.values(np.radians(np.array(degrees, float)))).tolist()
-    return bool(then >= now * (1 - tolerance))
-
-
-def _describe_error(error: Exception) -> str:
-    if isinstance(error, OSError):
-        return error.strerror or str(error)
-    if isinstance(error, json.JSONDecodeError):
-        return f"it is not JSON: line {error.lineno}"
-    if isinstance(error, KeyError):
-        return f"{error.args[0]} is missing"
-    return str(error) if isinstance(error, BalcliError) else "it is not a result of balcli analyze"
-
-
-def _list_leaves(value: object, path: _Path = ()) -> Iterator[tuple[_Path, Any]]:
-    """Yield the values of a record that are compared, with their paths."""
-    if isinstance(value, dict):
-        for key, part in value.items():
-            if key not in _DERIVED:
-                yield from _list_leaves(part, (*path, key))
-    elif isinstance(value, list):
-        for number, part in enumerate(value, 1):
-            label = "xy"[number - 1] if path[-1] in ("forward", "backward") else str(number)
-            if isinstance(part, dict):
-                labels = (f"{key} {part[key]}" for key in _LABELS if key in part)
-                label = " ".join(labels) or label
-            yield from _list_leaves(part, (*path, label))
-    else:
-        yield path, value
-
-
-def _compare(
-    old: Mapping[_Path, Any],
-    new: Mapping[_Path, Any],
-    roundings: Mapping[tuple[str, str], float],
-    tolerance: float,
+# ------------------------------------------------------------------ figures
+def find_differences(
+    engine: Engine, recorded: Node, present: Described, tolerances: Tolerances
 ) -> Iterator[Difference]:
-    largest: dict[str, float] = {}
-    for path, value in (*old.items(), *new.items()):
-        if isinstance(value, float) and not path[-1].endswith("_deg"):
-            group = _find_group(path)
-            largest[group] = max(largest.get(group, 0.0), abs(value))
-    for path in dict.fromkeys((*new, *old)):
-        before, after, shared = old.get(path), new.get(path), path in old and path in new
-        if path[-1] == "order" and not shared and (before or after or 0) > 2:
-            continue  # its figures are compared, 0 where missing; 1 and 2 are always recorded
-        group, is_angle = _find_group(path), path[-1].endswith("_deg")
-        scale = largest.get(group, 0.0)
-        order = next((part for part in path if part.startswith("order ")), "")
-        allowed = tolerance * scale + roundings.get((group, order), 0.0)
-        if is_angle and isinstance(before, float) and isinstance(after, float):
-            least = DEAD_CENTER_DEG if path[0] == "travel" else PEAK_ANGLE_DEG
-            allowed = max(least, tolerance * 360)
-        sized = isinstance(before, (float, NoneType)) and isinstance(after, (float, NoneType))
-        move = abs((after or 0.0) - (before or 0.0)) if sized else math.inf
-        if shared and None in (before, after):  # a figure that only one of the records has
-            allowed = -math.inf
-        if before != after and not move <= allowed:
-            yield Difference(
-                cause=_name_cause(path),
-                figure=" ".join(part for part in path if part != "orders"),
-                recorded=before,
-                now=after,
-                share=move / scale if sized and scale and not is_angle else None,
-            )
+    """Yield every figure of an engine that differs from its record.
 
+    Args:
+        engine: The engine.
+        recorded: Content of the record.
+        present: Record that the engine would have now.
+        tolerances: Allowed changes.
 
-def _find_roundings(found: Spectra) -> dict[tuple[str, str], float]:
-    """Return the largest change of a figure that rounding can cause, by group and order. The same
-    bound decides whether an order is balanced. Where large forces cancel, the bound may exceed the
-    tolerated share of the remaining force.
+    Raises:
+        BalcliError, ValueError, LookupError, TypeError, ...: The record is malformed (`BROKEN`).
     """
-    errors: dict[tuple[str, str], float] = {}
-    for kind, phasors in found.items():
-        each = 2 * np.broadcast_to(phasors.noise, phasors.forward.shape)
-        for order, error in zip(phasors.orders, each, strict=True):
-            errors[kind.key, f"order {order:g}"] = float(error)
-        errors[kind.key, ""] = float(each.sum())
-    return errors
+    if present.document == recorded:
+        return
+    shown = set(present.spectra.orders)
+    orders = {entry["order"] for entry in recorded["orders"]}
+    if not orders <= shown:
+        present = describe_engine(engine, orders | shown)
+    old = _list_compared(recorded)
+    new = _list_compared(present.document)
+    if INPUTS not in recorded and TRAVEL not in recorded:  # a record of balcli 0.1.0
+        old = _leave_out_new(old)
+        new = _leave_out_new(new)
+    numbers = [value for value in old.values() if isinstance(value, (int, float))]
+    if not all(map(math.isfinite, numbers)):
+        raise BalcliError("a figure is not finite")
+    comparison = _Comparison(old, new, tolerances, _find_roundings(present.spectra))
+    for path in dict.fromkeys((*new, *old)):
+        if not comparison.is_same(path) and not comparison.is_equal_peak(engine, path):
+            yield comparison.describe(path)
+
+
+def _list_compared(document: Node) -> Figures:
+    """Return the compared figures and texts of a record by their paths."""
+    compared = {key: part for key, part in document.items() if key not in _UNCOMPARED}
+    return dict(list_figures(compared))
+
+
+def _leave_out_new(figures: Figures) -> Figures:
+    """Return the figures that balcli 0.1.0 recorded in the same form."""
+    return {path: v for path, v in figures.items() if path[0] != TRAVEL and ASSUMED not in path}
+
+
+def _find_roundings(spectra: Spectra) -> dict[Path, float]:
+    """Return the largest change of a figure that rounding can cause, by key and order of the
+    quantity; by key alone for peaks. The same bound decides whether an order is balanced. Where
+    large forces cancel, the bound may exceed the tolerated share of the remaining force.
+    """
+    roundings: dict[Path, float] = {}
+    for kind, phasors in spectra.items():
+        noise = 2 * np.broadcast_to(phasors.noise, phasors.forward.shape)
+        for order, error in zip(phasors.orders, noise, strict=True):
+            roundings[kind.key, f"{order:g}"] = float(error)
+        roundings[(kind.key,)] = float(noise.sum())
+    return roundings
+
+
+class _Comparison:
+    """Comparison of the figures of one engine.
+
+    Args:
+        old: Recorded figures.
+        new: Present figures.
+        tolerances: Allowed changes.
+        roundings: Changes that rounding can cause, from `_find_roundings`.
+    """
+
+    def __init__(
+        self, old: Figures, new: Figures, tolerances: Tolerances, roundings: Mapping[Path, float]
+    ) -> None:
+        self._old = old
+        self._new = new
+        self._tolerances = tolerances
+        self._roundings = roundings
+        self._largest: dict[Path, float] = {}
+        for path, value in (*old.items(), *new.items()):
+            if isinstance(value, float) and not path[-1].endswith("_deg"):
+                group = find_group(path)
+                self._largest[group] = max(self._largest.get(group, 0.0), abs(value))
+
+    def is_same(self, path: Path) -> bool:
+        """Return whether recorded and present figure agree."""
+        key = path[-1]
+        if path in self._old and path in self._new and self._old[path] == self._new[path]:
+            return True
+        if key in _DIRECTIONS:
+            return self._is_same_direction(path)
+        if key == "balanced":
+            return self._is_same_balance(path)
+        if key == "order" and path[0] == "orders":
+            return self._is_same_order(path)
+        if key.endswith("_deg"):
+            return self._is_same_angle(path)
+        return self._is_same_size(path)
+
+    def is_equal_peak(self, engine: Engine, path: Path) -> bool:
+        """Return whether a difference is only that between the angles of two equally high peaks."""
+        kind = _PEAKS.get(path)
+        angles = self._old.get(path), self._new.get(path)
+        if kind is None or None in angles:
+            return kind is not None  # no angle: a peak of 0, whose value is compared
+        curve = compute_spectra(engine, find_relevant_orders(engine), [kind])[kind]
+        then, now = np.abs(curve.values(np.radians(np.array(angles, float)))).tolist()
+        return bool(then >= now * (1 - self._find_share(path)))
+
+    def describe(self, path: Path) -> Difference:
+        """Return the record of a difference."""
+        before, after = self._old.get(path), self._new.get(path)
+        largest = self._largest.get(find_group(path), 0.0)
+        share = None
+        if _is_number(before) and _is_number(after) and largest and not path[-1].endswith("_deg"):
+            share = self._find_change(path) / largest
+        is_number = isinstance(after if before is None else before, float)
+        unit = find_unit_of(path) if is_number else ""
+        return Difference(name_cause(path), describe_figure(path), before, after, share, unit, path)
+
+    # -------------------------------------------------------------- kinds of figures
+    def _is_same_size(self, path: Path) -> bool:
+        before, after = self._old.get(path), self._new.get(path)
+        is_null = path in self._old and path in self._new and None in (before, after)
+        if is_null or not (_is_number(before) and _is_number(after)):
+            return False
+        return self._find_change(path) <= self._find_allowed(path)
+
+    def _is_same_order(self, path: Path) -> bool:
+        """Return whether an order may be shown by only one of the two: its figures are compared
+        with 0.
+        """
+        order = self._old.get(path, self._new.get(path))
+        return order not in ALWAYS_RECORDED
+
+    def _is_same_angle(self, path: Path) -> bool:
+        before, after = self._old.get(path), self._new.get(path)
+        if before is None or after is None:
+            return False
+        least = DEAD_CENTER_DEG if path[0] == TRAVEL else PEAK_ANGLE_DEG
+        allowed = max(least, 360 * self._find_share(path))
+        return _find_turn(before, after, self._find_cycle(path)) <= allowed
+
+    def _find_cycle(self, path: Path) -> float:
+        """Return the period of an angle, deg: a cycle for angles of torque, else a revolution."""
+        cycle = self._new.get((path[0], "cycle_deg"), 360)
+        return float(cycle)
+
+    def _is_same_direction(self, path: Path) -> bool:
+        """Compare the axis of a vector, its phase along an axis, or the peak of a scalar."""
+        sizes = (*_find_sizes(self._old, path), *_find_sizes(self._new, path))
+        allowed = self._find_allowed(path)
+        if min(sizes, default=0.0) <= allowed:
+            return True
+        before, after = self._old.get(path), self._new.get(path)
+        if before is None or after is None:
+            return False
+        turn = math.degrees(allowed * sum(1 / size for size in sizes) / len(sizes))
+        period = _DIRECTIONS[path[-1]]
+        if path[-1] == "peak_deg":
+            order = float(path[1])
+            turn /= order
+            period /= order
+        return _find_turn(before, after, period) <= turn + DIRECTION_DEG
+
+    def _is_same_balance(self, path: Path) -> bool:
+        """Return whether rounding or a tolerated change explains that only one is balanced."""
+        then, now = _find_sizes(self._old, path), _find_sizes(self._new, path)
+        if not then or not now:  # an order that is not shown
+            return True
+        return then != now and max(*then, *now) <= self._find_allowed(path)
+
+    # -------------------------------------------------------------- allowed changes
+    def _find_change(self, path: Path) -> float:
+        """Return the change of a number; a missing one counts as 0."""
+        return abs((self._new.get(path) or 0.0) - (self._old.get(path) or 0.0))
+
+    def _find_allowed(self, path: Path) -> float:
+        """Return the allowed change of a size, or of the size to which a direction belongs."""
+        group = find_group(path)
+        tolerance = self._tolerances.find(name_quantities(path))
+        rounding = 0.0
+        if path[0] == "orders":
+            rounding = self._roundings.get((group[-1], path[1]), 0.0)
+        elif path[0] == "peak":
+            rounding = self._roundings.get((group[-1],), 0.0)
+        return tolerance.find_change(self._largest.get(group, 0.0)) + rounding
+
+    def _find_share(self, path: Path) -> float:
+        """Return the allowed change as a share of the largest figure of the group."""
+        tolerance = self._tolerances.find(name_quantities(path))
+        return tolerance.find_share(self._largest.get(find_group(path), 0.0))
+
+
+def _is_number(value: object) -> bool:
+    """Return whether a value is a number, or missing and so counts as 0."""
+    return value is None or (isinstance(value, (int, float)) and not isinstance(value, bool))
+
+
+def _find_turn(one: float, other: float, period: float) -> float:
+    """Return the smallest turn between two angles with a period, deg."""
+    return abs((other - one + period / 2) % period - period / 2)
+
+
+def _find_sizes(figures: Figures, path: Path) -> tuple[float, ...]:
+    """Return the sizes of the vectors to which a direction or `balanced` belongs: the two rotating
+    vectors of a force or moment, or the amplitude of a component or scalar. Return () if the
+    figures do not have them.
+    """
+    place = path[:-1]
+    amplitude = figures.get((*place, "amplitude"))
+    if amplitude is not None:
+        return (abs(amplitude),)
+    if (*place, "forward", "x") not in figures:
+        return ()
+    sizes = []
+    for sense in ("forward", "backward"):
+        x, y = figures[*place, sense, "x"], figures[*place, sense, "y"]
+        sizes.append(math.hypot(x, y))
+    return tuple(sizes)

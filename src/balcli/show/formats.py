@@ -90,7 +90,7 @@ def stamp(document: object) -> Any:
 
 
 class Format(StrEnum):
-    """Format of a written result; each of the last four belongs to one command."""
+    """Format of a written result; each of the last five belongs to one command."""
 
     TABLE = "table"
     JSON = "json"
@@ -98,6 +98,7 @@ class Format(StrEnum):
     MARKDOWN = "markdown"
     PARQUET = "parquet"
     JUNIT = "junit"
+    GITHUB = "github"
     CARD = "card"
     MARINE = "marine"
 

@@ -105,6 +105,12 @@ class Form(NamedTuple):
         parts = (_PLACES.get(part, part) for part in self.name.split("."))
         return re.fullmatch(r"\.".join(parts), name) is not None
 
+    def begins_with(self, words: str) -> bool:
+        """Return whether names that match the pattern may begin with these words: `force.2`."""
+        parts = [_PLACES.get(part, part) for part in self.name.split(".")]
+        beginning = parts[: len(words.split("."))]
+        return re.fullmatch(r"\.".join(beginning), words) is not None
+
 
 FORMS = tuple(Form(*map(str.strip, row)) for row in _COLUMNS.findall(_TABLE))
 BEGINNINGS = tuple(dict.fromkeys(form.beginning for form in FORMS))
