@@ -87,12 +87,16 @@ def test_gallery_shows_what_its_commands_write():
         assert picture in command
 
 
-def test_hook_for_engine_repositories_is_a_command_for_engine_files_alone():
+def test_hook_for_engine_repositories_checks_the_folder_if_something_in_it_changes():
+    """An engine, its diagram or its record; an edited record is as suspicious as an edited engine."""
     hook = text(".pre-commit-hooks.yaml")
     assert re.search(r"entry: balcli (\w+)", hook)[1] in COMMANDS
-    files = ["engines/i4.toml", "ours/engines/car/i4.toml", "pyproject.toml", "engines/expected/i4.json"]
+    assert "args: [engines]\n" in hook
+    assert "pass_filenames: false\n" in hook
+    inside = ["engines/i4.toml", "engines/car/i4.toml", "engines/p.csv", "engines/expected/i4.json"]
+    outside = ["pyproject.toml", "ours/engines/i4.toml", "engines/README.md"]
     pattern = re.search(r"files: (.+)", hook)[1]
-    assert [file for file in files if re.search(pattern, file)] == files[:2]
+    assert [file for file in (*inside, *outside) if re.search(pattern, file)] == inside
 
 
 def test_citation_and_conda_recipe_have_our_version_and_dependencies():
