@@ -187,11 +187,24 @@ def test_a_change_is_a_share_of_the_largest_figure_of_the_quantity():
     assert figures(engine, document, 0.01) == []
 
 
+def test_each_assumed_value_has_a_scale_of_its_own():
+    """An index that moves by 1e-6 is found next to an inertia of 3105 kg mm2."""
+    engine = build_text(changed(more='[gas]\ncycle = "otto"\ncompression_ratio = 10\nimep = 9\n'))
+    document = record_of(engine)
+    assert {"path": "rod.inertia", "value": 3105.0, "unit": "kg mm^2"} in document["assumed"]
+    (index,) = (value for value in document["assumed"] if value["path"] == "gas.compression_index")
+    index["value"] += 1e-6
+    (difference,) = differences(engine, document)
+    assert (difference.cause, difference.figure) == ("assumed", "assumed gas.compression_index")
+
+
 def test_a_record_of_an_earlier_version_has_no_inputs_and_no_dead_centres():
     engine = load_example("i3")
     document = record_of(engine)
     for key in ("version", "inputs", "travel"):
         del document[key]
+    document["assumed"] = ["layout.strokes = 4"]
     assert figures(engine, document) == []
+    del document["assumed"]
     document["inputs"] = {}
     assert len(figures(engine, document)) == 3 * 4  # strokes and dead centres of three cylinders

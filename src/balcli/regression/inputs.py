@@ -15,9 +15,9 @@ from ..file.fields import RIGID, WrittenFigure
 from ..file.lines import LineFinder
 from ..file.messages import TEXTS
 from ..file.model import EngineFile
-from ..file.table import FileTable
+from ..file.table import FileTable, find_number
 from ..file.toml import read_bytes
-from ..studies.parameters import find_numbers, find_reader
+from ..studies.parameters import find_numbers
 from .records import ChangedInput
 
 _DIGEST = 16  # number of hexadecimal digits of a digest in a record
@@ -128,7 +128,7 @@ def _walk_table(model: EngineFile, path: str, table: FileTable) -> Iterator[_Inp
         elif name in _FILE_KEYS:
             yield _Input(key, _describe_file(model, str(value)), "")
         else:
-            reader = find_reader(type(table), name)
+            reader = find_number(type(table), name)
             unit = "" if reader is None else reader.dimension.unit
             yield _Input(key, _to_json(value), unit)
 

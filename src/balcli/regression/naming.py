@@ -122,6 +122,8 @@ def name_cause(path: Path) -> str:
 
 def describe_figure(path: Path) -> str:
     """Return the name of a figure in words, such as `order 2 force major`."""
+    if ASSUMED in path:
+        return " ".join(path[:-1])
     words: list[str] = []
     for parent, key in zip(("", *path), path, strict=False):
         if key in _NOUNS:

@@ -143,11 +143,7 @@ def _numbers_of(start: str, table: FileTable) -> Iterator[tuple[str, Place]]:
     """Yield the numbers of a table, with the existing members of its lists and inner tables."""
     kind = type(table)
     for key, value in table:
-<<<<<<< HEAD
         path, reader, field = f"{start}.{key}", find_number(kind, key), kind.model_fields[key]
-=======
-        path, reader, field = f"{start}.{key}", find_reader(kind, key), kind.model_fields[key]
->>>>>>> 57704606 (check names the changed input first, compares all figures, knows tolerances and limits of [check], and annotates for GitHub)
         if isinstance(value, FileTable):
             yield from _numbers_of(path, value)
         elif isinstance(value, tuple):
@@ -166,33 +162,6 @@ def _numbers_of(start: str, table: FileTable) -> Iterator[tuple[str, Place]]:
             yield path, Place(reader, kind, key, value)
 
 
-<<<<<<< HEAD
-=======
-@cache
-def find_reader(table: type[FileTable], key: str) -> Number | None:
-    """Return the reader of a field that is a number or a list of numbers; None for other fields.
-    Whole numbers count as other fields, because they change the layout of the engine.
-    """
-    field = table.model_fields[key]
-    marks = [*field.metadata, *_marks_of(field.annotation)]
-    for mark in tuple(marks):
-        if isinstance(mark, OneOrEach):
-            marks.append(mark.one)
-        elif isinstance(mark, ListOrEach):
-            marks += _marks_of(mark.one)
-    return next((mark for mark in marks if isinstance(mark, Number)), None)
-
-
-def _marks_of(annotation: object) -> Iterator[object]:
-    """Yield the parts of an annotation, without the fields of inner tables."""
-    for part in get_args(annotation):
-        if isinstance(part, type) and issubclass(part, FileTable):
-            continue
-        yield part
-        yield from _marks_of(part)
-
-
->>>>>>> 57704606 (check names the changed input first, compares all figures, knows tolerances and limits of [check], and annotates for GitHub)
 # ------------------------------------------------------------------ names and values from users
 def parse_parameter(text: str, model: EngineFile) -> Parameter:
     """Return the parameter for a text `path=from:to:step` (`to` is included if a step meets it) or
