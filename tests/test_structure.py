@@ -34,6 +34,5 @@ def test_every_name_leads_to_what_it_says() -> None:
         *(f"{module}:{key.capitalize()}" for key, module in (names.CHAPTERS | names.CHAPTER_LISTS).items()),
         *names.DOCUMENTS.values(),
         *names.QUANTITIES.values(),
-        names.NOTEBOOK,
     ]
     assert [place for place in places if names.import_name(place) is None] == []

@@ -1,52 +1,88 @@
 """Engine balance: free forces and moments of reciprocating engines, order by order, and devices
 that cancel them.
 
-    from balcli import load, analyze, balance
+    from balcli import load
 
     engine = load("v8.toml")
-    print(analyze(engine).spectra.moment.major)
+    print(engine.analyze().spectra["moment"].major)
+    print(engine.balance("counterweights").after.peak.moment.value)
 """
 
 from __future__ import annotations
 
 from .names import PUBLIC, import_name
-from .version import __version__ as __version__
+from .version import __version__
 
 TYPE_CHECKING = False  # the import of typing is slow, and Ctrl-C during it prints a traceback
 if TYPE_CHECKING:
-    from .analysis.answer import Analysis as Analysis, analyze as analyze
-    from .analysis.comparison import Comparison as Comparison, compare as compare
-    from .analysis.curves import Curves as Curves, curves as curves
-    from .analysis.piston import Pistons as Pistons, piston as piston
-    from .analysis.two_engines import Combined as Combined, sum as sum  # noqa: A004
-    from .balancing.answer import Balance as Balance, balance as balance
-    from .books.answer import tables as tables
-    from .books.recomputed import Table as Table
-    from .crank_torque.answer import torque as torque
-    from .crank_torque.records import TorqueAnalysis as TorqueAnalysis
-    from .engine.engine import Engine as Engine
-    from .engine.load import load as load, load_example as load_example
-    from .errors import BalcliError as BalcliError, InputError as InputError
-    from .field_balancing.answer import FieldBalance as FieldBalance, field as field
-    from .locomotives.answer import (
-        LocomotiveBalance as LocomotiveBalance,
-        locomotive as locomotive,
-    )
-    from .mounting.answer import mounts as mounts
-    from .mounting.records import MountReport as MountReport
-    from .report.plot import plot as plot
-    from .show.result import Result as Result
-    from .sizing.options import SchemeOptions as SchemeOptions
-    from .sizing.workshop import Shapes as Shapes, Tools as Tools
-    from .studies.scatter import Scatter as Scatter, scatter as scatter
-    from .studies.search.answer import Search as Search, search as search
-    from .studies.sweep import Swept as Swept, sweep as sweep
-    from .torsional_vibration.answer import (
-        TorsionAnalysis as TorsionAnalysis,
-        torsion as torsion,
-    )
+    from .analysis.answer import Analysis, analyze
+    from .analysis.comparison import Comparison, compare
+    from .analysis.curves import Curves, curves
+    from .analysis.piston import Pistons, piston
+    from .analysis.two_engines import Combined, sum  # noqa: A004
+    from .api import Engine, load, load_example
+    from .balancing.answer import Balance, balance
+    from .books.answer import tables
+    from .books.recomputed import Table
+    from .crank_torque.answer import torque
+    from .crank_torque.records import TorqueAnalysis
+    from .errors import BalcliError, InputError
+    from .field_balancing.answer import FieldBalance, field
+    from .locomotives.answer import LocomotiveBalance, locomotive
+    from .mounting.answer import mounts
+    from .mounting.records import MountReport
+    from .report.plot import plot
+    from .show.result import Result
+    from .sizing.options import SchemeOptions
+    from .sizing.workshop import Shapes, Tools
+    from .studies.scatter import Scatter, scatter
+    from .studies.search.answer import Search, search
+    from .studies.sweep import Swept, sweep
+    from .torsional_vibration.answer import TorsionAnalysis, torsion
 
-__all__ = sorted(["__version__", *PUBLIC])
+__all__ = [
+    "Analysis",
+    "Balance",
+    "BalcliError",
+    "Combined",
+    "Comparison",
+    "Curves",
+    "Engine",
+    "FieldBalance",
+    "InputError",
+    "LocomotiveBalance",
+    "MountReport",
+    "Pistons",
+    "Result",
+    "Scatter",
+    "SchemeOptions",
+    "Search",
+    "Shapes",
+    "Swept",
+    "Table",
+    "Tools",
+    "TorqueAnalysis",
+    "TorsionAnalysis",
+    "__version__",
+    "analyze",
+    "balance",
+    "compare",
+    "curves",
+    "field",
+    "load",
+    "load_example",
+    "locomotive",
+    "mounts",
+    "piston",
+    "plot",
+    "scatter",
+    "search",
+    "sum",
+    "sweep",
+    "tables",
+    "torque",
+    "torsion",
+]
 
 
 def __dir__() -> list[str]:

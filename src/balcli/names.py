@@ -8,20 +8,23 @@ of sweep, search and scatter. This module loads no library.
 from __future__ import annotations
 
 from importlib import import_module
-from typing import Any
 
-# The public names that each module offers to `import balcli`.
+TYPE_CHECKING = False  # the import of typing is slow, and Ctrl-C during it prints a traceback
+if TYPE_CHECKING:
+    from typing import Any
+
+# The public names that each module offers to `import balcli`; `balcli/__init__.py` lists them for
+# type checkers.
 _EXPORTS = {
     "analysis.answer": "Analysis analyze",
     "analysis.comparison": "Comparison compare",
     "analysis.curves": "Curves curves",
     "analysis.piston": "Pistons piston",
     "analysis.two_engines": "Combined sum",
+    "api": "Engine load load_example",
     "balancing.answer": "Balance balance",
     "books.answer": "tables",
     "books.recomputed": "Table",
-    "engine.engine": "Engine",
-    "engine.load": "load load_example",
     "errors": "BalcliError InputError",
     "field_balancing.answer": "FieldBalance field",
     "locomotives.answer": "LocomotiveBalance locomotive",
@@ -40,7 +43,7 @@ _EXPORTS = {
 }
 PUBLIC = {name: module for module, names in _EXPORTS.items() for name in names.split()}
 
-# The module whose RENDERER shows a class of results.
+# The module whose RENDERER shows a class of results; it is in the folder of this class.
 RENDERERS = {
     "Analysis": "analysis.show",
     "Balance": "balancing.show",
@@ -110,13 +113,6 @@ QUANTITIES = {
     "mounts": "mounting.quantity",
     "torsion": "torsional_vibration.quantity",
 }
-# Functions whose modules are imported only when the function is called.
-NOTEBOOK = "show.notebook:show_engine"
-VARY = "engine.load:vary_engine"
-READ_GEARED = "engine.placed:read_engines"
-GEARED = "engine.placed:build_geared"
-CRANKS = "engine.placed:share_state"
-EXPLORE = "report.page:explore"
 
 
 def import_name(place: str) -> Any:

@@ -9,9 +9,9 @@ import pytest
 from support.engines import build_text
 from support.gas_engines import FOUR, WIEBE, draw_engine
 
+from balcli import load
 from balcli.core.speed_ripple import speed_variation
 from balcli.crank_torque.answer import torque
-from balcli.engine.load import load
 from balcli.errors import BalcliError
 from balcli.forces.curves import (
     find_constant_inertia,

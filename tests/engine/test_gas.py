@@ -10,9 +10,10 @@ from support.engines import RADIAL, build_text, list_problems
 from support.gas_engines import FOUR, WIEBE
 from support.paths import write
 
+from balcli import load
 from balcli.core.cylinder_pressure import find_highest
 from balcli.engine.build import build
-from balcli.engine.load import EngineVariants, load
+from balcli.engine.load import EngineVariants
 
 TWO_STROKE = FOUR.replace("firing_order = [1, 3, 4, 2]", "strokes = 2")
 

@@ -10,8 +10,8 @@ from support.gas_engines import FOUR
 from support.mounts import RandomBody
 from support.paths import write
 
+from balcli import load
 from balcli.engine.engine import Engine
-from balcli.engine.load import load
 from balcli.forces.spectrum import compute_spectra, follow_gas
 
 ORDERS = np.arange(0.5, 12.5, 0.5)

@@ -14,9 +14,9 @@ from support.cases import cases
 from support.engines import engine, list_problems, refused
 from support.paths import ROOT
 
+from balcli import load
 from balcli.engine.engine import Engine
 from balcli.engine.firing.common_pins import list_evenly_spaced
-from balcli.engine.load import load
 from balcli.engine.parse import parse_dict
 from balcli.engine.parts import Parts
 from balcli.errors import InputError

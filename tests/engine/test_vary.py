@@ -8,6 +8,7 @@ from support.paths import ENGINES
 
 import balcli
 from balcli.engine.build import build
+from balcli.engine.load import vary_engine
 from balcli.engine.parse import parse
 from balcli.sizing.remedy import fit_devices
 from balcli.studies.parameters import find_places
@@ -130,7 +131,7 @@ def test_what_no_file_can_describe_says_so():
     oldham = balcli.balance(engine, "oldham").after.engine
     variants = build(parse(GOOD), {"rod.length": np.array([150.0, 160.0])})
     for one in (oldham, variants, fit_devices(variants, balcli.balance(engine).remedy)):
-        for ask in (one.to_dict, lambda one=one: one.vary({"rod.length": 150})):
+        for ask in (one.to_dict, lambda one=one: vary_engine(one, {"rod.length": 150})):
             with pytest.raises(balcli.BalcliError, match="no file describes this engine"):
                 ask()
 
@@ -138,7 +139,7 @@ def test_what_no_file_can_describe_says_so():
 def test_eccentrics_of_one_named_shaft_have_different_names():
     """Both are `balancer`; each goes by its number in the file."""
     entry = '[[shaft]]\nname = "balancer"\nratio = -1\nunbalance = 9000\nangle = {}\nposition = {}\n'
-    engine = build(parse(GOOD + entry.format(20, -100) + entry.format(200, 100)))
+    engine = balcli.load(GOOD + entry.format(20, -100) + entry.format(200, 100))
     assert {"shaft.1.position", "shaft.2.position"} <= find_places(engine.model).keys()
     varied = engine.vary({"shaft.1.position": -50})
     assert [round(float(shaft.z), 9) for shaft in varied.devices] == [-0.05, 0.1]

@@ -6,7 +6,7 @@ from support.engines import INLINE, alone, build_text, inline_engine
 from support.paths import ENGINES
 from support.remedies import weigh
 
-from balcli.engine.load import load
+from balcli import load
 from balcli.errors import BalcliError
 from balcli.forces import spectrum
 from balcli.forces.crankshaft import compute_inner_loads

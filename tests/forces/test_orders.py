@@ -7,13 +7,13 @@ from support.engines import build_text
 from support.gas_engines import FOUR, WIEBE
 from support.paths import ENGINES
 
+from balcli import load
 from balcli.analysis.answer import analyze
 from balcli.analysis.two_engines import Arrangement, combine_engines
 from balcli.analysis.verdict import Rocking
 from balcli.core.phasors import Phasors
 from balcli.crank_torque.answer import torque
 from balcli.engine.engine import take_model
-from balcli.engine.load import load
 from balcli.errors import BalcliError
 from balcli.forces.guide import compute_guide_moments
 from balcli.forces.spectrum import Spectra, choose_orders, is_order, mark_considerable, parse_order

@@ -10,9 +10,9 @@ from support.engines import inline_engine
 from support.paths import ENGINE_FILES, ENGINES
 
 import balcli
+from balcli import load
 from balcli.analysis.answer import analyze
 from balcli.core.records import to_document
-from balcli.engine.load import load
 from balcli.forces.spectrum import compute_spectra
 from balcli.forces.stars import WAYS, find_stars
 from balcli.forces.symmetry import without_devices

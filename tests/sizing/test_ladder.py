@@ -12,8 +12,8 @@ from support.commands import ask, refusal, run_here
 from support.engines import build_text
 from support.paths import ROOT, write
 
+from balcli import load
 from balcli.balancing.answer import balance, balance_engine, insert_remedy
-from balcli.engine.load import load
 from balcli.errors import BalcliError
 from balcli.forces.crankshaft import find_crank_loads
 from balcli.forces.spectrum import compute_spectra

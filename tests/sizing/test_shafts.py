@@ -7,7 +7,7 @@ from support.commands import ask, ask_json, refusal, run_here
 from support.paths import ENGINES
 from support.remedies import fit_scheme, size_scheme
 
-from balcli.engine.load import load
+from balcli import load
 from balcli.forces.spectrum import compute_spectra
 from balcli.show.sheet import size_text
 from balcli.show.units import SI

@@ -9,8 +9,8 @@ from support.engines import build_text, engine_text
 from support.paths import ENGINES
 from support.remedies import weigh
 
+from balcli import load
 from balcli.analysis.answer import analyze
-from balcli.engine.load import load
 from balcli.errors import BalcliError
 from balcli.forces.crankshaft import find_crank_loads
 from balcli.forces.spectrum import compute_spectra

@@ -8,7 +8,7 @@ import pytest
 from docs_examples import ROOT
 from support.searches import search_least
 
-from balcli.engine.load import load
+from balcli import load
 from balcli.engine.parse import read
 from balcli.forces.crankshaft import compute_inner_loads
 from balcli.studies.deviations import Tolerances

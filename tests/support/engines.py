@@ -5,9 +5,9 @@ from typing import Any
 import pytest
 import tomli_w
 
+from balcli import load
 from balcli.engine.build import build
 from balcli.engine.engine import Engine
-from balcli.engine.load import load
 from balcli.engine.parse import parse
 from balcli.errors import InputError
 from balcli.forces.spectrum import with_only

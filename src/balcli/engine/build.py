@@ -25,11 +25,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import partial
 from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
-from ..core.cylinders import Device
 from ..core.mechanisms import harmonics
 from ..core.mechanisms.linkage import STEPS, Articulated, Linkage, Rotary, revolution
 from ..core.mechanisms.motion import Motion
@@ -37,21 +37,20 @@ from ..core.phasors import Array, Figure
 from ..core.speed_ripple import RippleLine, find_slowest
 from ..errors import InputError, Problem
 from ..file.fields import counted
-from ..file.model import Counterweight, EngineFile, Shaft, Slider
+from ..file.model import EngineFile
 from ..file.read import Draft
 from ..limits import MOST_SAMPLES, NEAREST_TO_LOCK
-from ..names import GEARED, import_name
-from .devices import build_device, build_devices, check_shafts
+from .devices import build_devices, check_shafts
 from .engine import Bearings, Engine, Rating
-from .figures import AS_GIVEN, FileFigures, column, divide
+from .figures import column, divide, find_wheel
 from .firing.rules import check_numbering
 from .layout import Plan, are_places_known
 from .left_out import list_inferred
 from .parts import Parts
+from .placed import build_geared
 from .rods import check_ends, check_harmonic, check_rod_inertia, check_turning
 
 if TYPE_CHECKING:
-    from ..file.gas_tables import Flywheel
     from .gas import EngineGas
 
 
@@ -80,7 +79,7 @@ def build(
         BalcliError: These figures cannot vary together, or not in this file (`FileFigures`).
     """
     if model.engine:
-        return cast(Engine, import_name(GEARED)(model, varied, rank))
+        return build_geared(model, varied, partial(build, rank=rank))
     parts = assemble(model, varied, rank=rank, gas=gas)
     figures, places = parts.figures, parts.places
     bore = figures.take_optional("piston.bore", model.piston.bore)
@@ -134,40 +133,6 @@ def assemble(
     if problems := find_contradictions(parts):
         raise InputError(problems)
     return parts
-
-
-def build_fitted(
-    table: Counterweight | Shaft | Slider,
-    engine: Engine,
-    figures: FileFigures = AS_GIVEN,
-    path: str = "",
-) -> Device:
-    """Return a device of an engine, in SI units. If engines are geared together, the angle of a
-    counterweight counts from cylinder 1's crank pin in the engine that carries the counterweight,
-    in that engine's direction of rotation. The z of every device is in the axes of `engine`, which
-    joins these engines.
-
-    Args:
-        table: Table of the device in an engine file.
-        engine: Engine that has the device.
-        figures: Figures of the file.
-        path: Dotted name of the table.
-    """
-    carrier = getattr(table, "engine", None)
-    row = [one.name for one in engine.placed].index(carrier) if carrier else 0
-    own = engine.placed[row].engine if engine.placed else engine
-    return build_device(table, own.first_axis_deg, figures, path)._replace(crank=row)
-
-
-def find_wheel(figures: FileFigures, table: Flywheel) -> Figure | None:
-    """Return the moment of inertia of the flywheel, kg m2."""
-    inertia, mass, radius = (
-        figures.take_optional(f"flywheel.{key}", getattr(table, key))
-        for key in ("inertia", "mass", "radius_of_gyration")
-    )
-    if mass is None or radius is None:
-        return divide(inertia, 1e6)
-    return mass * (radius * 1e-3) ** 2
 
 
 # ------------------------------------------------------------------ rules between the stages

@@ -5,11 +5,10 @@ cylinder. `engine.build` makes it from an engine file.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection, Iterable, Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from dataclasses import dataclass, fields, replace
 from functools import cached_property
-from types import MappingProxyType
-from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Annotated, NamedTuple, Self, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -19,13 +18,12 @@ from ..core.phases import RPM
 from ..core.phasors import Array, Complex, Figure, Phasors, unit
 from ..core.records import HIDDEN, Node, WrittenAs
 from ..core.speed_ripple import RippleLine
-from ..errors import MOMENTS_UNKNOWN, BalcliError, check_type, wrong_type
+from ..errors import MOMENTS_UNKNOWN, BalcliError, wrong_type
 from ..file.assumed import Assumed, join_assumed, select_assumed
 from ..file.doubts import find_suspicious
 from ..file.fields import join_words
 from ..file.model import EngineFile
 from ..file.plain_tables import list_tables
-from ..names import CRANKS, EXPLORE, NOTEBOOK, VARY, import_name
 from .figures import find_first_largest, or_zero, place_in_plane
 from .firing.fits import find_fitting_splay
 from .numbering import doubt_firing
@@ -245,43 +243,16 @@ class Engine:
     model: EngineFile | None = None
     placed: tuple[Placed, ...] = ()
 
+    @classmethod
+    def of(cls, engine: Engine) -> Self:
+        """Return an engine of this class with the figures of another engine."""
+        return cls(**{each.name: getattr(engine, each.name) for each in fields(engine)})
+
     # -------------------------------------------------------------- the file and its variants
-    def vary(
-        self, changes: Mapping[str, object] = MappingProxyType({}), /, **named: object
-    ) -> Engine:
-        """Return the engine of the same file with other values of some keys.
-
-        Args:
-            changes: Values by dotted names of the engine file (`layout.bank_angle`,
-                `crank.throws.2`, `operation.speed`, `name`): numbers in the units of the file, or
-                texts with a unit. None removes a key. A key that gives the same figure in another
-                way (`rod.ratio` when `rod.length` changes) is removed, and so is a firing order
-                that does not fit new throws.
-            named: Further changes, as keyword arguments.
-
-        Raises:
-            InputError: The changed file has mistakes; the error lists all of them.
-            BalcliError: No file describes this engine.
-
-        Example:
-            >>> engine.vary({"layout.bank_angle": 60, "rod.length": "6 in"})
-        """
-        check_type("vary", changes, Mapping, 'give a dict, such as {"rod.length": 150}')
-        return import_name(VARY)(self, {**changes, **named})
-
-    def at_speed(self, speed_rpm: Figure) -> Engine:
+    def at_speed(self, speed_rpm: Figure) -> Self:
         """Return the engine at another speed (rpm), with the gas of that speed."""
         gas = None if self.gas is None else self.gas.at(float(speed_rpm))
         return replace(self, speed_rpm=speed_rpm, gas=gas)
-
-    def explore(self) -> Any:
-        """Return an interactive view of the engine for a notebook: it shows the engine in motion,
-        and the user can change the engine's numbers.
-
-        Raises:
-            BalcliError: No file describes this engine.
-        """
-        return import_name(EXPLORE)(self)
 
     def to_dict(self) -> Node:
         """Return the tables of the engine file, with numbers in mm, kg, degrees and rpm; `load`
@@ -349,9 +320,6 @@ class Engine:
     def __repr__(self) -> str:
         return f"<Engine {self.summary}>"
 
-    def _repr_html_(self) -> str:
-        return import_name(NOTEBOOK)(self)
-
     @property
     def summary(self) -> str:
         """Name, number of cylinders, displacement and speed, in words."""
@@ -369,7 +337,7 @@ class Engine:
         """Engines that are geared together, each in its own axes and by its own crank angle, with
         the speed, devices and point of reference of the whole. For a single engine, this engine.
         """
-        return tuple(import_name(CRANKS)(self)) if self.placed else (Placed(self),)
+        return tuple(_share_state(self)) if self.placed else (Placed(self),)
 
     @property
     def every_device(self) -> tuple[Device, ...]:
@@ -560,6 +528,56 @@ class Engine:
         return self.gas.mechanical_efficiency
 
 
+# ------------------------------------------------------------------ engines of a whole
+def _share_state(whole: Engine) -> Iterator[Placed]:
+    """Yield the engines of a whole with its speed, devices, gas and point of reference, each in its
+    own axes and by its own crank angle.
+    """
+    start = 0
+    for row, one in enumerate(whole.placed):
+        own, stop = one.engine, start + len(one.engine.numbers)
+        x, y, z = whole.reference_m
+        reference = one.find_own_place(place_in_plane(x, y))
+        lines = (
+            RippleLine(line.order, line.amplitude, line.angle_deg + line.order * one.phase_deg)
+            for line in whole.ripple
+        )
+        carried = (_move(device, one) for device in whole.devices if device.crank == row)
+        gas = None if whole.gas is None else own.gas
+        if gas is not None and whole.gas is not None:
+            seen = (c._replace(like=c.like - start) for c in whole.gas.cylinders[start:stop])
+            pairs = zip(seen, gas.cylinders, strict=True)  # `seen` is at the speed of the whole
+            each = (c._replace(nominal_deg=mine.nominal_deg) for c, mine in pairs)
+            gas = replace(gas, cylinders=tuple(each))
+        yield one._replace(
+            engine=replace(
+                own,
+                speed_rpm=whole.speed_rpm,
+                ripple=tuple(lines),
+                reference_m=(reference.real, reference.imag, z - one.at_m[2]),
+                devices=(*own.devices, *carried),
+                gas=gas,
+            )
+        )
+        start = stop
+
+
+def _move(device: Device, one: Placed) -> Device:
+    """Return a device of the whole in the axes of one engine. Devices that are not on a crankshaft
+    belong to the first engine, by whose crank angle they turn.
+    """
+    moved = device._replace(z=device.z - one.at_m[2], crank=0)
+    if device.kind is DeviceKind.COUNTERWEIGHT:
+        return moved
+    back = unit(-np.asarray(one.turn_deg))
+    return moved._replace(
+        place=one.find_own_place(device.place),
+        forward=back * device.forward,
+        backward=back * device.backward,
+    )
+
+
+# ------------------------------------------------------------------ an engine as an argument
 def check_engine(function: str, value: object) -> Engine:
     """Return the argument of a public function, checked to be an engine.
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from types import MappingProxyType
-from typing import NamedTuple, cast
+from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -19,6 +19,9 @@ from ..core.phasors import Array, Complex, Figure
 from ..errors import BalcliError
 from ..file.model import EngineFile, Override, RodKeys
 from ..file.table import FileTable
+
+if TYPE_CHECKING:
+    from ..file.gas_tables import Flywheel
 
 
 class FileFigures:
@@ -252,6 +255,19 @@ def rod_figures(
     return RodFigures._make((*found, None))
 
 
+# ------------------------------------------------------------------ flywheel
+def find_wheel(figures: FileFigures, table: Flywheel) -> Figure | None:
+    """Return the moment of inertia of the flywheel, kg m2."""
+    inertia, mass, radius = (
+        figures.take_optional(f"flywheel.{key}", getattr(table, key))
+        for key in ("inertia", "mass", "radius_of_gyration")
+    )
+    if mass is None or radius is None:
+        return divide(inertia, 1e6)
+    return mass * (radius * 1e-3) ** 2
+
+
+# ------------------------------------------------------------------ arrays
 _ROUNDING = 1e-9  # values that differ by less than this share of the largest are equal
 
 

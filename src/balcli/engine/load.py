@@ -1,4 +1,4 @@
-"""Load an engine from a file, change its keys, or build its variants one after the other."""
+"""Build the engine of tables, vary keys of its file, or build its variants one after the other."""
 
 from __future__ import annotations
 
@@ -12,39 +12,21 @@ import numpy as np
 from ..core.records import Node
 from ..core.vibration import Real
 from ..errors import InputError, naming_file, wrong_type
-from ..file.examples import locate
 from ..file.model import EngineFile
-from ..file.plain_tables import change_tables, take_tables
+from ..file.plain_tables import change_tables
 from ..file.toml import name_file
 from .build import build
 from .engine import Engine, take_model
-from .parse import parse_dict, read
+from .parse import parse_dict
 
 if TYPE_CHECKING:
     from ..file.gas_tables import Gas
     from .gas import EngineGas
 
-_WANTED = "give the path of an engine file, the text of one, or a dict of its tables"
-
-
-def load(source: str | Path | Mapping[str, object]) -> Engine:
-    """Return the engine that a file, a text or a dict describes.
-
-    Args:
-        source: Path of an engine file, "-" for standard input; or its content: a text of several
-            lines (TOML), or a dict of its tables, such as `{"crank": {"stroke": 90}, "rod":
-            {"length": 150}, "piston": {"mass": 0.5}}`. Bare numbers are mm, kg, degrees, rpm; a
-            text has its unit ("3.5 in"); None counts as not given.
-
-    Raises:
-        BalcliError: The file cannot be read.
-        InputError: The file has mistakes; the error lists all of them.
-        TypeError: The source is none of these.
-
-    Example:
-        >>> engine = load("v8.toml")
-    """
-    return build_tables(*take_tables("load", source, _WANTED))
+E = TypeVar("E", bound=Engine)
+Key = TypeVar("Key")
+Value = TypeVar("Value")
+Asked = TypeVar("Asked")
 
 
 def build_tables(tables: Mapping[str, object], name: str) -> Engine:
@@ -74,36 +56,22 @@ def build_named(model: EngineFile, path: str | Path) -> Engine:
         return build(model)
 
 
-def load_example(name: str) -> Engine:
-    """Return one of the example engines of balcli.
-
-    Args:
-        name: Name in the list of `balcli engines`, such as "i4", "v8_crossplane" or
-            "radial7_articulated".
-
-    Raises:
-        BalcliError: There is no such example; the error lists the nearest names.
-        TypeError: The name is not a text.
-
-    Example:
-        >>> engine = load_example("v8_crossplane")
-    """
-    if not isinstance(name, str):
-        raise wrong_type("load_example", name, 'give the name of an example, such as "i4"')
-    return build(read(locate(name)))
-
-
 # ------------------------------------------------------------------ variants of an engine
 _NO_FIRING_ORDER: Node = {"layout.firing_order": None, "layout.firing_intervals": None}
 
 
-def vary_engine(engine: Engine, changes: Mapping[str, object]) -> Engine:
-    """Return the engine of the same file with other values of some keys; errors as for
-    `Engine.vary`.
+def vary_engine(engine: E, changes: Mapping[str, object]) -> E:
+    """Return the engine of the same file with other values of some keys, as an engine of the same
+    class.
 
     Args:
         engine: Engine that comes from a file.
         changes: Values by dotted names, in the units of the file.
+
+    Raises:
+        InputError: The changed file has mistakes; the error lists all of them.
+        BalcliError: No file describes this engine.
+        TypeError: A name is not a text.
     """
     for path in changes:
         if not isinstance(path, str):
@@ -111,9 +79,10 @@ def vary_engine(engine: Engine, changes: Mapping[str, object]) -> Engine:
     model = take_model(engine)
     name = f"{engine.name or 'engine'} with {', '.join(changes)}"
 
-    def build_with(changes: Mapping[str, object]) -> Engine:
+    def build_with(changes: Mapping[str, object]) -> E:
         with naming_file(name):
-            return build(parse_dict(change_tables(model, changes), model.folder))
+            varied = build(parse_dict(change_tables(model, changes), model.folder))
+        return type(engine).of(varied)
 
     try:
         return build_with(changes)
@@ -151,9 +120,6 @@ def concerns_gas(path: str, gas: Gas | None = None) -> bool:
     return bool(of_speed or re.fullmatch(rf"(engine\.\d+\.)?({_OF_GAS})", path))
 
 
-Key = TypeVar("Key")
-Value = TypeVar("Value")
-Asked = TypeVar("Asked")
 Values = tuple[tuple[str, float], ...]  # figures by dotted name
 _KEPT = 64  # number of variants that are cached: as many as are computed at a time
 

@@ -14,9 +14,9 @@ from ..file.model import EngineFile
 from ..file.plain_tables import normalize_tables
 from ..file.read import Draft, check_tables, read_tables, refuse
 from ..file.toml import name_file, read_bytes
-from ..names import READ_GEARED, import_name
 from .build import list_contradictions
 from .firing.rules import infer_numbering
+from .placed import read_engines
 
 
 def read(path: str | Path) -> EngineFile:
@@ -69,7 +69,7 @@ def join_engines(draft: Draft) -> Draft:
     """Return the readable part of a file, joined with the files that its [[engine]] tables name."""
     if not draft.model.engine:
         return draft
-    return import_name(READ_GEARED)(draft, _parse_one)
+    return read_engines(draft, _parse_one)
 
 
 def _parse_one(text: bytes, name: str) -> EngineFile:

@@ -1,9 +1,8 @@
 """Read and build engines that are geared together one to one.
 
 Each engine is built alone. `build_geared` joins the engines to one engine, called the whole, whose
-`placed` has the place and the direction of rotation of each engine. `share_state` passes speed,
-devices and point of reference of the whole on to each engine, in the engine's own axes and by the
-engine's own crank angle.
+`placed` has the place and the direction of rotation of each engine. `Engine.cranks` passes speed,
+devices and point of reference of the whole on to each engine.
 """
 
 from __future__ import annotations
@@ -14,11 +13,8 @@ from dataclasses import replace
 from itertools import chain
 from typing import cast
 
-import numpy as np
-
-from ..core.cylinders import Device, DeviceKind
-from ..core.phasors import Figure, unit
-from ..core.speed_ripple import RippleLine
+from ..core.cylinders import Device
+from ..core.phasors import Figure
 from ..errors import BalcliError, InputError, Problem, note
 from ..file.csv_columns import locate_beside
 from ..file.engine_tables import Engine as EngineTable
@@ -26,9 +22,9 @@ from ..file.model import Counterweight, EngineFile, Shaft, Slider
 from ..file.read import Draft
 from ..file.toml import read_bytes
 from ..limits import MOST_ENGINES
-from .build import build, build_fitted, find_wheel
+from .devices import build_device
 from .engine import Engine, Placed, Rating
-from .figures import FileFigures, place_in_plane, select_varied
+from .figures import AS_GIVEN, FileFigures, find_wheel, place_in_plane, select_varied
 from .gas import CylinderGas, EngineGas, GasLaw
 
 
@@ -133,11 +129,20 @@ def _collecting(problems: list[Problem], number: int, file: str) -> Iterator[Non
 
 # ------------------------------------------------------------------ one engine of several
 def build_geared(
-    model: EngineFile, varied: Mapping[str, Figure] | None = None, rank: int = 0
+    model: EngineFile,
+    varied: Mapping[str, Figure] | None,
+    build: Callable[[EngineFile, Mapping[str, Figure] | None], Engine],
 ) -> Engine:
-    """Return the engine that a file with [[engine]] describes; arguments and errors as for `build`.
+    """Return the engine that a file with [[engine]] describes. Figures of an engine's own file vary
+    by names such as `engine.2.rod.length`.
 
-    Figures of an engine's own file vary by names such as `engine.2.rod.length`.
+    Args:
+        model: Engine file whose tables are valid.
+        varied: Numbers or arrays that replace figures, by dotted name.
+        build: Function that builds a single engine (`engine.build`).
+
+    Raises:
+        InputError: As `build` raises it for one of the engines.
     """
     changes = varied or {}
     problems = list[Problem]()
@@ -145,7 +150,7 @@ def build_geared(
     for k, (table, crank) in enumerate(zip(model.engine, model.cranks, strict=True), 1):
         own = dict(select_varied(changes, k))
         with _collecting(problems, k, table.file):
-            engines.append(build(crank, own or None, rank=rank))
+            engines.append(build(crank, own or None))
     if problems:
         raise InputError(list(dict.fromkeys(problems)))
     figures = FileFigures(changes, model)
@@ -172,6 +177,29 @@ def build_geared(
         rated=Rating(model.operation.speed, None if power is None else 1e3 * power),
         model=None if varied else model,
     )
+
+
+def build_fitted(
+    table: Counterweight | Shaft | Slider,
+    engine: Engine,
+    figures: FileFigures = AS_GIVEN,
+    path: str = "",
+) -> Device:
+    """Return a device of an engine, in SI units. If engines are geared together, the angle of a
+    counterweight counts from cylinder 1's crank pin in the engine that carries the counterweight,
+    in that engine's direction of rotation. The z of every device is in the axes of `engine`, which
+    joins these engines.
+
+    Args:
+        table: Table of the device in an engine file.
+        engine: Engine that has the device.
+        figures: Figures of the file.
+        path: Dotted name of the table.
+    """
+    carrier = getattr(table, "engine", None)
+    row = [one.name for one in engine.placed].index(carrier) if carrier else 0
+    own = engine.placed[row].engine if engine.placed else engine
+    return build_device(table, own.first_axis_deg, figures, path)._replace(crank=row)
 
 
 def gear_engines(placed: Sequence[Placed]) -> Engine:
@@ -269,53 +297,3 @@ def _join_laws(placed: Sequence[Placed]) -> GasLaw | None:
     nodes = sorted({speed for law in laws for speed in law.nodes_rpm})
     linear = len(powers) == 1 and all(law.linear for law in laws)
     return GasLaw(solve, tuple(nodes), linear, max(powers))
-
-
-# ------------------------------------------------------------------ seen by each engine
-def share_state(whole: Engine) -> Iterator[Placed]:
-    """Yield the engines of a whole, each with the speed, devices, gas and point of reference of the
-    whole.
-    """
-    start = 0
-    for row, one in enumerate(whole.placed):
-        own = one.engine
-        stop = start + len(one.engine.numbers)
-        x, y, z = whole.reference_m
-        reference = one.find_own_place(place_in_plane(x, y))
-        lines = (
-            RippleLine(line.order, line.amplitude, line.angle_deg + line.order * one.phase_deg)
-            for line in whole.ripple
-        )
-        carried = (_move(device, one) for device in whole.devices if device.crank == row)
-        gas = None if whole.gas is None else own.gas
-        if gas is not None and whole.gas is not None:
-            seen = (c._replace(like=c.like - start) for c in whole.gas.cylinders[start:stop])
-            pairs = zip(seen, gas.cylinders, strict=True)  # `seen` is at the speed of the whole
-            each = (c._replace(nominal_deg=mine.nominal_deg) for c, mine in pairs)
-            gas = replace(gas, cylinders=tuple(each))
-        yield one._replace(
-            engine=replace(
-                own,
-                speed_rpm=whole.speed_rpm,
-                ripple=tuple(lines),
-                reference_m=(reference.real, reference.imag, z - one.at_m[2]),
-                devices=(*own.devices, *carried),
-                gas=gas,
-            )
-        )
-        start = stop
-
-
-def _move(device: Device, one: Placed) -> Device:
-    """Return a device of the whole in the axes of one engine. Devices that are not on a crankshaft
-    belong to the first engine, by whose crank angle they turn.
-    """
-    moved = device._replace(z=device.z - one.at_m[2], crank=0)
-    if device.kind is DeviceKind.COUNTERWEIGHT:
-        return moved
-    back = unit(-np.asarray(one.turn_deg))
-    return moved._replace(
-        place=one.find_own_place(device.place),
-        forward=back * device.forward,
-        backward=back * device.backward,
-    )

@@ -317,14 +317,7 @@ class Explorer:
 
 
 def explore(engine: Engine) -> Explorer:
-    """Return the page of an engine for a notebook; `Engine.explore` calls this function.
-
-    Args:
-        engine: Engine that comes from a file.
-
-    Raises:
-        BalcliError: No file describes the engine.
-    """
+    """Return the page of an engine for a notebook (`api.Engine.explore`)."""
     model = take_model(engine)
     found = find_answers(model, engine, None, "auto", SchemeOptions(), engine.name or "engine")
     live = describe_one(model, engine, SI, tomli_w.dumps(engine.to_dict()), engine.name)

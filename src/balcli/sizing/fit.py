@@ -13,8 +13,8 @@ import numpy as np
 
 from ..core import least_squares
 from ..core.phasors import Array, unit
-from ..engine.build import build_fitted
 from ..engine.engine import Engine, refuse_geared
+from ..engine.placed import build_fitted
 from ..errors import MOMENTS_UNKNOWN, NO_GAS, BalcliError
 from ..file.fields import join_words
 from ..file.model import EngineFile

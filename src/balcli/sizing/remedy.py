@@ -7,8 +7,8 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..core.cylinders import Device, DeviceKind
-from ..engine.build import build_fitted
 from ..engine.engine import Engine
+from ..engine.placed import build_fitted
 from ..file.model import Counterweight, EngineFile, Shaft, Slider
 from .planes import KINDS, DeviceTable, name_kind
 

@@ -70,6 +70,7 @@ class Search(Result):
         refused: Message with an example of values for which the engine is impossible; empty if
             there are none.
         even_firing: Whether only arrangements that can fire evenly were considered.
+        start: Engine that was searched; None: the engine of `model`.
     """
 
     format: Literal["balcli.search/1"] = "balcli.search/1"
@@ -82,6 +83,7 @@ class Search(Result):
     constant: Annotated[bool, HIDDEN] = False
     refused: Annotated[str, HIDDEN] = ""
     even_firing: Annotated[bool, HIDDEN] = False
+    start: Annotated[Engine | None, HIDDEN] = None
 
     @property
     def at_ends(self) -> tuple[str, ...]:
@@ -117,7 +119,8 @@ class Search(Result):
         check_type("rank", rank, (int, np.integer), "give a whole number from 1")
         if not 1 <= rank <= len(self.results):
             raise IndexError(f"rank {rank}: there are {len(self.results)} results, from 1")
-        return vary_engine(build(self.model), list_changes(self.results[rank - 1].design))
+        start = build(self.model) if self.start is None else self.start
+        return vary_engine(start, list_changes(self.results[rank - 1].design))
 
 
 def search_arrangements(
@@ -343,7 +346,8 @@ def search(
         _join_goal(minimise), kept, maximise=_join_goal(maximise), with_gas=model.gas is not None
     )
     count = check_count("top", top, most=MOST_FOUND)
-    return search_arrangements(model, texts, objective, count, require is not None)
+    found = search_arrangements(model, texts, objective, count, require is not None)
+    return replace(found, start=engine)
 
 
 def _join_goal(goal: Words | Mapping[str, float] | None) -> str | None:
