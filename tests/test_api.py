@@ -1,0 +1,47 @@
+"""The public engine: its methods are the functions of the library, named like the commands."""
+
+import pickle
+
+import pytest
+
+import balcli
+from balcli.api import Engine
+from balcli.cli import COMMANDS
+
+# Commands that compute nothing for users of Python, or whose function has no engine.
+WITHOUT_FUNCTION = {"layouts", "report", "numbers", "new", "engines", "schema", "check", "bench"}
+WITHOUT_ENGINE = {"field", "tables"}
+FUNCTIONS = sorted(COMMANDS.keys() - WITHOUT_FUNCTION)
+
+
+@pytest.mark.parametrize("name", FUNCTIONS)
+def test_a_command_has_a_function_and_a_method_of_its_name(name):
+    """The method is the function, so that there is one signature and one documentation."""
+    function = getattr(balcli, name)
+    assert callable(function)
+    if name not in WITHOUT_ENGINE:
+        assert vars(Engine)[name] is function
+
+
+def test_a_method_gives_what_the_function_gives():
+    engine = balcli.load_example("i4")
+    assert engine.analyze([2]).to_dict() == balcli.analyze(engine, [2]).to_dict()
+    assert engine.sum(engine, phase_deg=90).to_dict() == balcli.sum(engine, engine, phase_deg=90).to_dict()
+
+
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda: balcli.load(balcli.load_example("i4").to_dict()),
+        lambda: balcli.load_example("i4").vary({"rod.length": 150}),
+        lambda: balcli.load_example("i4").at_speed(1000),
+        lambda: balcli.load_example("i3").balance("counterweights").after.engine,
+        lambda: balcli.load_example("i4").search("throws", "force.2.major").engine(1),
+        lambda: pickle.loads(pickle.dumps(balcli.load_example("i4"))),
+    ],
+    ids=["load", "vary", "at_speed", "balance", "search", "pickle"],
+)
+def test_engines_that_come_from_an_engine_have_the_methods(make):
+    engine = make()
+    assert isinstance(engine, balcli.Engine)
+    assert engine.analyze([1]).engine is engine
