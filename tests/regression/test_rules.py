@@ -7,7 +7,7 @@ from support.engines import GOOD, build_text, changed
 from support.gas_engines import PETROL_FOUR
 from support.paths import ENGINES, write
 
-from balcli.engine.load import load
+from balcli import load
 from balcli.errors import InputError
 from balcli.regression.rules import read_rules
 

@@ -6,9 +6,9 @@ from support.commands import ask, ask_json, run_here
 from support.engines import build_text
 from support.paths import ROOT, write
 
+from balcli import load
 from balcli.analysis.answer import analyze
 from balcli.balancing.answer import balance_engine, insert_remedy
-from balcli.engine.load import load
 from balcli.forces.crankshaft import find_crank_loads
 from balcli.forces.spectrum import compute_spectra
 from balcli.sizing.ladder import (
