@@ -15,7 +15,6 @@ from ..names import CHAPTER_LISTS, CHAPTERS, import_name
 from . import model
 from .fields import counted, nearest, printable, shorten
 from .table import FileTable, KeyDocument, document_keys
-from .units import read_rows
 
 if TYPE_CHECKING:
     from pydantic_core import ErrorDetails
@@ -169,14 +168,29 @@ def refuse_other_kind(head: Container[str], file: str, *wanted: FileKind) -> Non
 
 # Other words for keys, and the keys that they may mean; messages propose the first key in the list
 # that the table has.
-_SYNONYMS = """
-conrod connecting_rod = rod; rpm = speed; pin_offset = splay offset; pin_angles = throws
-crank_angles = throws; angles = throws banks; phase = throws angle; bore_spacing = spacing
-bank vee_angle = bank_angle; angle = bank_angle throws; diameter = bore; piston = piston_mass
-weight = mass piston_mass; order = firing_order; lambda = ratio; j = inertia throw_inertia
-k = stiffness throw_stiffness; file = indicator; radius = knuckle_radius
-"""
-SYNONYMS = {word: tuple(keys.split()) for word, keys in read_rows(_SYNONYMS).items()}
+SYNONYMS = {
+    "conrod": ("rod",),
+    "connecting_rod": ("rod",),
+    "rpm": ("speed",),
+    "pin_offset": ("splay", "offset"),
+    "pin_angles": ("throws",),
+    "crank_angles": ("throws",),
+    "angles": ("throws", "banks"),
+    "phase": ("throws", "angle"),
+    "bore_spacing": ("spacing",),
+    "bank": ("bank_angle",),
+    "vee_angle": ("bank_angle",),
+    "angle": ("bank_angle", "throws"),
+    "diameter": ("bore",),
+    "piston": ("piston_mass",),
+    "weight": ("mass", "piston_mass"),
+    "order": ("firing_order",),
+    "lambda": ("ratio",),
+    "j": ("inertia", "throw_inertia"),
+    "k": ("stiffness", "throw_stiffness"),
+    "file": ("indicator",),
+    "radius": ("knuckle_radius",),
+}
 _COUNT = (
     "the number of cylinders follows from throws and banks; give every throw its angle, such as "
     "crank.throws = [0, 180, 180, 0]"

@@ -14,7 +14,7 @@ from __future__ import annotations
 import math
 import re
 from collections import defaultdict
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from fractions import Fraction
 from functools import cache
 from typing import NamedTuple
@@ -47,49 +47,92 @@ K kelvin °C degC celsius °F degF fahrenheit = 1 of_another_kind
 A amp ampere V volt ohm mol mole cd candela = 1 of_another_kind
 """
 
-_AMBIGUOUS = """
-gr = g, or grain (65 mg)?; gm = g, or gigametre?; Mm = mm, or megametre?; MG = mg, or Mg (1000 kg)?
-NM = N m, or nanometre?; ton = t (1000 kg), or 2000 lb, or 2240 lb?; cwt = 100 lb, or 112 lb?
-barg = bar above the atmosphere? The absolute pressure is 1.01325 bar higher,
-psig = psi above the atmosphere? The absolute pressure is 14.696 psi higher,
-grad grade Grad = deg, or gon (0.9 deg)?; cycle = turn, or the two of a four-stroke engine?
-cpm = rpm, or cycles of two turns in a minute?; cal = 4.184 J, or 4.1868 J?
-kcal = 4184 J, or 4186.8 J?
-"""
-
-
-def read_rows(rows: str) -> dict[str, str]:
-    """Return the definitions of names in a table such as "metre meter = 1 m; yard = 3 ft"."""
-    parts = (row.split(" = ") for row in re.split(r"[;\n]", rows.strip()))
-    return {name: meaning for names, meaning in parts for name in names.split()}
-
-
-DEFINITIONS = read_rows(_DEFINED)
-AMBIGUOUS = read_rows(_AMBIGUOUS)
-
-_PREFIXES = (
-    "G giga 9, M mega 6, k kilo 3, h hecto 2, da deca deka 1, d deci -1, c centi -2, "
-    "m milli -3, µ μ u micro -6, n nano -9"
-)
-_SYMBOLS = "m g s rad N Pa bar J W Wh Hz Nm Ns Nms psi rpm"
-_WORDS = "metre meter gram gramme second radian newton pascal bar joule watt hertz"
-
-
-# "kPa" -> "1e3 Pa", "millimetre" -> "1e-3 metre"
-PREFIXED = {
-    prefix + unit: f"1e{power} {unit}"
-    for *prefixes, power in map(str.split, _PREFIXES.split(","))
-    for prefix in prefixes
-    for unit in (_SYMBOLS if len(prefix) < 3 else _WORDS).split()
+# Names with several meanings, and the question which of them is meant.
+AMBIGUOUS = {
+    "gr": "g, or grain (65 mg)?",
+    "gm": "g, or gigametre?",
+    "Mm": "mm, or megametre?",
+    "MG": "mg, or Mg (1000 kg)?",
+    "NM": "N m, or nanometre?",
+    "ton": "t (1000 kg), or 2000 lb, or 2240 lb?",
+    "cwt": "100 lb, or 112 lb?",
+    "barg": "bar above the atmosphere? The absolute pressure is 1.01325 bar higher,",
+    "psig": "psi above the atmosphere? The absolute pressure is 14.696 psi higher,",
+    "grad": "deg, or gon (0.9 deg)?",
+    "grade": "deg, or gon (0.9 deg)?",
+    "Grad": "deg, or gon (0.9 deg)?",
+    "cycle": "turn, or the two of a four-stroke engine?",
+    "cpm": "rpm, or cycles of two turns in a minute?",
+    "cal": "4.184 J, or 4.1868 J?",
+    "kcal": "4184 J, or 4186.8 J?",
 }
+
+
+def _read_definitions(rows: str) -> Iterator[tuple[str, str]]:
+    """Yield name and definition of each unit in rows such as "metre meter = 1 m; yard = 3 ft"."""
+    for row in re.split(r"[;\n]", rows.strip()):
+        names, definition = row.split(" = ")
+        for name in names.split():
+            yield name, definition
+
+
+DEFINITIONS = dict(_read_definitions(_DEFINED))
+
+# Powers of ten of prefixes: of symbols of units, and of their names.
+_PREFIXES = {
+    "G": 9,
+    "M": 6,
+    "k": 3,
+    "h": 2,
+    "da": 1,
+    "d": -1,
+    "c": -2,
+    "m": -3,
+    "µ": -6,  # micro sign
+    "μ": -6,  # Greek mu
+    "u": -6,
+    "n": -9,
+}
+_PREFIX_NAMES = {
+    "giga": 9,
+    "mega": 6,
+    "kilo": 3,
+    "hecto": 2,
+    "deca": 1,
+    "deka": 1,
+    "deci": -1,
+    "centi": -2,
+    "milli": -3,
+    "micro": -6,
+    "nano": -9,
+}
+# Units that take prefixes.
+_SYMBOLS = (
+    *("m", "g", "s", "rad", "N", "Pa", "bar", "J", "W", "Wh", "Hz"),
+    *("Nm", "Ns", "Nms", "psi", "rpm"),
+)
+_NAMES = (
+    *("metre", "meter", "gram", "gramme", "second", "radian", "newton", "pascal"),
+    *("bar", "joule", "watt", "hertz"),
+)
+
+
+def _add_prefixes(units: Iterable[str], prefixes: Mapping[str, int]) -> Iterator[tuple[str, str]]:
+    """Yield name and definition of each unit with each prefix: "kPa" and "1e3 Pa"."""
+    for prefix, power in prefixes.items():
+        for unit in units:
+            yield prefix + unit, f"1e{power} {unit}"
+
+
+PREFIXED = dict(_add_prefixes(_SYMBOLS, _PREFIXES)) | dict(_add_prefixes(_NAMES, _PREFIX_NAMES))
 
 
 def find_near_name(name: str) -> str:
     """Return the unit that was probably meant; empty if none is near."""
     from difflib import get_close_matches  # needed only after a mistake
 
-    usual = [prefix + unit for prefix in "mcMk" for unit in _SYMBOLS.split()]
-    units = (*usual, *_SYMBOLS.split(), *DEFINITIONS)
+    usual = [prefix + unit for prefix in "mcMk" for unit in _SYMBOLS]
+    units = (*usual, *_SYMBOLS, *DEFINITIONS)
     known = {unit.lower(): unit for unit in units if unit not in AMBIGUOUS}
     near = get_close_matches(name.lower(), known, 1, 0.75)
     return known[near[0]] if near else ""
@@ -188,15 +231,52 @@ _KINDS = (  # names of dimensions for messages; the first with the same exponent
 
 # Replacements for spellings that can mean only one thing
 _SIGNS = str.maketrans("−–º˚“”″⁄’", '--°°"""/\'')
-_CYRILLIC = dict(
-    pair.split(":")
-    for pair in """
-    мкм:um мм:mm Мм:Mm см:cm дм:dm м:m мг:mg г:g гр:gr кг:kg т:t мс:ms с:s сек:s мин:min ч:h
-    рад:rad град:deg об:turn Гц:Hz кГц:kHz Н:N кН:kN МН:MN Нм:Nm кНм:kNm кгм:kgm гмм:gmm гсм:gcm
-    кгс:kgf тс:tf ат:at атм:atm бар:bar Па:Pa кПа:kPa МПа:MPa ГПа:GPa
-    Дж:J кДж:kJ МДж:MJ Вт:W кВт:kW л:l
-    """.split()  # noqa: SIM905
-)
+_CYRILLIC = {
+    "мкм": "um",
+    "мм": "mm",
+    "Мм": "Mm",
+    "см": "cm",
+    "дм": "dm",
+    "м": "m",
+    "мг": "mg",
+    "г": "g",
+    "гр": "gr",
+    "кг": "kg",
+    "т": "t",
+    "мс": "ms",
+    "с": "s",
+    "сек": "s",
+    "мин": "min",
+    "ч": "h",
+    "рад": "rad",
+    "град": "deg",
+    "об": "turn",
+    "Гц": "Hz",
+    "кГц": "kHz",
+    "Н": "N",
+    "кН": "kN",
+    "МН": "MN",
+    "Нм": "Nm",
+    "кНм": "kNm",
+    "кгм": "kgm",
+    "гмм": "gmm",
+    "гсм": "gcm",
+    "кгс": "kgf",
+    "тс": "tf",
+    "ат": "at",
+    "атм": "atm",
+    "бар": "bar",
+    "Па": "Pa",
+    "кПа": "kPa",
+    "МПа": "MPa",
+    "ГПа": "GPa",
+    "Дж": "J",
+    "кДж": "kJ",
+    "МДж": "MJ",
+    "Вт": "W",
+    "кВт": "kW",
+    "л": "l",
+}
 FORTRAN = r"(?<=[\d.])[dD]([+-]?\d{1,3})(?![\d.])"  # the exponent of 1.5D3
 _SUPERSCRIPTS = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
 

@@ -19,32 +19,87 @@ LADDER = ("auto", "step")  # schemes that fit steps of the ladder
 KNUCKLES = "knuckles"  # fits no device, but changes the engine file (balcli.balancing.answer)
 FIT = "fit"  # fits the devices that the file leaves open (balcli.sizing.fit)
 
-# Name, options and meaning of each scheme.
-_SCHEMES = """
-auto | | orders 1 and 2: counterweights; shafts if they cancel much
-complete | | all of orders 1 and 2: counterweights, and even small shafts
-step | step | rows of the ladder that balance prints, by name or number
-counterweights | order planes | counterweights for the part of order 1 turning with the crank
-factor | factor measured planes | the shop's balance factor, with the bobweight card
-minimax | planes position orders | the counterweight that leaves the smallest peak force
-ellipse | direction ratio planes position | counterweight that gives order 1 a wanted \
-direction and shape
-single-shaft | order at position planes | one shaft against the crank; for order 1 also \
-counterweights
-two-shaft | order at position roll | two shafts turning against each other: force of one order
-four-shaft | at position | as two-shaft, with four shafts: forces of orders 1 and 2
-couple-shaft | order at planes | shafts with two opposite eccentrics: moment of one order
-compensator | order at position | masses far from the engine: vertical moment of one order
-slider | order at position | reciprocating masses along the axes of the force of one order
-eccentric-slider | design criterion radius | a pair of shafts of variable speed, for one cylinder
-oldham | radius | an Oldham coupling for orders 1 and 2 of one cylinder
-knuckles | even | knuckle angles for even dead centres or strokes (articulated)
-fit | target | the devices of the file that have unbalance = "fit"
-"""
-_ROWS = [[cell.strip() for cell in row.split("|")] for row in _SCHEMES.strip().splitlines()]
-MEANINGS = {name: meaning for name, _, meaning in _ROWS}
+
+class Scheme(NamedTuple):
+    """A balance scheme.
+
+    Attributes:
+        name: Name.
+        options: Names of the options that it takes, which are attributes of `SchemeOptions`.
+        meaning: Description in one line.
+    """
+
+    name: str
+    options: tuple[str, ...]
+    meaning: str
+
+
+_SCHEMES = (
+    Scheme("auto", (), "orders 1 and 2: counterweights; shafts if they cancel much"),
+    Scheme("complete", (), "all of orders 1 and 2: counterweights, and even small shafts"),
+    Scheme("step", ("step",), "rows of the ladder that balance prints, by name or number"),
+    Scheme(
+        "counterweights",
+        ("order", "planes"),
+        "counterweights for the part of order 1 turning with the crank",
+    ),
+    Scheme(
+        "factor",
+        ("factor", "measured", "planes"),
+        "the shop's balance factor, with the bobweight card",
+    ),
+    Scheme(
+        "minimax",
+        ("planes", "position", "orders"),
+        "the counterweight that leaves the smallest peak force",
+    ),
+    Scheme(
+        "ellipse",
+        ("direction", "ratio", "planes", "position"),
+        "counterweight that gives order 1 a wanted direction and shape",
+    ),
+    Scheme(
+        "single-shaft",
+        ("order", "at", "position", "planes"),
+        "one shaft against the crank; for order 1 also counterweights",
+    ),
+    Scheme(
+        "two-shaft",
+        ("order", "at", "position", "roll"),
+        "two shafts turning against each other: force of one order",
+    ),
+    Scheme(
+        "four-shaft",
+        ("at", "position"),
+        "as two-shaft, with four shafts: forces of orders 1 and 2",
+    ),
+    Scheme(
+        "couple-shaft",
+        ("order", "at", "planes"),
+        "shafts with two opposite eccentrics: moment of one order",
+    ),
+    Scheme(
+        "compensator",
+        ("order", "at", "position"),
+        "masses far from the engine: vertical moment of one order",
+    ),
+    Scheme(
+        "slider",
+        ("order", "at", "position"),
+        "reciprocating masses along the axes of the force of one order",
+    ),
+    Scheme(
+        "eccentric-slider",
+        ("design", "criterion", "radius"),
+        "a pair of shafts of variable speed, for one cylinder",
+    ),
+    Scheme("oldham", ("radius",), "an Oldham coupling for orders 1 and 2 of one cylinder"),
+    Scheme("knuckles", ("even",), "knuckle angles for even dead centres or strokes (articulated)"),
+    Scheme("fit", ("target",), 'the devices of the file that have unbalance = "fit"'),
+)
+MEANINGS = {scheme.name: scheme.meaning for scheme in _SCHEMES}
 NAMES = tuple(MEANINGS)
-OPTIONS = {name: tuple(options.split()) for name, options, _ in _ROWS}
+OPTIONS = {scheme.name: scheme.options for scheme in _SCHEMES}
 SCHEMES = {name: options for name, options in OPTIONS.items() if name not in (KNUCKLES, FIT)}
 
 # Type of number that each option takes, and words for a valid value.

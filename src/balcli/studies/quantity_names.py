@@ -24,57 +24,6 @@ MOUNTS = "mounts"
 TORSION = "torsion"
 _OF_VECTOR = "major, minor, forward, backward, axis (deg), x, y, x_cos, x_sin, y_cos, y_sin"
 _OF_SCALAR = "amplitude, cos, sin"
-# Columns: chapter, pattern, unit, table of the file that is needed, meaning.
-_TABLE = f"""
-engine   force.N.PART         N           free force: {_OF_VECTOR}
-engine   moment.N.PART        N·m         free moment: {_OF_VECTOR}
-engine   couple.N.PART        N·m         free couple of the rods: {_OF_SCALAR}
-engine   torque.N.PART        N·m         torque on the crank, gas included: {_OF_SCALAR}
-engine   roll.N.PART          N·m         roll of the block by inertia: {_OF_SCALAR}
-engine   gas.N.PART           N·m gas     torque of the gas: {_OF_SCALAR}
-engine   torque_total.N.PART  N·m gas     torque of gas and inertia: {_OF_SCALAR}
-engine   roll_total.N.PART    N·m gas     roll of the block, gas included: {_OF_SCALAR}
-engine   peak.force           N           largest free force over a revolution
-engine   peak.moment          N·m         largest free moment over a revolution
-guide    guide.N.H            N·m         H-type guide-force moment (rocks the block), gas included
-guide    guide.N.X            N·m         X-type guide-force moment (twists the block), gas included
-cycle    torque.mean          N·m gas     mean torque of the gas
-cycle    torque.max           N·m gas     largest torque over the cycle, at steady speed
-cycle    torque.min           N·m gas     smallest torque over the cycle, at steady speed
-cycle    fluctuation              gas     highest minus lowest speed, divided by the mean speed
-piston   piston.mean_speed         m/s         mean speed of piston 1
-piston   piston.max_speed          m/s         largest speed of piston 1, in either direction
-piston   piston.max_acceleration   m/s²         largest acceleration of piston 1 towards the crank
-piston   piston.stroke             m           true stroke of piston 1
-piston   piston.N.mean_speed       m/s         mean speed of piston N
-piston   piston.N.max_speed        m/s         largest speed of piston N, in either direction
-piston   piston.N.max_acceleration m/s²         largest acceleration of piston N towards the crank
-piston   piston.N.stroke           m           true stroke of piston N
-journals journal.N.range      N·m         highest minus lowest torque in main journal N, with gas
-journals journal.N.max        N·m         highest torque in main journal N, gas included
-journals journal.N.min        N·m         lowest torque in main journal N, gas included
-journals pin.N.range          N·m         highest minus lowest torque in the crank pin of throw N
-journals pin.N.max            N·m         highest torque in the crank pin of throw N
-journals pin.N.min            N·m         lowest torque in the crank pin of throw N
-mounts   mode.N.Hz            Hz  mount   natural frequency on the mounts
-mounts   mode.N.share         %   mount   largest share of one motion in the energy of the mode
-mounts   mode.N.damping       %   mount   damping ratio of the mode
-mounts   mode.MOTION.Hz       Hz  mount   natural frequency of the mode that has most of this motion
-mounts   mode.MOTION.share    %   mount   share of this motion in the energy of the mode that has \
-most of it
-mounts   mode.MOTION.damping  %   mount   damping ratio of the mode that has most of this motion
-mounts   mount.NAME.force     N   mount   largest force of a mount, at 1/8 to 1 times the \
-engine's speed
-mounts   mount.NAME.static    N   mount   force of a mount at rest, mean torque included
-mounts   point.NAME.motion    mm  mount   largest motion of a point, at 1/8 to 1 times the \
-engine's speed
-torsion  torsion.N.Hz         Hz  torsion torsional natural frequency of the crankshaft
-torsion  shaft.NAME.torque    N·m torsion largest vibratory torque of a shaft, at 0.5 to 1.5 \
-times the engine's speed
-torsion  shaft.NAME.stress    Pa  torsion largest vibratory stress of a shaft, at 0.5 to 1.5 \
-times the engine's speed
-"""
-_COLUMNS = re.compile(r"(\S+) +(\S+) +(.{3,4}?) (.{7}) (.+)")
 _PLACES = {"N": r"\d+(?:\.\d+)?", "MOTION": "(?:r?[xyz]|roll)", "NAME": ".+", "PART": ".+"}
 
 
@@ -112,7 +61,114 @@ class Form(NamedTuple):
         return re.fullmatch(r"\.".join(beginning), words) is not None
 
 
-FORMS = tuple(Form(*map(str.strip, row)) for row in _COLUMNS.findall(_TABLE))
+def _list_forms(chapter: str, table: str, *rows: tuple[str, str, str]) -> Iterator[Form]:
+    """Yield the quantities of a chapter that require the same table of the engine file.
+
+    Args:
+        chapter: Chapter that computes them.
+        table: Table of the engine file; empty if every engine has them.
+        rows: Pattern, SI unit and meaning of each.
+    """
+    for name, unit, meaning in rows:
+        yield Form(chapter, name, unit, table, meaning)
+
+
+FORMS = (
+    *_list_forms(
+        ENGINE,
+        "",
+        ("force.N.PART", "N", f"free force: {_OF_VECTOR}"),
+        ("moment.N.PART", "N·m", f"free moment: {_OF_VECTOR}"),
+        ("couple.N.PART", "N·m", f"free couple of the rods: {_OF_SCALAR}"),
+        ("torque.N.PART", "N·m", f"torque on the crank, gas included: {_OF_SCALAR}"),
+        ("roll.N.PART", "N·m", f"roll of the block by inertia: {_OF_SCALAR}"),
+    ),
+    *_list_forms(
+        ENGINE,
+        "gas",
+        ("gas.N.PART", "N·m", f"torque of the gas: {_OF_SCALAR}"),
+        ("torque_total.N.PART", "N·m", f"torque of gas and inertia: {_OF_SCALAR}"),
+        ("roll_total.N.PART", "N·m", f"roll of the block, gas included: {_OF_SCALAR}"),
+    ),
+    *_list_forms(
+        ENGINE,
+        "",
+        ("peak.force", "N", "largest free force over a revolution"),
+        ("peak.moment", "N·m", "largest free moment over a revolution"),
+    ),
+    *_list_forms(
+        GUIDE,
+        "",
+        ("guide.N.H", "N·m", "H-type guide-force moment (rocks the block), gas included"),
+        ("guide.N.X", "N·m", "X-type guide-force moment (twists the block), gas included"),
+    ),
+    *_list_forms(
+        CYCLE,
+        "gas",
+        ("torque.mean", "N·m", "mean torque of the gas"),
+        ("torque.max", "N·m", "largest torque over the cycle, at steady speed"),
+        ("torque.min", "N·m", "smallest torque over the cycle, at steady speed"),
+        ("fluctuation", "", "highest minus lowest speed, divided by the mean speed"),
+    ),
+    *_list_forms(
+        PISTON,
+        "",
+        ("piston.mean_speed", "m/s", "mean speed of piston 1"),
+        ("piston.max_speed", "m/s", "largest speed of piston 1, in either direction"),
+        ("piston.max_acceleration", "m/s²", "largest acceleration of piston 1 towards the crank"),
+        ("piston.stroke", "m", "true stroke of piston 1"),
+        ("piston.N.mean_speed", "m/s", "mean speed of piston N"),
+        ("piston.N.max_speed", "m/s", "largest speed of piston N, in either direction"),
+        ("piston.N.max_acceleration", "m/s²", "largest acceleration of piston N towards the crank"),
+        ("piston.N.stroke", "m", "true stroke of piston N"),
+    ),
+    *_list_forms(
+        JOURNALS,
+        "",
+        ("journal.N.range", "N·m", "highest minus lowest torque in main journal N, with gas"),
+        ("journal.N.max", "N·m", "highest torque in main journal N, gas included"),
+        ("journal.N.min", "N·m", "lowest torque in main journal N, gas included"),
+        ("pin.N.range", "N·m", "highest minus lowest torque in the crank pin of throw N"),
+        ("pin.N.max", "N·m", "highest torque in the crank pin of throw N"),
+        ("pin.N.min", "N·m", "lowest torque in the crank pin of throw N"),
+    ),
+    *_list_forms(
+        MOUNTS,
+        "mount",
+        ("mode.N.Hz", "Hz", "natural frequency on the mounts"),
+        ("mode.N.share", "%", "largest share of one motion in the energy of the mode"),
+        ("mode.N.damping", "%", "damping ratio of the mode"),
+        ("mode.MOTION.Hz", "Hz", "natural frequency of the mode that has most of this motion"),
+        (
+            "mode.MOTION.share",
+            "%",
+            "share of this motion in the energy of the mode that has most of it",
+        ),
+        ("mode.MOTION.damping", "%", "damping ratio of the mode that has most of this motion"),
+        ("mount.NAME.force", "N", "largest force of a mount, at 1/8 to 1 times the engine's speed"),
+        ("mount.NAME.static", "N", "force of a mount at rest, mean torque included"),
+        (
+            "point.NAME.motion",
+            "mm",
+            "largest motion of a point, at 1/8 to 1 times the engine's speed",
+        ),
+    ),
+    *_list_forms(
+        TORSION,
+        "torsion",
+        ("torsion.N.Hz", "Hz", "torsional natural frequency of the crankshaft"),
+        (
+            "shaft.NAME.torque",
+            "N·m",
+            "largest vibratory torque of a shaft, at 0.5 to 1.5 times the engine's speed",
+        ),
+        (
+            "shaft.NAME.stress",
+            "Pa",
+            "largest vibratory stress of a shaft, at 0.5 to 1.5 times the engine's speed",
+        ),
+    ),
+)
 BEGINNINGS = tuple(dict.fromkeys(form.beginning for form in FORMS))
 # Notes on quantities that are the largest value over a range of speeds, by the beginnings of names.
 _RANGES = {
