@@ -3,13 +3,16 @@
 import ast
 import inspect
 import pickle
+import re
 from collections.abc import Iterator
 from copy import copy
 from string import Formatter
-from typing import Any, get_type_hints
+from typing import Any
 
 import pytest
+import typer
 from support.paths import ROOT
+from typer.main import get_command
 
 import balcli
 from balcli.cli import MODULES
@@ -65,43 +68,89 @@ def test_errors_can_be_copied_and_pickled(renew: Any, error: BalcliError) -> Non
 
 
 # ------------------------------------------------------------------ all messages of the source
-def _list_templates() -> Iterator[tuple[str, ast.Call]]:
-    """The place and the call of every `ArgumentError(…)` and `Message(…)`."""
+def _list_trees() -> Iterator[tuple[str, ast.Module]]:
+    """The path of every module below `balcli`, and its syntax tree."""
     for file in sorted(SOURCE.rglob("*.py")):
-        for node in ast.walk(ast.parse(file.read_text("utf-8"))):
-            if isinstance(node, ast.Call) and getattr(node.func, "id", None) in ("ArgumentError", "Message"):
-                yield f"{file.relative_to(SOURCE)}:{node.lineno}", node
+        yield str(file.relative_to(SOURCE)), ast.parse(file.read_text("utf-8"))
 
 
-def _list_arguments() -> set[str]:
-    """The parameters of all public functions, and those of all commands that are options."""
-    names: set[str] = set()
-    for name in balcli.__all__:
-        public = getattr(balcli, name)
-        if inspect.isfunction(public):
-            names |= {*inspect.signature(public).parameters}
-        elif hasattr(public, "_fields"):  # SchemeOptions, Tools, Shapes: fields are options
-            names |= {*get_type_hints(public)}
-    for name, module in MODULES.items():
-        names |= {*inspect.signature(import_name(f"{module}:{name}")).parameters}
-    return names
+def _list_kinds(trees: list[tuple[str, ast.Module]]) -> set[str]:
+    """The names of classes whose first argument is a text with arguments in braces."""
+    kinds = {"ArgumentError", "Message"}
+    for _, tree in trees:
+        for node in ast.walk(tree):
+            if isinstance(node, ast.ClassDef) and "ArgumentError" in map(ast.unparse, node.bases):
+                kinds.add(node.name)
+    return kinds
 
 
-def test_every_name_in_braces_is_a_value_or_an_argument() -> None:
-    arguments = _list_arguments()
+def _list_texts() -> Iterator[tuple[str, ast.Call]]:
+    """The place and the call of every `ArgumentError(…)` and `Message(…)`."""
+    trees = list(_list_trees())
+    kinds = _list_kinds(trees)
+    for path, tree in trees:
+        for node in ast.walk(tree):
+            if path != "errors.py" and isinstance(node, ast.Call) and getattr(node.func, "id", None) in kinds:
+                yield f"{path}:{node.lineno}", node
+
+
+def _list_options(command: str) -> set[str]:
+    """All options of a command, as typed."""
+    app = typer.Typer()
+    app.command(command)(import_name(f"{MODULES[command]}:{command}"))
+    return {spelling for parameter in get_command(app).params for spelling in parameter.opts}
+
+
+def test_every_name_in_braces_is_a_value_or_an_option() -> None:
+    options = set().union(*map(_list_options, MODULES))
     wrong = []
     count = 0
-    for place, call in _list_templates():
-        if place.startswith("errors.py"):
-            continue  # where messages are built of messages
+    for place, call in _list_texts():
         text, *others = call.args
         if others or not isinstance(text, ast.Constant):
             wrong.append(f"{place}: the text is not a literal")
             continue
         values = {keyword.arg for keyword in call.keywords}
         fields = {field for _, field, _, _ in Formatter().parse(text.value) if field is not None}
-        wrong += [f"{place}: {{{field}}}" for field in fields - values - arguments]
+        wrong += [f"{place}: {{{field}}}" for field in fields - values if name_option(field) not in options]
         wrong += [f"{place}: {value} is not in the text" for value in values - fields]
         count += 1
     assert wrong == []
-    assert count > 40
+    assert count > 100
+
+
+@pytest.mark.parametrize("name", sorted(MODULES.keys() & {*balcli.__all__}))
+def test_arguments_have_the_names_of_options(name: str) -> None:
+    """Those with a default, but for objects that only Python has."""
+    objects = {"beside", "names", "options", "others", "shapes", "tools"}
+    parameters = inspect.signature(getattr(balcli, name)).parameters
+    optional = {key for key, parameter in parameters.items() if parameter.default is not parameter.empty}
+    assert {*map(name_option, optional - objects)} <= _list_options(name)
+
+
+@pytest.mark.parametrize("kind", [balcli.SchemeOptions, balcli.Tools, balcli.Shapes])
+def test_fields_have_the_names_of_options(kind: Any) -> None:
+    assert {*map(name_option, kind._fields)} <= _list_options("balance")
+
+
+# Modules that write what a command prints or asks; all others may name arguments only.
+OF_COMMANDS = ("cli", "commands", "shell/", "show/", "regression/", "analysis/options", "report/live")
+OF_TABLES = ("analysis/overview", "analysis/sections")
+OPTION = re.compile(r"(?<![\w-])--[a-z]")
+
+
+def _is_of_a_command(path: str) -> bool:
+    named = path.removesuffix(".py").endswith(("command", "show"))
+    return named or path.startswith((*OF_COMMANDS, *OF_TABLES))
+
+
+def test_no_message_below_the_commands_names_an_option() -> None:
+    wrong = []
+    for path, tree in _list_trees():
+        if _is_of_a_command(path):
+            continue
+        docstrings = {id(node.value) for node in ast.walk(tree) if isinstance(node, ast.Expr)}
+        for node in ast.walk(tree):
+            if isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in docstrings:
+                wrong += [f"{path}:{node.lineno}: {node.value}"] if OPTION.search(node.value) else []
+    assert wrong == []

@@ -35,7 +35,7 @@ ANSWERS: dict[str, tuple[Callable[[], Result], str]] = {
     "Analysis": (lambda: balcli.analyze(load("i3"), only=QUANTITIES), "analyze i3"),
     "Balance": (lambda: balcli.balance(load("i3"), "counterweights"), "balance i3 --scheme counterweights"),
     "Combined": (
-        lambda: balcli.sum(load("i3"), load("i4"), phase_deg=90, at_m=(0.3, 0, 0)),
+        lambda: balcli.sum(load("i3"), load("i4"), phase=90, at=(0.3, 0, 0)),
         "sum i3 i4 --phase 90 --at 300,0,0",
     ),
     "Comparison": (lambda: balcli.compare(load("i3"), load("i4")), "compare i3 i4"),

@@ -6,14 +6,14 @@ import math
 import os
 import re
 import sys
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from enum import IntEnum
 from functools import partial
 from itertools import islice
 from numbers import Real
 from os import PathLike
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, NamedTuple, Self, TypeVar
 
 from .limits import MOST_LIST_VALUES
 
@@ -136,14 +136,6 @@ def name_option(argument: str) -> str:
     return f"--{argument.rstrip('_').replace('_', '-')}"
 
 
-class Argument(str):
-    """Name of an argument, as a value of a `Message`."""
-
-    def tell(self, name_argument: NameArgument) -> str:
-        """Return the name that `name_argument` returns."""
-        return name_argument(str(self))
-
-
 class Message(str):
     """A text that names arguments. As a string, it has their names in Python: `damper_at`; a
     command prints the names of its options (`tell`): `--damper-at`.
@@ -151,8 +143,8 @@ class Message(str):
     Args:
         text: Text with fields in braces. A field whose name is none of `values` is the name of an
             argument.
-        values: Values of the other fields. Braces in them have no effect. Arguments, messages and
-            errors among them are told like the text itself.
+        values: Values of the other fields. Braces in them have no effect. Messages and errors
+            among them are told like the text itself.
 
     Example:
         >>> str(Message("{damper_at} {node!r}: choose from {nodes}", node="hub", nodes="a, b"))
@@ -162,7 +154,7 @@ class Message(str):
     text: str
     values: dict[str, object]
 
-    def __new__(cls, text: str, /, **values: object) -> Message:
+    def __new__(cls, text: str, /, **values: object) -> Self:
         message = super().__new__(cls, _fill(text, values, str))
         message.text = text
         message.values = values
@@ -174,6 +166,24 @@ class Message(str):
     def tell(self, name_argument: NameArgument) -> str:
         """Return the text with the names that `name_argument` returns for arguments."""
         return _fill(self.text, self.values, name_argument)
+
+
+class Argument(Message):
+    """Name of an argument, as a value of a message."""
+
+    def __new__(cls, name: str) -> Self:
+        return super().__new__(cls, f"{{{name}}}")
+
+    def __getnewargs_ex__(self) -> tuple[tuple[str], dict[str, Any]]:
+        return (str(self),), {}
+
+
+def join_messages(messages: Sequence[Message]) -> Message:
+    """Return one message with commas between the given ones."""
+    joined, *others = messages
+    for other in others:
+        joined = Message("{joined}, {other}", joined=joined, other=other)
+    return joined
 
 
 def tell(text: str, name_argument: NameArgument) -> str:
@@ -195,7 +205,7 @@ def _fill(text: str, values: dict[str, object], name_argument: NameArgument) -> 
     fields = _Fields(values)
     fields.name_argument = name_argument
     for name, value in values.items():
-        if isinstance(value, (Argument, Message, BalcliError)):
+        if isinstance(value, (Message, BalcliError)):
             fields[name] = value.tell(name_argument)
     return text.format_map(fields)
 
@@ -340,7 +350,7 @@ def refuse_more(name: str, values: object, most: int) -> None:
         most: Largest number of values.
 
     Raises:
-        ArgumentError: There are more than `most` values.
+        BalcliError: There are more than `most` values.
     """
     size = getattr(values, "size", None)
     try:
@@ -350,11 +360,7 @@ def refuse_more(name: str, values: object, most: int) -> None:
     except OverflowError:  # a range longer than memory
         count = most + 1
     if count > most:
-        raise ArgumentError(
-            "{argument}: has more than {most} values; give at most {most}",
-            argument=Argument(name),
-            most=most,
-        )
+        raise BalcliError(f"{name}: has more than {most} values; give at most {most}")
     if count and isinstance(values, (list, tuple)):
         refuse_more(name, values[0], most)
 
@@ -363,7 +369,7 @@ def list_values(name: str, values: Iterable[T], most: int = MOST_LIST_VALUES) ->
     """Return an iterable argument as a list; reading ends after `most` + 1 values.
 
     Raises:
-        ArgumentError: There are more than `most` values.
+        BalcliError: There are more than `most` values.
     """
     refuse_more(name, values, most)
     listed = list(islice(values, most + 1))

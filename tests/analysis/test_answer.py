@@ -152,7 +152,7 @@ def test_an_unknown_quantity():
 @pytest.mark.parametrize("name", ["v5", "vr6", "i4_shafts", "v8_crossplane", "radial5", "boxer4"])
 def test_cylinders_and_devices_sum_to_the_engine(name):
     e = example(name)
-    result = analyze(e, range(1, 9), only=KINDS, by_cylinder=True)
+    result = analyze(e, range(1, 9), only=KINDS, by="cylinder")
     assert [share.cylinder for share in result.cylinders] == sorted(e.numbers)
     nothing = np.zeros_like(e.cylinders.reciprocating)
     still = replace(e, cylinders=replace(e.cylinders, reciprocating=nothing, rotating=nothing, couple=nothing))

@@ -90,5 +90,5 @@ def test_orders_that_are_asked_for_are_there_balanced_or_not() -> None:
     kinds = ["force", "moment", "couple", "torque", "roll"]
     asked = compare(four, four, orders=[7], only=kinds).figures
     assert [(line.kind.name, line.order, line.values) for line in asked] == [(kind, 7, (0, 0)) for kind in kinds]
-    unasked = compare(four, four, only=kinds, whole=True).figures
+    unasked = compare(four, four, only=kinds, all=True).figures
     assert 7 not in {line.order for line in unasked}

@@ -66,7 +66,7 @@ def test_couples_of_single_cylinders():
 
 
 def test_strokes_and_reasons_as_rows():
-    result = analyze(build_text(RADIAL), only=["force"], orders=[1], reasons=True)
+    result = analyze(build_text(RADIAL), only=["force"], orders=[1], why=True)
     found = rows(result, "imperial")
     assert found[1, "travel", None, "stroke"] == (pytest.approx(0.12 / 0.0254), "in")
     assert found[3, "travel", None, "top_deg"][0] == pytest.approx(-found[6, "travel", None, "top_deg"][0])

@@ -10,7 +10,7 @@ from support.commands import ask_csv, ask_json, refusal, run_here
 from support.engines import GOOD, SINGLE, build_text, changed
 from support.paths import ENGINES, write
 
-from balcli.balancing.answer import balance_engine as balance
+from balcli.balancing.answer import balance
 from balcli.core.unbalance import STEEL, find_drill_depth
 from balcli.errors import BalcliError
 from balcli.file.model import Counterweight
@@ -128,7 +128,7 @@ def test_drill_depth_removes_the_unbalance():
 @pytest.mark.parametrize("name", ["radius", "thickness", "disc", "drill"])
 def test_lengths_of_tools_are_positive(name):
     for length in (0.0, -1e-3, math.inf, math.nan):
-        with pytest.raises(BalcliError, match=rf"^--{name}: .* mm; give figures above 0$"):
+        with pytest.raises(BalcliError, match=rf"^{name}: .* mm; give figures above 0$"):
             find_practical(engine(), Remedy(""), Tools(**{name: length}))
 
 

@@ -15,7 +15,7 @@ ONE = {
 
 def of_cylinder(**layout: object) -> Curves:
     engine = load(ONE | {"layout": {"firing_order": [1], **layout}})
-    return curves(engine, step_deg=15, cylinder=1)
+    return curves(engine, step=15, cylinder=1)
 
 
 def test_gas_does_the_same_in_a_cylinder_that_turns():

@@ -346,8 +346,8 @@ def test_runs_that_do_not_tell_are_refused(text, message):
 
 
 def test_planes_to_leave_out_must_be_there():
-    assert refused(three_runs(), without=["reer"]) == ('--without "reer" is not a plane; did you mean rear?')
-    assert refused(three_runs(), without=["rear", "front"]) == ("--without leaves no plane for a weight")
+    assert refused(three_runs(), without=["reer"]) == ('without "reer" is not a plane; did you mean rear?')
+    assert refused(three_runs(), without=["rear", "front"]) == ("without leaves no plane for a weight")
 
 
 def test_a_rotor_without_unbalance_needs_nothing():

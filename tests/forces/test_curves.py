@@ -102,7 +102,7 @@ def test_a_revolution_is_divided_from_0_without_360():
     assert divide_revolution(0.7)[-2:].tolist() == [359.1, 359.8]
     assert divide_revolution(1 / 3) == pytest.approx(np.arange(1080) / 3, abs=1e-12)
     assert divide_revolution(np.sqrt(2))[100] == pytest.approx(100 * np.sqrt(2), abs=1e-12)
-    with pytest.raises(BalcliError, match=r"--step 0: give 0.001 to 360 degrees"):
+    with pytest.raises(BalcliError, match=r"step 0: give 0.001 to 360 degrees"):
         divide_revolution(0)
 
 

@@ -114,13 +114,13 @@ def test_there_is_no_star_without_vectors():
 
 
 def test_in_the_answer():
-    """With `reasons`: orders 1 and 2, or those asked for; without the moment where only the force is wanted."""
+    """With `why`: orders 1 and 2, or those asked for; without the moment where only the force is wanted."""
     five = inline_engine(FIVE)
-    assert [star.order for star in analyze(five, reasons=True).stars] == [1, 1, 2, 2]
-    (ahead, _) = to_document(analyze(five, [2], "force", reasons=True))["stars"]
+    assert [star.order for star in analyze(five, why=True).stars] == [1, 1, 2, 2]
+    (ahead, _) = to_document(analyze(five, [2], "force", why=True))["stars"]
     assert set(ahead) == {"order", "turns", "force_N", "force_deg", "banks"}
     assert analyze(five).stars is None
-    assert analyze(five, only="moment", reasons=True).stars is None
+    assert analyze(five, only="moment", why=True).stars is None
 
 
 def arrows(ax):

@@ -94,7 +94,7 @@ def test_what_the_reasons_leave_out_is_said(more, left_out):
     assert told[0] == f"cylinders only: {left_out}"
     assert told[1:] == sentences([0, 180], orders=[1])
     text = BASE.format(throws=[0, 180], spacing=100) + more
-    assert analyze(build_text(text), [1], ["force"], reasons=True).to_dict()["why"]["scope"] == told[0]
+    assert analyze(build_text(text), [1], ["force"], why=True).to_dict()["why"]["scope"] == told[0]
 
 
 LAYOUTS = {

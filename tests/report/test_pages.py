@@ -19,7 +19,7 @@ from support.pictures import draw_page
 
 from balcli.analysis.answer import QUANTITIES, analyze
 from balcli.analysis.plot import draw_vector_bars, visible_rows
-from balcli.balancing.answer import balance_engine as balance
+from balcli.balancing.answer import balance
 from balcli.core.phasors import Phasors
 from balcli.forces.kinds import FORCE
 from balcli.report.names import OF_GAS, OF_PARTS, PAGES

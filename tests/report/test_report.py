@@ -14,7 +14,7 @@ from support.paths import ENGINES, write
 from support.pictures import without_pictures
 
 from balcli.analysis.answer import analyze
-from balcli.balancing.answer import balance_engine as balance
+from balcli.balancing.answer import balance
 from balcli.forces.kinds import KINDS
 from balcli.report.page import Answers, page
 from balcli.show.units import IMPERIAL, SI

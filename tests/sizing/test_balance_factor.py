@@ -132,7 +132,7 @@ def test_what_is_missing_is_told_where_the_counterweights_of_the_file_stand():
     assert chosen.devices == asked.devices
     assert [need.position_mm for need in chosen.needs] == [-228.6, 228.6]
     assert chosen.note == (
-        "the weights are in the planes of the file's counterweights; --planes throws computes "
+        "the weights are in the planes of the file's counterweights; planes throws computes "
         "weights for every throw instead"
     )
     assert asked.note == ""

@@ -138,7 +138,11 @@ def test_written_figures_stand_where_the_word_stood(tmp_path):
 def test_other_commands_name_the_device(tmp_path, command):
     (tmp_path / "e.toml").write_text(THREE + device("shaft", ratio=-1))
     status, _, err = run_here(command, tmp_path / "e.toml")
-    assert (status, 'shaft.1.unbalance is "fit": run balcli balance FILE --write OUT' in err) == (2, True)
+    assert (
+        status,
+        'shaft.1.unbalance is "fit": run balcli balance, which puts a figure in its place (--write names the new file)'
+        in err,
+    ) == (2, True)
 
 
 def test_what_does_not_go_together(tmp_path):

@@ -13,7 +13,7 @@ from support.engines import build_text
 from support.paths import ROOT, write
 
 from balcli import load
-from balcli.balancing.answer import balance, balance_engine, insert_remedy
+from balcli.balancing.answer import balance, insert_remedy
 from balcli.errors import BalcliError
 from balcli.forces.crankshaft import find_crank_loads
 from balcli.forces.spectrum import compute_spectra
@@ -110,7 +110,7 @@ def test_figures_are_those_of_rigid_bodies(name, auto, scale, steps, left_out):
 def test_devices_and_loads_of_a_balance(name, scheme, options, steps, devices, before, after, first_row):
     """And the engine that is written stands as drawn where the balance left it."""
     text = ENGINES[name]
-    result = balance_engine(build_text(text), scheme, SchemeOptions(**options))
+    result = balance(build_text(text), scheme, SchemeOptions(**options))
     remedy = result.remedy
     assert [*(remedy.steps or filter(None, [remedy.step]))] == steps
     found = [
@@ -138,7 +138,7 @@ def test_a_step_is_what_the_written_engine_does_as_drawn(seed):
     text = random_engine(seed)[0]
     engine = build_text(text)
     for k, step in enumerate(find_ladder(engine).steps[1:], 1):
-        remedy = balance_engine(engine, "step", SchemeOptions(step=str(k))).remedy
+        remedy = balance(engine, "step", SchemeOptions(step=str(k))).remedy
         assert remedy.step == step.step
         written = find_ladder(build_text(insert_remedy(text.encode(), remedy, "random"))).steps[0]
         agree(
@@ -215,7 +215,7 @@ def test_a_step_that_cannot_be_fitted(name, step, told):
 def test_small_lists_a_step_that_is_left_out(tmp_path):
     path = write(tmp_path / "radial.toml", ENGINES["radial7"])
     assert "--small 2% lists it" in refusal("balance", path, "--step", "shaft at -1")
-    remedy = balance_engine(build_text(ENGINES["radial7"]), "step", SchemeOptions(step=SHAFT, small=0.02)).remedy
+    remedy = balance(build_text(ENGINES["radial7"]), "step", SchemeOptions(step=SHAFT, small=0.02)).remedy
     assert {shaft.ratio for shaft in remedy.shafts} == {-1}
     for command in ("analyze", "balance", f"compare {path}", "plot -o x.svg", "report -o x.html"):
         assert "from 0 to 50%" in refusal(*command.split(), path, "--small", "60%")
@@ -243,7 +243,7 @@ def test_the_third_step_that_is_left_out_says_what_it_would_do(engine):
         ladder.fit(WEIGHTS_AT_THROWS)
     told = str(refused.value)
     assert ("would lower" if out.main_bearing_N > 0 else "would raise") in told
-    assert ("--small" in told) == (out.main_bearing_N > 0)
+    assert ("small" in told) == (out.main_bearing_N > 0)
 
 
 @pytest.mark.parametrize("small", [-0.01, 0.51, float("nan")])

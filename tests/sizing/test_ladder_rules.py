@@ -8,7 +8,7 @@ from support.paths import ROOT, write
 
 from balcli import load
 from balcli.analysis.answer import analyze
-from balcli.balancing.answer import balance_engine, insert_remedy
+from balcli.balancing.answer import balance, insert_remedy
 from balcli.forces.crankshaft import find_crank_loads
 from balcli.forces.spectrum import compute_spectra
 from balcli.sizing.ladder import (
@@ -303,11 +303,11 @@ def test_shafts_at_these_places_take_force_and_roll_of_order_2(name, reference):
     engine = build_text(text)
     at = find_ladder(engine).roll.shafts_at_mm
     places = tuple(complex(*at[ratio]) / 1e3 for ratio in ("-2", "+2"))
-    fitted = balance_engine(engine, "two-shaft", SchemeOptions(order=2, at=places)).after.engine
+    fitted = balance(engine, "two-shaft", SchemeOptions(order=2, at=places)).after.engine
     left, before = (compute_spectra(one, [2], ("force", "roll")) for one in (fitted, engine))
     assert left.force.major[0] < 1e-9 * before.force.major[0]
     assert left.roll.major[0] < 1e-9 * before.roll.major[0]
-    details = balance_engine(engine, "two-shaft", SchemeOptions(order=2, roll="zero")).remedy.details
+    details = balance(engine, "two-shaft", SchemeOptions(order=2, roll="zero")).remedy.details
     assert details["order_2"]["distance_mm"] == pytest.approx(1e3 * abs(places[0] - places[1]))
 
 
@@ -316,7 +316,7 @@ def test_only_the_distance_along_the_force_counts():
     engine = load(I4)
     against, with_crank = (complex(*find_ladder(engine).roll.shafts_at_mm[key]) / 1e3 for key in ("-2", "+2"))
     sides = against + 0.05j - 0.02, with_crank - 0.05j - 0.02
-    left = balance_engine(engine, "two-shaft", SchemeOptions(order=2, at=sides)).after.engine
+    left = balance(engine, "two-shaft", SchemeOptions(order=2, at=sides)).after.engine
     assert compute_spectra(left, [2], ("roll",)).roll.major[0] < 1e-6
     told = " ".join(ask("balance", I4, "--scheme", "two-shaft", "--order", "2", "--roll", "zero").split())
     assert "138 mm apart along the force; only this distance counts" in told

@@ -51,7 +51,7 @@ def test_minimax_in_several_planes_takes_the_moment_too():
     )
     after = compute_spectra(fit_devices(engine, several), [1], ("moment",)).moment
     assert abs(after.forward[0]) <= 1e-13 * abs(after.backward[0])
-    with pytest.raises(BalcliError, match="--planes: one plane, or planes at the same z, cannot take a moment; choose"):
+    with pytest.raises(BalcliError, match="planes: one plane, or planes at the same z, cannot take a moment; choose"):
         size_scheme(engine, "minimax", planes=(0.1,))
 
 

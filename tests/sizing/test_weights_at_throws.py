@@ -86,7 +86,7 @@ def test_loads_before_and_after_are_printed(tmp_path):
 
 def test_weights_at_throws_need_known_positions():
     unknown = build_text(FOUR.replace("spacing = 94\n", ""))
-    with pytest.raises(BalcliError, match="--planes throws: moments are not known"):
+    with pytest.raises(BalcliError, match="planes throws: moments are not known"):
         size(unknown, "counterweights", AT_THROWS)
 
 

@@ -305,7 +305,7 @@ def test_a_microgram_beside_a_million_tonnes():
     found = compute_spectra(both, [1, 2, 4])
     a = closed_form.piston([1, 2, 4], 0.25)
     assert found.force.major == pytest.approx(1e9 * REVOLVING * np.abs(a), rel=1e-14)
-    own = {c.cylinder: c.spectra for c in analyze(both, [1, 2, 4], by_cylinder=True, only=["force"]).cylinders}
+    own = {c.cylinder: c.spectra for c in analyze(both, [1, 2, 4], by="cylinder", only=["force"]).cylinders}
     assert own[1].force.major == pytest.approx(1e-9 * REVOLVING * np.abs(a), rel=1e-14)
 
 

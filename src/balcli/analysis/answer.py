@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass, replace
+from types import NoneType
 from typing import Annotated, Literal
 
 from ..core.cylinders import find_travel
 from ..core.phasors import Array
 from ..core.records import HIDDEN, INLINE, WrittenAs
 from ..engine.engine import Engine, check_engine, refuse_geared, take_model
-from ..errors import BalcliError, check_number, check_type, list_words
+from ..errors import ArgumentError, BalcliError, check_number, check_type, list_words
 from ..file.assumed import Assumed
 from ..forces.crankshaft import InnerLoads, add_gas_loads, compute_inner_loads
 from ..forces.guide import GuideMoments, compute_guide_moments
@@ -189,9 +190,9 @@ def analyze(
     engine: Engine,
     orders: Iterable[float] | None = None,
     only: str | Collection[str] | None = None,
-    by_cylinder: bool = False,
-    reasons: bool = False,
-    guide_height_m: float | None = None,
+    by: Literal["cylinder"] | None = None,
+    why: bool = False,
+    guide_height: float | None = None,
     beside: Collection[Engine] = (),
     small: float = SMALL,
 ) -> Analysis:
@@ -205,9 +206,9 @@ def analyze(
         only: Any of force, moment, couple, torque, roll, peak, sizing, ladder, inner, guide,
             journals, masses, parts, pru (power related unbalance) and gas, as a list or a text with
             commas; default: the first six (force to peak), and gas if the engine has gas.
-        by_cylinder: Whether to compute the phasors of each single cylinder as well.
-        reasons: Whether to find out why each order is balanced or not, and to compute phasor stars.
-        guide_height_m: Distance from the crankshaft to the middle of the guides, m, for the X-type
+        by: "cylinder": compute the phasors of each single cylinder as well.
+        why: Whether to find out why each order is balanced or not, and to compute phasor stars.
+        guide_height: Distance from the crankshaft to the middle of the guides, m, for the X-type
             guide moment; default: the length of each rod.
         beside: Other engines with which the result is to be compared. `orders` may contain half
             orders if `engine` or one of these engines has half orders.
@@ -215,22 +216,24 @@ def analyze(
             moment below this share unbalanced.
 
     Raises:
-        BalcliError: A quantity is unknown, an order is negative or above 4096, `by_cylinder` would
-            give too many results, `guide_height_m` is not above 0, or `small` is not 0 to 0.5.
+        BalcliError: A quantity is unknown, an order is negative or above 4096, single cylinders
+            would give too many results, `guide_height` is not above 0, or `small` is not 0 to 0.5.
         TypeError: An argument has the wrong type.
 
     Example:
         >>> analyze(load("v8.toml"), orders=[1, 2]).spectra.moment.major
     """
     wanted = _choose_quantities(check_engine("analyze", engine), only)
-    _check_height(guide_height_m)
+    _check_height(guide_height)
     check_small(check_number("small", small, "give a share, such as 0.05"))
-    check_type("by_cylinder", by_cylinder, bool, "give True or False")
-    check_type("reasons", reasons, bool, "give True or False")
+    check_type("by", by, (str, NoneType), 'give "cylinder"')
+    if by not in (None, "cylinder"):
+        raise ArgumentError('{by} {other!r}: give "cylinder"', other=by)
+    check_type("why", why, bool, "give True or False")
     check_type("beside", beside, Collection, "give engines, such as [engine]")
     for one in beside:
         check_engine("analyze", one)
-    if reasons or not wanted.isdisjoint(_OF_ONE_CRANK):
+    if why or not wanted.isdisjoint(_OF_ONE_CRANK):
         refuse_geared(engine)
     asked = None if orders is None else check_orders(orders, [engine, *beside])
     shown = wanted.intersection(EVERY_KIND)
@@ -260,12 +263,12 @@ def analyze(
         peak=find_peaks(everything) if peaked else None,
         sizing=_size(engine, ladder, asked, wanted) if ladder and "sizing" in wanted else None,
         ladder=ladder if "ladder" in wanted else None,
-        cylinders=_analyze_cylinders(engine, visible.orders, shown) if by_cylinder else None,
+        cylinders=_analyze_cylinders(engine, visible.orders, shown) if by else None,
         inner=find_inner_loads(engine, asked) if "inner" in wanted else None,
-        guide=compute_guide_moments(engine, asked, guide_height_m) if "guide" in wanted else None,
+        guide=compute_guide_moments(engine, asked, guide_height) if "guide" in wanted else None,
         travel=list_strokes(engine) if has_linkage else None,
-        why=explain_symmetry(engine, visible.orders, provable) if reasons else None,
-        stars=_find_stars(engine, due, shown) if reasons else None,
+        why=explain_symmetry(engine, visible.orders, provable) if why else None,
+        stars=_find_stars(engine, due, shown) if why else None,
         small=small,
         power_related_unbalance=relate_to_power(engine) if "pru" in wanted else None,
         journals=find_journals(engine) if "journals" in wanted else None,
@@ -274,13 +277,15 @@ def analyze(
     )
 
 
-def _check_height(guide_height_m: float | None) -> None:
-    wanted = "give a length in m, such as 0.6"
-    if guide_height_m is not None and not (
-        0 < check_number("guide_height_m", guide_height_m, wanted) < HIGHEST_GUIDE_M
-    ):
-        raise BalcliError(
-            f"guide_height_m {guide_height_m:g}: give a height above 0, below {HIGHEST_GUIDE_M:g} m"
+def _check_height(guide_height: float | None) -> None:
+    if guide_height is None:
+        return
+    height_m = check_number("guide_height", guide_height, "give a length in m, such as 0.6")
+    if not 0 < height_m < HIGHEST_GUIDE_M:
+        raise ArgumentError(
+            "{guide_height} {height:g}: give a height above 0, below {highest:g} m",
+            height=height_m,
+            highest=HIGHEST_GUIDE_M,
         )
 
 

@@ -142,8 +142,8 @@ def _ask(asked: Request, engine: Engine, for_people: bool) -> Callable[..., Anal
     return partial(
         analyze,
         only=wanted,
-        by_cylinder=asked.by_cylinder,
-        reasons=asked.why,
-        guide_height_m=asked.height_m,
+        by=asked.by,
+        why=asked.why,
+        guide_height=asked.height_m,
         small=asked.small,
     )

@@ -77,7 +77,7 @@ def analyze(
         parse_orders(orders),
         *parse_parts(only),
         whole,
-        by is not None,
+        by,
         why,
         parse_guide_height(guide_height, units),
         tuple(misfire or ()),
@@ -119,7 +119,7 @@ def compare(
     names = name_engines([engine.name for engine in engines], paths)
     least = parse_small(small)
     found = compare_engines(
-        *engines, names=names, orders=asked, only=chosen, whole=whole, small=least
+        *engines, names=names, orders=asked, only=chosen, all=whole, small=least
     )
     show([found], RENDERER, form, output, units)
 

@@ -248,7 +248,7 @@ def compare(
     names: Sequence[str] | None = None,
     orders: Iterable[float] | None = None,
     only: str | Collection[str] | None = None,
-    whole: bool = False,
+    all: bool = False,  # noqa: A002 - the name of the option
     small: float = SMALL,
 ) -> Comparison:
     """Compare engines side by side: free forces and moments by order, peaks, and their ratios to
@@ -261,7 +261,7 @@ def compare(
         orders: Orders to show; default: all orders that `analyze` shows for at least one engine.
         only: Any of force, moment, couple, torque, roll, peak, sizing, ladder, inner, guide, gas;
             default: the first six (force to peak), and gas if all engines have gas.
-        whole: Whether tables show negligible orders as well; if `orders` is given, they always do.
+        all: Whether tables show negligible orders as well; if `orders` is given, they always do.
         small: Share of one cylinder's first order. Ladder and sizing leave a rotating force or
             moment below this share unbalanced.
 
@@ -288,7 +288,8 @@ def compare(
     if len(checked) < 2:
         raise BalcliError("compare needs at least two engine files")
     wanted = set(UNASKED) if only is None else set(list_words("only", only))
-    if only is None and all(engine.gas is not None for engine in checked):
+    without_gas = [engine for engine in checked if engine.gas is None]
+    if only is None and not without_gas:
         wanted.add(GAS.name)
     ask = partial(analyze, only=wanted, beside=checked, small=small)
     analyses = analyze_alike(checked, orders, ask)
@@ -299,7 +300,7 @@ def compare(
         figures=list_lines(analyses, every_order=orders is not None),
         ladders=tuple(one.ladder for one in analyses if one.ladder is not None) or None,
         compared=tuple(checked),
-        whole=whole or orders is not None,
+        whole=all or orders is not None,
     )
 
 

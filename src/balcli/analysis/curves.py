@@ -14,7 +14,7 @@ import numpy as np
 from ..core.phasors import EPS, Array, Complex, compose, unit
 from ..core.records import HIDDEN
 from ..engine.engine import CylinderNumber, Engine, Placed, check_engine, find_crank
-from ..errors import BalcliError, check_number
+from ..errors import ArgumentError, check_number
 from ..file.assumed import Assumed
 from ..forces.curves import (
     EngineMotion,
@@ -43,7 +43,7 @@ from ..forces.spectrum import (
     compute_spectra,
     take_gas,
 )
-from ..shell.arguments import check_count, tell_arguments
+from ..shell.arguments import check_count
 from ..show.formats import Columnar, Columns, Rows
 from ..show.result import Result
 
@@ -312,10 +312,9 @@ def _settle(values: Array, most: float | None = None) -> Array:
     return np.where(np.abs(values) <= _ROUNDING * largest, 0.0, values)
 
 
-@tell_arguments(step="step_deg")
 def curves(
     engine: Engine,
-    step_deg: float = 1.0,
+    step: float = 1.0,
     *,
     cylinder: int | str | None = None,
     orders: Iterable[float] | None = None,
@@ -325,7 +324,7 @@ def curves(
 
     Args:
         engine: Engine from `load`.
-        step_deg: Step of the crank angle, which runs from 0 over a revolution, or with gas over a
+        step: Step of the crank angle, deg, which runs from 0 over a revolution, or with gas over a
             cycle.
         cylinder: Number of a cylinder; for geared engines after the engine's name, as in "upper.3".
             Then the travel, velocity and acceleration of its piston and the angle of its rod are
@@ -346,11 +345,11 @@ def curves(
         >>> curves(load("i4.toml"), 10).to_pandas()
     """
     engine = check_engine("curves", engine)
-    step = check_number("step_deg", step_deg, "give a step in degrees")
+    step_deg = check_number("step", step, "give a step in degrees")
     number = cylinder
     if cylinder is not None and not isinstance(cylinder, str):
         number = check_count("cylinder", cylinder)
-    return compute_curves_by_step(engine, number, step, orders)
+    return compute_curves_by_step(engine, number, step_deg, orders)
 
 
 def compute_curves_by_step(
@@ -370,7 +369,7 @@ def compute_curves_by_step(
     crank_deg = divide_revolution(step_deg, engine.cycle_revolutions)
     if orders is not None:
         if cylinder is not None:
-            raise BalcliError("--orders needs the whole engine; leave --cylinder out")
+            raise ArgumentError("{orders} needs the whole engine; leave {cylinder} out")
         found = compute_order_curves(engine, orders, crank_deg)
     elif cylinder is not None:
         found = compute_cylinder_curves(engine, cylinder, crank_deg)

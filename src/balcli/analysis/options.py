@@ -51,7 +51,7 @@ class Request(NamedTuple):
         quantities: Quantities to compute; None: the default quantities of each engine.
         parts: Words of `--only`; empty if it is not given.
         whole: Whether every table and every order is shown.
-        by_cylinder: Whether forces and moments of each single cylinder are shown.
+        by: "cylinder": forces and moments of each single cylinder are shown; None: they are not.
         why: Whether to show why orders are balanced or not, and phasor stars.
         height_m: Distance from the crankshaft to the middle of the guides; None: each rod's length.
         misfires: Numbers of the cylinders without gas.
@@ -65,7 +65,7 @@ class Request(NamedTuple):
     quantities: list[str] | None
     parts: frozenset[str]
     whole: bool
-    by_cylinder: bool
+    by: Literal["cylinder"] | None
     why: bool
     height_m: float | None
     misfires: tuple[str, ...]
@@ -83,7 +83,7 @@ class Request(NamedTuple):
         Raises:
             BalcliError: Two options exclude each other.
         """
-        given = {"--by": self.by_cylinder}
+        given = {"--by": self.by is not None}
         if self.marine:
             given |= {"--only": bool(self.parts), "--why": self.why}
         elif self.over_speed:

@@ -216,7 +216,7 @@ def find_marine_sheet(
     words = ["force", "moment", "guide", torque.name]
     if engine.gas is not None or (engine.rated and engine.rated.power_W):
         words.append("pru")
-    ask = partial(analyze, only=words, guide_height_m=guide_height_m)
+    ask = partial(analyze, only=words, guide_height=guide_height_m)
     speeds = [float(speed) for speed in speeds_rpm] or [float(engine.speed_rpm)]
     found = analyze_alike([engine.at_speed(speed) for speed in speeds], orders, ask)
     guide = found[0].guide

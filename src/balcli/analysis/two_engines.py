@@ -12,13 +12,13 @@ from typing import TYPE_CHECKING, Annotated, Literal, get_args
 from ..core.records import HIDDEN, INLINE, WrittenAs
 from ..engine.engine import Engine, Placed, check_engine, place_in_mm, refuse_geared
 from ..engine.placed import gear_engines
-from ..errors import BalcliError, check_number, check_type
+from ..errors import Argument, ArgumentError, check_number, check_type
 from ..file.assumed import Assumed, join_assumed
 from ..file.edit import format_value
 from ..file.fields import counted
 from ..forces.spectrum import Spectra
 from ..limits import FARTHEST_DEG, FARTHEST_M
-from ..shell.arguments import read_position, tell_arguments
+from ..shell.arguments import read_position
 from ..show.engine_facts import tell_pivot, tell_place, tell_reference, tell_speed
 from ..show.figures import (
     EngineSize,
@@ -88,18 +88,29 @@ class Arrangement:
     load: str = "first"
 
     def __post_init__(self) -> None:
-        """Raise BalcliError for a value that is infinite or too large, an unknown load, or a load
+        """Raise ArgumentError for a value that is infinite or too large, an unknown load, or a load
         that makes no difference.
         """
-        for option, value in (("phase", self.phase_deg), ("turn", self.turn_deg)):
+        for argument, value in (("phase", self.phase_deg), ("turn", self.turn_deg)):
             if not abs(value) <= FARTHEST_DEG:
-                raise BalcliError(f"--{option} {value:g}: give up to {FARTHEST_DEG:g} degrees")
+                raise ArgumentError(
+                    "{argument} {value:g}: give up to {farthest:g} degrees",
+                    argument=Argument(argument),
+                    value=value,
+                    farthest=FARTHEST_DEG,
+                )
         if not all(abs(value) <= FARTHEST_M for value in self.at_m):
-            raise BalcliError(f"--at: give a place up to {FARTHEST_M:g} m away")
+            raise ArgumentError("{at}: give a place up to {farthest:g} m away", farthest=FARTHEST_M)
         if self.load not in LOADS:
-            raise BalcliError(f'--load "{self.load[:60]}": choose from {", ".join(LOADS)}')
+            raise ArgumentError(
+                '{load} "{crank}": choose from {known}',
+                crank=self.load[:60],
+                known=", ".join(LOADS),
+            )
         if self.load != "first" and not self.reverse:
-            raise BalcliError(f"--load {self.load}: makes a difference only with --reverse")
+            raise ArgumentError(
+                "{load} {crank}: makes a difference only with {reverse}", crank=self.load
+            )
 
     def place(self, first: Engine, second: Engine) -> tuple[Placed, Placed]:
         """Return both engines with their positions, phases and loads."""
@@ -186,14 +197,13 @@ def combine_engines(
     )
 
 
-@tell_arguments(phase="phase_deg", at="at_m", turn="turn_deg")
 def sum(  # noqa: A001 - the name of the command
     first: Engine,
     second: Engine,
     *,
-    phase_deg: float = 0.0,
-    at_m: Iterable[float] = (0.0, 0.0, 0.0),
-    turn_deg: float = 0.0,
+    phase: float = 0.0,
+    at: Iterable[float] = (0.0, 0.0, 0.0),
+    turn: float = 0.0,
     reverse: bool = False,
     load: Load = "first",
     orders: Iterable[float] | None = None,
@@ -203,10 +213,10 @@ def sum(  # noqa: A001 - the name of the command
     Args:
         first: Engine from `load`; both engines run at the speed of this one.
         second: Engine from `load`.
-        phase_deg: Crank angle by which the second engine leads, in its own direction of
+        phase: Crank angle by which the second engine leads, deg, in its own direction of
             rotation; with gas in a four-stroke engine up to two revolutions.
-        at_m: Position x, y, z of the second engine's origin in the axes of the first, m.
-        turn_deg: Angle by which the second engine is turned about z.
+        at: Position x, y, z of the second engine's origin in the axes of the first, m.
+        turn: Angle by which the second engine is turned about z, deg.
         reverse: Whether the second crank turns against the first.
         load: "first", "second" or "both": with `reverse`, the crank that has flywheel and load.
         orders: Orders to show; default: as in `analyze`.
@@ -220,15 +230,15 @@ def sum(  # noqa: A001 - the name of the command
         TypeError: An argument has a wrong type.
 
     Example:
-        >>> sum(load("i4.toml"), load("i4.toml"), phase_deg=90, at_m=(0.3, 0, 0)).peak.force
+        >>> sum(load("i4.toml"), load("i4.toml"), phase=90, at=(0.3, 0, 0)).peak.force
     """
     checked = check_engine("sum", first), check_engine("sum", second)
-    phase = check_number("phase_deg", phase_deg, "give an angle in degrees")
-    turn = check_number("turn_deg", turn_deg, "give an angle in degrees")
+    phase_deg = check_number("phase", phase, "give an angle in degrees")
+    turn_deg = check_number("turn", turn, "give an angle in degrees")
     check_type("reverse", reverse, bool, "give True or False")
     check_type("load", load, str, "give first, second or both")
-    place = read_position("at_m", at_m)
-    return combine_engines(*checked, Arrangement(phase, place, turn, reverse, load), orders)
+    arrangement = Arrangement(phase_deg, read_position("at", at), turn_deg, reverse, load)
+    return combine_engines(*checked, arrangement, orders)
 
 
 def describe_file(
@@ -261,7 +271,11 @@ def _name_beside(path: str, target: Path) -> str:
     """Return the path of an engine file relative to the folder of `target`."""
     home, place = target.parent.resolve(), Path(path).resolve()
     if path == "-" or not place.is_relative_to(home):
-        raise BalcliError(f"--write {target}: {path} is not in the folder of {target} or below")
+        raise ArgumentError(
+            "{write} {target}: {path} is not in the folder of {target} or below",
+            target=target,
+            path=path,
+        )
     return place.relative_to(home).as_posix()
 
 

@@ -29,13 +29,12 @@ from ..engine.engine import CylinderNumber, Engine, check_engine, refuse_geared
 from ..engine.layout import plan_cylinders
 from ..engine.parse import parse
 from ..engine.parts import Parts
-from ..errors import BalcliError, InputError, check_type, list_values
+from ..errors import ArgumentError, BalcliError, InputError, check_type, list_values
 from ..file.assumed import Assumed
 from ..file.edit import format_value, remove_tables, rewrite, set_keys
 from ..file.model import EngineFile, Sector
 from ..forces.crankshaft import find_crank_loads
 from ..limits import SMALL
-from ..shell.arguments import tell_arguments
 from ..show.result import Result
 from ..sizing.fit import list_to_fit, size_fit
 from ..sizing.ladder import Ladder, find_ladder
@@ -155,7 +154,7 @@ class Balance(Result):
         return f"{self.remedy.scheme}: {devices} for {self.before.engine.summary}"
 
 
-def balance_engine(
+def balance(
     engine: Engine,
     scheme: str = "auto",
     options: SchemeOptions | None = None,
@@ -220,8 +219,8 @@ def balance_fit(
         engine: Engine without these devices (`sizing.fit.remove_to_fit`).
         model: Engine file with these devices.
         targets: Quantities to cancel: "force", "moment", "roll" or "roll_total".
-        orders: Orders to show, as in `balance_engine`.
-        tools: Tools of the workshop, as in `balance_engine`.
+        orders: Orders to show, as in `balance`.
+        tools: Tools of the workshop, as in `balance`.
         small: Share of one cylinder's first order; the ladder cancels no force or moment below
             this share.
 
@@ -293,22 +292,22 @@ def permit_unbalance(
     if grade is None and mass is None:
         return None
     if grade is None or mass is None:
-        raise BalcliError("--grade and --mass belong together: give the mass of the crankshaft, kg")
+        raise ArgumentError(
+            "{grade} and {mass} belong together: give the mass of the crankshaft, kg"
+        )
     if not (0 < grade < math.inf and 0 < mass < math.inf):
-        raise BalcliError(f"--grade {grade:g} --mass {mass:g}: both must be positive numbers")
+        raise ArgumentError(
+            "{grade} {speed_mm_s:g} {mass} {mass_kg:g}: both must be positive numbers",
+            speed_mm_s=grade,
+            mass_kg=mass,
+        )
     count = len(remedy.needs or remedy.counterweights)
     if not count:
-        raise BalcliError(f"--grade is for counterweights, and scheme {remedy.scheme} fits none")
+        raise ArgumentError(
+            "{grade} is for counterweights, and scheme {name} fits none", name=remedy.scheme
+        )
     whole = find_permitted_unbalance(grade, mass, speed_rpm)
     return PermittedUnbalance(grade=grade, mass_kg=mass, each_g_mm=whole / count)
-
-
-# Options of the command line are fields of `SchemeOptions` and `Tools`.
-balance = tell_arguments(
-    **{name: name for kind in (SchemeOptions, Tools, Shapes) for name in kind._fields}
-)(balance_engine)
-balance.__name__ = balance.__qualname__ = "balance"
-balance.__module__ = __name__  # where pickle finds it
 
 
 _STEP_DEG = 1e-3  # step of the difference quotient in Newton's method
@@ -335,7 +334,7 @@ def balance_knuckles(
         goal: "dead-centres": at top dead centre of every piston, the crank pin has the same angle
             to the axis of this piston's bank. "strokes": every piston has the stroke of the master
             piston. (Both at once would need a different radius for each pin.)
-        orders: Orders to show, as in `balance_engine`.
+        orders: Orders to show, as in `balance`.
         speed_rpm: Speed of the engine; None: that of the file.
 
     Raises:
@@ -343,7 +342,9 @@ def balance_knuckles(
         InputError: The engine cannot be built.
     """
     if goal not in _GOALS:
-        raise BalcliError(f'--even "{goal:.60}": choose from {", ".join(_GOALS)}')
+        raise ArgumentError(
+            '{even} "{goal:.60}": choose from {goals}', goal=goal, goals=", ".join(_GOALS)
+        )
     engine = build(model)
     engine = engine if speed_rpm is None else engine.at_speed(speed_rpm)
     angles_deg, reasons = _even_knuckles(engine, model, goal)

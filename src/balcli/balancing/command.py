@@ -319,7 +319,7 @@ def balance(
         if scheme == KNUCKLES:
             goal = even or "dead-centres"
             return answer.balance_knuckles(model, goal, asked, float(engine.speed_rpm))
-        return answer.balance_engine(engine, scheme, options, asked, tools, shapes)
+        return answer.balance(engine, scheme, options, asked, tools, shapes)
 
     misfit = None
     try:

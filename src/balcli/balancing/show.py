@@ -22,7 +22,7 @@ from ..analysis.parts import lay_out_parts
 from ..analysis.verdict_words import VerdictWords, name_orders
 from ..core.peaks import Peak
 from ..core.records import Node, list_figures, remove_unit, to_document, write_each
-from ..errors import MOMENTS_UNKNOWN, BalcliError
+from ..errors import MOMENTS_UNKNOWN, ArgumentError, name_option, tell
 from ..file.fields import join_words
 from ..forces.crankshaft import CrankLoads, find_crank_loads
 from ..forces.kinds import FORCE, MOMENT, ROLL, ROLL_TOTAL
@@ -100,7 +100,7 @@ def sheet(result: Balance, system: System) -> Sheet:
         parts.append(Text("Nothing is fitted", ()))
     of_ladder = bool(remedy.step) or remedy.steps is not None
     notes = (
-        remedy.note and sentence(remedy.note),
+        remedy.note and sentence(tell(remedy.note, name_option)),
         tell_usual(result.ladder) if result.ladder is not None and remedy.steps == () else "",
         _tell_left(result, system) if of_ladder else "",
         _tell_couple(result, system),
@@ -230,9 +230,10 @@ def card_sheet(result: Balance, system: System) -> Sheet:
     """
     remedy, engine = result.remedy, result.before.engine
     if not remedy.card:
-        raise BalcliError(
-            f"--format card: scheme {remedy.scheme} has no bobweight card; leave --scheme out, or "
-            "choose --scheme factor"
+        raise ArgumentError(
+            "{format} card: scheme {name} has no bobweight card; leave {scheme} out, or choose "
+            "{scheme} factor",
+            name=remedy.scheme,
         )
     factor, rods = remedy.card[0].factor, len(remedy.card[0].cylinders)
     told = f"{percent(factor)} of all reciprocating mass on the pin"
@@ -246,7 +247,7 @@ def card_sheet(result: Balance, system: System) -> Sheet:
         if any(figures.holes for figures in result.practical):
             parts.append(holes_grid(remedy, result.practical, result.tools, system))
     if remedy.note:
-        parts.append(Text("Note", (sentence(remedy.note),)))
+        parts.append(Text("Note", (sentence(tell(remedy.note, name_option)),)))
     parts += _permitted(result, system)
     parts.append(Text("", (_SIGNED,)))
     return Sheet(f"Bobweight card: {engine.name or NAMELESS}", tuple(parts))

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..core.cylinders import Device, DeviceKind
 from ..core.phasors import Complex, Figure, unit
-from ..errors import InputError, Problem
+from ..errors import InputError, Message, Problem
 from ..file.fields import shorten
 from ..file.model import Counterweight, Sector, Shaft, Slider
 from ..file.table import label_table
@@ -74,8 +74,12 @@ def build_device(
         InputError: The unbalance is "fit".
     """
     if table.to_fit:
-        command = "run balcli balance FILE --write OUT, which puts a figure in its place"
-        raise InputError([Problem("", f'{path}.unbalance is "fit": {command}')])
+        message = Message(
+            '{path}.unbalance is "fit": run balcli balance, which puts a figure in its place '
+            "({write} names the new file)",
+            path=path,
+        )
+        raise InputError([Problem("", message)])
     take = figures.take
     sector = None
     unbalance = find_given_unbalance(table, figures, path)

@@ -249,10 +249,10 @@ class Engine:
         return cls(**{each.name: getattr(engine, each.name) for each in fields(engine)})
 
     # -------------------------------------------------------------- the file and its variants
-    def at_speed(self, speed_rpm: Figure) -> Self:
+    def at_speed(self, speed: Figure) -> Self:
         """Return the engine at another speed (rpm), with the gas of that speed."""
-        gas = None if self.gas is None else self.gas.at(float(speed_rpm))
-        return replace(self, speed_rpm=speed_rpm, gas=gas)
+        gas = None if self.gas is None else self.gas.at(float(speed))
+        return replace(self, speed_rpm=speed, gas=gas)
 
     def to_dict(self) -> Node:
         """Return the tables of the engine file, with numbers in mm, kg, degrees and rpm; `load`

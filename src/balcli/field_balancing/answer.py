@@ -20,11 +20,10 @@ from ..core.least_squares import find_dependent_columns, minimise as make_small,
 from ..core.phasors import Complex
 from ..core.records import HIDDEN, INLINE, Axes, Polar, angle_deg
 from ..core.unbalance import find_permitted_unbalance
-from ..errors import BalcliError, InputError, Problem, check_type, list_words
+from ..errors import ArgumentError, InputError, Message, Problem, check_type, list_words
 from ..file.fields import counted, join_words, shorten, suggest_nearest
 from ..file.plain_tables import take_tables
 from ..file.units import ask_unit
-from ..shell.arguments import tell_arguments
 from ..show.result import Result
 from .influence import (
     Influence,
@@ -53,11 +52,14 @@ def find_doubts(result: FieldBalance) -> Iterator[str]:
     file = result.file
     alike = [each for each in result.corrections if each.own_effect < _NEARLY_DEPENDENT]
     if len(alike) > 1:
-        yield (
-            f"planes {join_words([each.plane for each in alike])} have nearly the same effect: "
-            f"{1 - min(each.own_effect for each in alike):.1%} of the effect of one can come from "
-            f"the others (condition number {result.condition:.3g}), so small reading errors change "
-            f"the weights much; if the weights are large, try --without {alike[0].plane}"
+        yield Message(
+            "planes {planes} have nearly the same effect: {share:.1%} of the effect of one can "
+            "come from the others (condition number {condition:.3g}), so small reading errors "
+            "change the weights much; if the weights are large, try {without} {plane}",
+            planes=join_words([each.plane for each in alike]),
+            share=1 - min(each.own_effect for each in alike),
+            condition=result.condition,
+            plane=alike[0].plane,
         )
     if file.grade is not None or file.shares is not None:
         for key, hint in list_missing(file).items():
@@ -401,15 +403,17 @@ def _choose_planes(file: RunsFile, without: Collection[str]) -> list[int]:
     """Return the indices of the planes that get a weight.
 
     Raises:
-        BalcliError: `without` names all planes, or a plane that does not exist.
+        ArgumentError: `without` names all planes, or a plane that does not exist.
     """
     for name in without:
         if name not in file.planes:
             hint = suggest_nearest(name, file.planes, f"there are {', '.join(file.planes)}")
-            raise BalcliError(f"--without {shorten(name)} is not a plane; {hint}")
+            raise ArgumentError(
+                "{without} {name} is not a plane; {hint}", name=shorten(name), hint=hint
+            )
     used = [k for k, plane in enumerate(file.planes) if plane not in without]
     if not used:
-        raise BalcliError("--without leaves no plane for a weight")
+        raise ArgumentError("{without} leaves no plane for a weight")
     return used
 
 
@@ -425,15 +429,18 @@ def _refuse_dependent(matrix: Complex, planes: list[str], name: str) -> None:
     dependent = dead[:1] or [planes[k] for k in find_dependent_columns(matrix)]
     if not dependent:
         return
-    message = (
-        f"{counted(len(matrix), 'reading')} cannot separate the effects of "
-        f"{join_words(dependent)}; add sensors or speeds, or leave one plane out, such as "
-        f"--without {dependent[-1]}"
+    message = Message(
+        "{readings} cannot separate the effects of {planes}; add sensors or speeds, or leave one "
+        "plane out, such as {without} {last}",
+        readings=counted(len(matrix), "reading"),
+        planes=join_words(dependent),
+        last=dependent[-1],
     )
     if dead:
-        message = (
-            f"a weight in {dead[0]} changes no reading, so no correction can be found there; use a "
-            f"heavier trial weight, or --without {dead[0]}"
+        message = Message(
+            "a weight in {plane} changes no reading, so no correction can be found there; use a "
+            "heavier trial weight, or {without} {plane}",
+            plane=dead[0],
         )
     raise InputError([Problem("planes", message)], name)
 
@@ -493,7 +500,6 @@ def _find_permitted(
     )
 
 
-@tell_arguments()
 def field(
     runs: str | Path | Mapping[str, object],
     minimise: Literal["squares", "max"] = "squares",
@@ -525,7 +531,7 @@ def field(
     """
     check_type("minimise", minimise, str, 'give "squares" or "max"')
     if minimise not in ("squares", "max"):
-        raise BalcliError(f'minimise {minimise!r}: choose "squares" or "max"')
+        raise ArgumentError('{minimise} {other!r}: choose "squares" or "max"', other=minimise)
     planes = [without] if isinstance(without, str) else list_words("without", without, '["front"]')
     wanted = "give the path, text or dict of a file of runs"
     tables, name = take_tables("field", runs, wanted)

@@ -27,7 +27,7 @@ import numpy as np
 
 from ..core.least_squares import solve
 from ..core.phasors import Array, Complex
-from ..errors import InputError, Problem
+from ..errors import InputError, Message, Problem
 from ..file.fields import join_words
 from .runs_file import RunsFile
 
@@ -282,9 +282,13 @@ def _explain_undetermined(file: RunsFile, series: Series, used: Collection[int])
     if not lacking:
         named = [plane for plane, weights in zip(file.planes, tried, strict=True) if weights]
         lacking = [f"with another ratio of the weights in {join_words(named)}, or with only one"]
-    return Problem(
-        "run",
-        f"add a run{at} {' and one '.join(lacking)}; {_count_unknowns(series, used)} runs "
-        "with different weights are needed (one as found, and one for each plane; given: "
-        f"{len(series.numbers)}); or write `influence`, or leave a plane out (--without)",
+    message = Message(
+        "add a run{at} {lacking}; {count} runs with different weights are needed (one as found, "
+        "and one for each plane; given: {given}); or write `influence`, or leave a plane out "
+        "({without})",
+        at=at,
+        lacking=" and one ".join(lacking),
+        count=_count_unknowns(series, used),
+        given=len(series.numbers),
     )
+    return Problem("run", message)

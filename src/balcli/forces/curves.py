@@ -23,7 +23,7 @@ from ..core.mechanisms.motion import Motion
 from ..core.phasors import Array, Complex, unit
 from ..core.piecewise import Function, PiecewiseCurve, resolved
 from ..engine.engine import CylinderNumber, Engine, find_row
-from ..errors import BalcliError
+from ..errors import ArgumentError, BalcliError
 from ..file.model import EngineFile, Override
 from ..limits import FINEST_STEP_DEG
 from .spectrum import compute_spectra, find_relevant_orders, take_gas
@@ -41,10 +41,12 @@ def divide_revolution(step: float = 1.0, revolutions: int = 1) -> Array:
         revolutions: Number of revolutions.
 
     Raises:
-        BalcliError: The step is not between 0.001 and 360.
+        ArgumentError: The step is not between 0.001 and 360.
     """
     if not FINEST_STEP_DEG <= step <= 360:
-        raise BalcliError(f"--step {step:g}: give {FINEST_STEP_DEG:g} to 360 degrees")
+        raise ArgumentError(
+            "{step} {value:g}: give {finest:g} to 360 degrees", value=step, finest=FINEST_STEP_DEG
+        )
     steps = np.arange(0.0, np.ceil(360 * revolutions / step - 1e-9))
     return np.round(steps * step, 12)  # so that 3 steps of 0.1 are 0.3
 

@@ -119,7 +119,7 @@ def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> N
         known = len(build(model).throws_m) < 2 or build(model).places_known
         why = "all cylinders have the same position" if known else MOMENTS_UNKNOWN
         if build(model).cylinders.harmonic:
-            why = "rods in harmonic motion have no length; give the height with --guide-height"
+            why = "rods in harmonic motion have no length, which the moment needs"
         raise BalcliError(f"{of_x[0].name}: {why}")
 
 

@@ -18,8 +18,8 @@ import tomli_w
 
 from ..analysis import show as analysis
 from ..analysis.answer import Analysis, analyze
-from ..balancing import show as balance
-from ..balancing.answer import Balance, balance_engine
+from ..balancing import show as balancing
+from ..balancing.answer import Balance, balance
 from ..core.cylinders import Device, DeviceKind
 from ..core.mechanisms.linkage import Articulated, Rotary
 from ..core.phasors import Array, Phasors, unit
@@ -227,7 +227,7 @@ def find_answers(
         BalcliError: The scheme does not fit the engine.
     """
     result = analyze(engine, orders)
-    balanced = balance_engine(engine, scheme, options, orders)
+    balanced = balance(engine, scheme, options, orders)
     mounted = twisted = None
     if model.body:
         fitted = scheme if balanced.remedy.reasons else None  # without devices, no comparison
@@ -263,7 +263,7 @@ def page(found: Answers, system: System, live: Node | None = None, tell: Tell = 
         BalcliError: The engine does not have the cylinder whose piston is wanted.
     """
     result, balanced, mounted, twisted, cylinder = found
-    own, remedy = analysis.sheet(result, system, ON_A_PAGE), balance.sheet(balanced, system)
+    own, remedy = analysis.sheet(result, system, ON_A_PAGE), balancing.sheet(balanced, system)
     told = ("force", "about", *(["moment"] if result.moments_known else []))
     compared = _COMPARED if balanced.remedy.reasons else ()
     now = PageSubject(Study(result), system)

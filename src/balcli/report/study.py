@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..analysis.answer import DEFAULT_ORDERS, Analysis, analyze, find_inner_loads
-from ..balancing.answer import balance_engine as balance
+from ..balancing.answer import balance
 from ..core.phasors import Array, Phasors, unit
 from ..engine.engine import Engine, refuse_geared
 from ..errors import ArgumentError, Message

@@ -18,7 +18,7 @@ from ..core.peaks import find_largest, find_least, find_peak
 from ..core.phasors import EPS, Array, Complex, Phasors, unit
 from ..core.records import Node
 from ..engine.engine import CylinderNumber, Engine
-from ..errors import MOMENTS_UNKNOWN, BalcliError, warn
+from ..errors import MOMENTS_UNKNOWN, ArgumentError, BalcliError, Message, warn
 from ..forces.crankshaft import compute_bearing_forces, compute_loads, place_bearings
 from ..forces.spectrum import compute_spectra, find_relevant_orders
 from ..limits import LARGEST_FACTOR
@@ -108,8 +108,8 @@ def size_by_factor(engine: Engine, options: SchemeOptions) -> Remedy:
     )
     note = _note(fitting, best, found.z, own)
     if not note and options.planes is None and planes is not None:
-        note = (
-            "the weights are in the planes of the file's counterweights; --planes throws computes "
+        note = Message(
+            "the weights are in the planes of the file's counterweights; {planes} throws computes "
             "weights for every throw instead"
         )
     return fitting.remedy._replace(
@@ -260,8 +260,10 @@ def _choose_factors(engine: Engine, options: SchemeOptions) -> tuple[float, ...]
     for factor in factors:
         if not (math.isfinite(factor) and abs(factor) <= LARGEST_FACTOR):
             meant = f"did you mean {factor:g}%? " if LARGEST_FACTOR < factor <= 100 else ""
-            raise BalcliError(
-                f"--factor {factor:g}: {meant}give shares such as 0.5, 51% or 50%:54%:1%"
+            raise ArgumentError(
+                "{factor} {value:g}: {meant}give shares such as 0.5, 51% or 50%:54%:1%",
+                value=factor,
+                meant=meant,
             )
     return factors
 
@@ -274,23 +276,28 @@ def find_measured_factor(engine: Engine, measured: float) -> float:
         BalcliError: The engine has no reciprocating mass, or no crankshaft can have such a mass.
     """
     if measured < 0:
-        raise BalcliError(f"--measured {1e3 * measured:g} g: a mass on the pin cannot be negative")
+        raise ArgumentError(
+            "{measured} {grams:g} g: a mass on the pin cannot be negative", grams=1e3 * measured
+        )
     card = fill_card(engine, 0.0)
     reciprocating = sum(one.reciprocating_g for one in card)
     rotating = sum(one.rotating_g for one in card)
     if not reciprocating:
-        raise BalcliError("--measured: this engine has no reciprocating mass and so no factor")
+        raise ArgumentError("{measured}: this engine has no reciprocating mass and so no factor")
     factor = (1e3 * measured * len(card) - rotating) / reciprocating
-    told = f"--measured {1e3 * measured:g} g"
-    turning = f"{rotating / len(card):.5g}"
+    turning = rotating / len(card)
     if not abs(factor) <= LARGEST_FACTOR:
-        raise BalcliError(
-            f"{told} would balance {factor:.3g} times the reciprocating mass ({turning} g on a pin "
-            "rotate); is the unit right?"
+        raise ArgumentError(
+            "{measured} {grams:g} g would balance {share:.3g} times the reciprocating mass "
+            "({turning:.5g} g on a pin rotate); is the unit right?",
+            grams=1e3 * measured,
+            share=factor,
+            turning=turning,
         )
     if factor < 0:
         warn(
-            f"{told} is less than the {turning} g that rotate on a pin: the factor is {factor:.2%}"
+            f"a measured mass of {1e3 * measured:g} g is less than the {turning:.5g} g that rotate "
+            f"on a pin: the factor is {factor:.2%}"
         )
     return factor
 
@@ -303,7 +310,7 @@ def _change_measured(engine: Engine, options: SchemeOptions) -> Remedy:
         BalcliError: Several factors are given.
     """
     if len(options.factor or ()) > 1:
-        raise BalcliError("--factor: give one factor with --measured, such as 55%")
+        raise ArgumentError("{factor}: give one factor with {measured}, such as 55%")
     measured = options.measured or 0.0
     has = find_measured_factor(engine, measured)
     wanted = options._replace(measured=None)
@@ -343,7 +350,7 @@ def _choose_planes(engine: Engine, options: SchemeOptions) -> tuple[float, ...] 
         own = np.unique(places)
         return tuple(own.tolist()) if len(own) > 1 and engine.places_known else None
     if not engine.places_known:
-        raise BalcliError(f"--planes: {MOMENTS_UNKNOWN}")
+        raise ArgumentError("{planes}: {unknown}", unknown=MOMENTS_UNKNOWN)
     return tuple(sorted(set(read_planes(engine, options))))
 
 
@@ -424,7 +431,9 @@ def _find_needs(engine: Engine, factor: float, planes: tuple[float, ...] | None)
 def _size_each(engine: Engine, options: SchemeOptions) -> Remedy:
     """Fit counterweights to geared engines, to each on its own crank as if it were alone."""
     if options.measured is not None or len(options.factor or ()) > 1:
-        raise BalcliError("geared engines: give one --factor, no --measured, or balance each alone")
+        raise ArgumentError(
+            "geared engines: give one {factor}, no {measured}, or balance each alone"
+        )
     remedy = Remedy("factor", 1)
     cards = list[Bobweight]()
     needs = list[PlaneNeed]()

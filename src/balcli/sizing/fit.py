@@ -15,7 +15,7 @@ from ..core import least_squares
 from ..core.phasors import Array, unit
 from ..engine.engine import Engine, refuse_geared
 from ..engine.placed import build_fitted
-from ..errors import MOMENTS_UNKNOWN, NO_GAS, BalcliError
+from ..errors import MOMENTS_UNKNOWN, NO_GAS, ArgumentError, BalcliError
 from ..file.fields import join_words
 from ..file.model import EngineFile
 from ..forces.kinds import ROLL_TOTAL
@@ -116,11 +116,15 @@ def _check_targets(engine: Engine, targets: Sequence[str] | None) -> tuple[str, 
         return ("force", "moment") if engine.places_known else ("force",)
     for target in targets:
         if target not in TARGETS:
-            raise BalcliError(f'--target "{target:.60}": choose from {", ".join(TARGETS)}')
+            raise ArgumentError(
+                '{target} "{name:.60}": choose from {known}', name=target, known=", ".join(TARGETS)
+            )
     if "moment" in targets and not engine.places_known:
-        raise BalcliError(f"--target moment: {MOMENTS_UNKNOWN}")
+        raise ArgumentError("{target} moment: {unknown}", unknown=MOMENTS_UNKNOWN)
     if ROLL_TOTAL.name in targets and engine.gas is None:
-        raise BalcliError(f"--target {ROLL_TOTAL.name}: the engine file {NO_GAS}")
+        raise ArgumentError(
+            "{target} {name}: the engine file {lacks}", name=ROLL_TOTAL.name, lacks=NO_GAS
+        )
     return tuple(dict.fromkeys(targets))
 
 

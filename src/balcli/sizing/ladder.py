@@ -28,7 +28,7 @@ from ..core.phasors import Complex
 from ..core.records import HIDDEN
 from ..engine.engine import Engine
 from ..engine.figures import find_first_largest
-from ..errors import BalcliError
+from ..errors import ArgumentError, BalcliError, Message
 from ..forces.crankshaft import find_crank_loads
 from ..forces.kinds import ROLL, ROLL_TOTAL
 from ..forces.power import Power, at_rated_speed, find_power, needs_compensator
@@ -291,7 +291,9 @@ class Ladder:
             return name
         for out in self.left_out:
             if out.step == name:
-                raise BalcliError(f'step "{name}" is left out: {self._explain(out)}')
+                raise ArgumentError(
+                    'step "{name}" is left out: {why}', name=name, why=self._explain(out)
+                )
         rows = ", ".join(f"{number} {name}" for number, name in enumerate(names) if number)
         rows = rows or "none, because nothing is worth fitting"
         raise BalcliError(f'step "{text[:60]}": the choices are {rows}; 0 is the engine {AS_DRAWN}')
@@ -300,16 +302,20 @@ class Ladder:
         """Return in words the effect of an omitted step and the way to get it, if there is one."""
         share, fall = self.measure(out), out.main_bearing_N
         size = f"{abs(share):.2g} % of one cylinder's first order"
-        lists_it = f"--small {math.floor(share)}% lists it"
+        lists_it = Message("{small} {percent}% lists it", percent=math.floor(share))
         if fall is None:
-            return f"it would cancel {size}; {lists_it}"
+            return Message("it would cancel {size}; {lists_it}", size=size, lists_it=lists_it)
         if self.by_power:
-            return (
-                "gas governs the bearings of a two-stroke engine with crossheads; "
-                "--scheme counterweights --planes throws fits them"
+            return Message(
+                "gas governs the bearings of a two-stroke engine with crossheads; {scheme} "
+                "counterweights {planes} throws fits them"
             )
         if fall > 0:
-            return f"it would lower the largest main bearing load by {size}; {lists_it}"
+            return Message(
+                "it would lower the largest main bearing load by {size}; {lists_it}",
+                size=size,
+                lists_it=lists_it,
+            )
         return f"it would raise the largest main bearing load by {size}"
 
     def measure(self, out: LeftOut) -> float:

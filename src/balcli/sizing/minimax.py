@@ -23,7 +23,7 @@ from ..core.peaks import find_near_peaks
 from ..core.phasors import EPS, Complex, Phasors, unit
 from ..core.vibration import Real
 from ..engine.engine import Engine
-from ..errors import BalcliError
+from ..errors import ArgumentError
 from .factor import find_curve, find_factor_peaks
 from .fitting import Fitting, Slot, size_unbalances
 from .options import SchemeOptions
@@ -194,8 +194,8 @@ def size_ellipse(engine: Engine, options: SchemeOptions) -> Remedy:
         NothingToBalanceError: No force turns against the crank.
     """
     if options.direction is None or options.ratio is None:
-        raise BalcliError(
-            "ellipse: give --direction and --ratio of the force to leave, such as 90 and 50%"
+        raise ArgumentError(
+            "ellipse: give {direction} and {ratio} of the force to leave, such as 90 and 50%"
         )
     fitting = Fitting.start(engine, "ellipse", 1)
     residual = fitting.find_residual(1)
@@ -234,7 +234,7 @@ def _split(
     wanted = residual._replace(parts={**residual.parts, FORWARD_FORCE: -unbalance})
     fit = size_unbalances(slots, wanted, FORWARD)
     if fit.left > _LEFT:
-        raise BalcliError(f"--planes: {SAME_PLACE}")
+        raise ArgumentError("{planes}: {same}", same=SAME_PLACE)
     return slots, fit.unbalances
 
 

@@ -9,7 +9,7 @@ from numbers import Complex, Integral, Real
 from types import NoneType
 from typing import NamedTuple
 
-from ..errors import BalcliError, wrong_type
+from ..errors import Argument, ArgumentError, BalcliError, Message, join_messages, wrong_type
 from ..file.fields import nearest
 from ..limits import FARTHEST_DEVICE_M, HIGHEST_SHAFT_ORDER, MOST_SMALL, SMALL
 
@@ -179,37 +179,56 @@ class SchemeOptions(NamedTuple):
         given = [name for name, value in asked if value is not None]
         if strangers := [name for name in given if name not in taken]:
             others = " or ".join(name for name in SCHEMES if {*given} <= {*SCHEMES[name]})
+            hint = Message("it takes {names}", names=_name_options(taken))
             if scheme == "auto" and others:
-                raise BalcliError(f"scheme auto has no --{strangers[0]}; choose --scheme {others}")
-            names = ", ".join(f"--{name}" for name in taken)
-            has = f"it takes {names}" if taken else "it takes no options"
-            raise BalcliError(f"scheme {scheme} has no --{strangers[0]}; {has}")
+                hint = Message("choose {scheme} {others}", others=others)
+            raise ArgumentError(
+                "scheme {name} has no {stranger}; {hint}",
+                name=scheme,
+                stranger=Argument(strangers[0]),
+                hint=hint,
+            )
         if self.order is not None and not 1 <= self.order <= HIGHEST_SHAFT_ORDER:
-            raise BalcliError(f"--order {self.order}: give 1 to {HIGHEST_SHAFT_ORDER}")
+            raise ArgumentError(
+                "{order} {value}: give 1 to {highest}",
+                value=self.order,
+                highest=HIGHEST_SHAFT_ORDER,
+            )
         check_small(self.read_small())
         if scheme == "step" and self.step is None:
-            raise BalcliError("scheme step: give a step, such as --step 1; balance lists all steps")
+            raise ArgumentError(
+                "scheme step: give a step, such as {step} 1; balance lists all steps"
+            )
         if not isinstance(self.step, (str, int, NoneType)):
             raise wrong_type("SchemeOptions: step", self.step, "give a name or number, such as 1")
         if self.radius is not None and not 0 < self.radius < math.inf:
-            raise BalcliError(f"--radius: {1e3 * self.radius:g} mm; give a radius above 0")
+            raise ArgumentError(
+                "{radius}: {value:g} mm; give a radius above 0", value=1e3 * self.radius
+            )
         if isinstance(self.planes, str) and self.planes not in ("ends", "throws"):
-            raise BalcliError(
-                f'--planes "{self.planes[:60]}": give ends, throws, or places along z'
+            raise ArgumentError(
+                '{planes} "{word}": give ends, throws, or places along z', word=self.planes[:60]
             )
         self._check_choices()
 
     def _check_choices(self) -> None:
-        """Raise BalcliError for a word that is no choice, and for a ratio outside 0 to 1."""
+        """Raise ArgumentError for a word that is no choice, and for a ratio outside 0 to 1."""
         if self.ratio is not None and not 0 <= self.ratio <= 1:
-            raise BalcliError(f"--ratio {100 * self.ratio:g} %: give a share from 0 to 100 %")
+            raise ArgumentError(
+                "{ratio} {percent:g} %: give a share from 0 to 100 %", percent=100 * self.ratio
+            )
         for name, choices in _CHOICES.items():
             if getattr(self, name) not in (None, *choices):
                 wrong = f"{getattr(self, name)}"[:60]
-                raise BalcliError(f'--{name} "{wrong}": choose from {", ".join(choices)}')
+                raise ArgumentError(
+                    '{argument} "{wrong}": choose from {choices}',
+                    argument=Argument(name),
+                    wrong=wrong,
+                    choices=", ".join(choices),
+                )
 
     def _check_numbers(self) -> None:
-        """Raise TypeError for a value that is no number, BalcliError for a position too far from
+        """Raise TypeError for a value that is no number, ArgumentError for a position too far from
         the engine.
         """
         for name, (kind, right) in _NUMBERS.items():
@@ -223,17 +242,26 @@ class SchemeOptions(NamedTuple):
             if name in ("at", "position", "planes"):
                 farthest = max(map(abs, values))
                 if farthest > FARTHEST_DEVICE_M:
-                    told = f"--{name}: {1e3 * farthest:g} mm from the origin"
-                    raise BalcliError(f"{told}; at most {FARTHEST_DEVICE_M:g} m")
+                    raise ArgumentError(
+                        "{argument}: {there:g} mm from the origin; at most {most:g} m",
+                        argument=Argument(name),
+                        there=1e3 * farthest,
+                        most=FARTHEST_DEVICE_M,
+                    )
 
     def read_place(self) -> complex:
-        """Return the given position x + iy, by default 0 (the crank axis); BalcliError for
+        """Return the given position x + iy, by default 0 (the crank axis); ArgumentError for
         several.
         """
         at = self.at or (0j,)
         if len(at) > 1:
-            raise BalcliError("--at: this scheme fits its devices at one place; give one place")
+            raise ArgumentError("{at}: this scheme fits its devices at one place; give one place")
         return at[0]
+
+
+def _name_options(names: tuple[str, ...]) -> str:
+    """Return the names of options with commas between them, for messages."""
+    return join_messages(list(map(Argument, names))) if names else "no options"
 
 
 def check_small(share: float) -> float:
@@ -270,7 +298,7 @@ def find_taken(scheme: str) -> tuple[str, ...]:
     if scheme in SCHEMES:
         return SCHEMES[scheme]
     if scheme in (KNUCKLES, FIT):
-        raise BalcliError(f"only `balcli balance --scheme {scheme}` runs the scheme {scheme}")
+        raise BalcliError(f"only the command balance runs the scheme {scheme}")
     near = nearest(scheme, NAMES)
     meant = f"did you mean {near}? " if near else ""
     raise BalcliError(f"there is no scheme {scheme[:60]!r}: {meant}choose from {', '.join(NAMES)}")

@@ -14,7 +14,7 @@ from __future__ import annotations
 import cmath
 from collections.abc import Sequence
 
-from ..errors import BalcliError
+from ..errors import ArgumentError
 from .residual import FORCE, MOMENT, ROLL, Residual
 
 Places = dict[int, tuple[complex, ...]]  # positions x + iy, m; keys: 1 with crank, -1 against
@@ -99,13 +99,17 @@ def place_forces(moment: complex, places: Sequence[float], z_ref: float) -> dict
         BalcliError: There are more than two places, or the force has no lever arm.
     """
     if len(places) > 2:
-        raise BalcliError("--position takes one z, or two")
+        raise ArgumentError("{position} takes one z, or two")
     if len(places) == 1:
         (first,), other = places, z_ref
     else:
         first, other = places
     if first == other:
-        raise BalcliError(f"--position {1e3 * first:g} mm: no lever arm to z = {1e3 * other:g} mm")
+        raise ArgumentError(
+            "{position} {first:g} mm: no lever arm to z = {other:g} mm",
+            first=1e3 * first,
+            other=1e3 * other,
+        )
     force = moment / (first - other)
     if len(places) == 1:
         return {first: force}

@@ -16,7 +16,7 @@ import numpy as np
 
 from ..core.phasors import EPS, wrap_degrees
 from ..engine.engine import Engine, Placed
-from ..errors import MOMENTS_UNKNOWN, BalcliError
+from ..errors import MOMENTS_UNKNOWN, ArgumentError
 from ..file.model import Counterweight, Shaft, Slider
 from .options import SchemeOptions
 from .residual import Residual, ResidualPart
@@ -107,9 +107,11 @@ def choose_plane(engine: Engine, options: SchemeOptions, residual: Residual, sen
 
 
 def read_position(options: SchemeOptions, usual: float) -> float:
-    """Return the z (m) of the option `position`, by default `usual`; BalcliError for several z."""
+    """Return the z (m) of the option `position`, by default `usual`; ArgumentError for several
+    z.
+    """
     if isinstance(options.position, tuple):
-        raise BalcliError("--position: this scheme takes only one position along z")
+        raise ArgumentError("{position}: this scheme takes only one position along z")
     return usual if options.position is None else options.position
 
 
@@ -125,25 +127,29 @@ def find_planes(engine: Engine, residual: Residual, sense: int) -> tuple[float, 
 
 
 def read_planes(engine: Engine, options: SchemeOptions) -> tuple[float, ...]:
-    """Return the given planes (z, m); BalcliError for several planes if moments are not known."""
+    """Return the given planes (z, m); ArgumentError for several planes if moments are not
+    known.
+    """
     if options.planes == "ends":
         return tuple(dict.fromkeys(find_ends(engine)))
     if options.planes == "throws":
         return tuple(dict.fromkeys(float(z) for z in engine.throws_m))
     places = options.planes if isinstance(options.planes, tuple) else ()
     if len(set(places)) > 1 and not engine.places_known:
-        raise BalcliError(f"--planes: {MOMENTS_UNKNOWN}")
+        raise ArgumentError("{planes}: {unknown}", unknown=MOMENTS_UNKNOWN)
     return places
 
 
 def read_two_planes(engine: Engine, options: SchemeOptions) -> tuple[float, float]:
-    """Return the two given planes (z, m), by default the ends; BalcliError if there are not two."""
+    """Return the two given planes (z, m), by default the ends; ArgumentError if there are not
+    two.
+    """
     planes = find_ends(engine) if options.planes in (None, "ends") else options.planes
     if not isinstance(planes, tuple) or len(planes) != 2:
-        raise BalcliError("--planes: give ends, or two places along z, for opposite eccentrics")
+        raise ArgumentError("{planes}: give ends, or two places along z, for opposite eccentrics")
     low, high = planes
     if low == high:
-        raise BalcliError(f"--planes: {SAME_PLACE}")
+        raise ArgumentError("{planes}: {same}", same=SAME_PLACE)
     return low, high
 
 

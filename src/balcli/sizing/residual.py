@@ -13,7 +13,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from ..engine.engine import Engine
-from ..errors import MOMENTS_UNKNOWN, BalcliError
+from ..errors import MOMENTS_UNKNOWN, ArgumentError, BalcliError, Message
 from ..file.fields import join_words
 from ..forces.spectrum import compute_spectra
 from ..limits import HIGHEST_ORDER_SOUGHT
@@ -169,10 +169,11 @@ class NothingToBalanceError(Exception):
 
     def __init__(self, text: str, **details: float) -> None:
         super().__init__(text)
+        self.text = text
         self.details = details
 
 
-class OnlySmallError(Exception):
+class OnlySmallError(ArgumentError):
     """All parts that a scheme could cancel are small; the text names the largest."""
 
 
@@ -249,18 +250,21 @@ def _find_lowest(
         if not is_small(find_size(found[-1], sought, scales), least):
             return found[-1]
     if any(residual.parts[part] for residual in found for part in sought):
-        raise OnlySmallError(tell_small(sought, found, scales, least))
-    raise NothingToBalanceError(
-        f"there is no free {what} of orders 1 to {HIGHEST_ORDER_SOUGHT}: nothing to balance; "
-        "--order selects a higher order"
+        raise refuse_small(sought, found, scales, least)
+    message = Message(
+        "there is no free {what} of orders 1 to {highest}: nothing to balance; {order} selects a "
+        "higher order",
+        what=what,
+        highest=HIGHEST_ORDER_SOUGHT,
     )
+    raise NothingToBalanceError(message)
 
 
-def tell_small(
+def refuse_small(
     sought: Sequence[ResidualPart], found: Sequence[Residual], scales: Scales, least: float
-) -> str:
-    """Return the text for `OnlySmallError`. It states the largest part that the scheme could
-    cancel, and which other scheme cancels a large part, preferably a part with the same
+) -> OnlySmallError:
+    """Return the error for parts that are all small. It states the largest part that the scheme
+    could cancel, and which other scheme cancels a large part, preferably a part with the same
     direction of rotation.
 
     Args:
@@ -274,20 +278,30 @@ def tell_small(
         return find_share(*each, scales)
 
     one, part = max(product(found, sought), key=find_size_of)
-    told = (
-        f"the largest {part.kind} turning {tell_sense(part.sense)} is {_tell_size(one, part)} "
-        f"(order {one.order}), small compared with one cylinder's; --order {one.order} cancels it"
-    )
     every = product(found, (*FORWARD, *BACKWARD))
     large = [each for each in every if not is_small(find_size_of(each), least)]
-    if not large:
-        return told
-    senses = {part.sense for part in sought}
-    alike = [each for each in large if each[1].sense in senses]
-    one, part = max(alike or large, key=find_size_of)
-    ratio = part.sense * one.order
+    advice = ""
+    if large:
+        senses = {part.sense for part in sought}
+        alike = [each for each in large if each[1].sense in senses]
+        advice = _name_cure(*max(alike or large, key=find_size_of))
+    return OnlySmallError(
+        "the largest {kind} turning {sense} is {size} (order {n}), small compared with one "
+        "cylinder's; {order} {n} cancels it{advice}",
+        kind=part.kind,
+        sense=tell_sense(part.sense),
+        size=_tell_size(one, part),
+        n=one.order,
+        advice=advice,
+    )
+
+
+def _name_cure(residual: Residual, part: ResidualPart) -> str:
+    """Return a sentence that names the scheme that cancels a part."""
+    ratio = part.sense * residual.order
     scheme = "counterweights" if ratio == 1 else _SCHEMES[part]
-    return f"{told}. Scheme {scheme} cancels a {part.kind} of {_tell_size(one, part)} at {ratio:+d}"
+    size = _tell_size(residual, part)
+    return f". Scheme {scheme} cancels a {part.kind} of {size} at {ratio:+d}"
 
 
 def tell_sense(sense: int) -> str:

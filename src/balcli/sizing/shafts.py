@@ -15,7 +15,7 @@ import cmath
 import math
 
 from ..engine.engine import Engine
-from ..errors import MOMENTS_UNKNOWN, BalcliError
+from ..errors import MOMENTS_UNKNOWN, ArgumentError, BalcliError
 from .fitting import (
     Fitting,
     Slot,
@@ -43,14 +43,13 @@ from .residual import (
     BACKWARD,
     FORCE,
     NothingToBalanceError,
-    OnlySmallError,
     Residual,
     choose_residual,
     find_residual,
     find_scales,
     find_size,
     is_small,
-    tell_small,
+    refuse_small,
 )
 from .steps import add_at_ends, add_compensators
 
@@ -67,7 +66,7 @@ def size_single_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
     """
     two = options.planes is not None
     if two and options.position is not None:
-        raise BalcliError("--planes and --position both place the eccentrics: give one of them")
+        raise ArgumentError("{planes} and {position} both place the eccentrics: give one of them")
     residual = choose_residual(engine, options, ("force", "moment") if two else ("force",), (-1,))
     fitting = Fitting.start(engine, "single-shaft", residual.order)
     if residual.order == 1:
@@ -107,7 +106,9 @@ def size_couple_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
     at = options.at or ()
     if len(at) > len(senses):
         shafts = {0: "no shaft", 1: "one shaft", 2: "two shafts"}
-        raise BalcliError(f"--at: this moment takes {shafts[len(senses)]}; give no further places")
+        raise ArgumentError(
+            "{at}: this moment takes {shafts}; give no further places", shafts=shafts[len(senses)]
+        )
     moment = residual._replace(parts={**residual.parts, **dict.fromkeys(FORCE, 0j)})
     against_first = sorted(senses)
     placed = [*zip(against_first, (*at, 0j, 0j), strict=False)]
@@ -127,7 +128,7 @@ def size_two_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
         residual = choose_residual(engine, options, ("force",))
     except NothingToBalanceError as reason:
         if options.roll:
-            raise BalcliError(f"{reason}; leave out --roll") from None
+            raise ArgumentError("{reason}; leave out {roll}", reason=reason.text) from None
         raise
     fitting = Fitting.start(engine, "two-shaft", residual.order)
     if residual.order == 1:
@@ -148,7 +149,7 @@ def size_compensator(engine: Engine, options: SchemeOptions) -> Remedy:
     z1, makes the force `-m/(z1 - z2)`, the second, at z2, the opposite force.
     """
     if options.position is None:
-        raise BalcliError("--scheme compensator: give --position Z, or Z,Z for fore and aft")
+        raise ArgumentError("{scheme} compensator: give {position} Z, or Z,Z for fore and aft")
     if not engine.places_known:
         raise BalcliError(MOMENTS_UNKNOWN)
     order, position = options.order or 2, options.position
@@ -180,7 +181,7 @@ def size_four_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
     least = options.read_small()
     forces = [one for one in residuals if not is_small(find_size(one, FORCE, scales), least)]
     if not forces and any(one.size(*FORCE) for one in residuals):
-        raise OnlySmallError(tell_small(FORCE, residuals, scales, least))
+        raise refuse_small(FORCE, residuals, scales, least)
     if not forces:
         raise NothingToBalanceError("there is no free force of orders 1 and 2: nothing to balance")
     for residual in forces:
@@ -218,20 +219,22 @@ def _choose_places(residual: Residual, options: SchemeOptions) -> Places:
     """
     at, forward, backward = options.at or (), residual.force(1), residual.force(-1)
     if len(at) > 2:
-        raise BalcliError(
-            "--at: a pair of shafts has two places; the first is for the shaft against the crank"
+        raise ArgumentError(
+            "{at}: a pair of shafts has two places; the first is for the shaft against the crank"
         )
     if not (forward and backward):
         if options.roll:
             way = "with" if forward else "against"
-            raise BalcliError(
-                f"order {residual.order}: its force turns only {way} the crank, so one shaft "
-                "cancels it; leave out --roll"
+            raise ArgumentError(
+                "order {order}: its force turns only {way} the crank, so one shaft cancels it; "
+                "leave out {roll}",
+                order=residual.order,
+                way=way,
             )
         place = at[0] if at else 0j
         return {1 if forward else -1: (place, -place) if place else (0j,)}
     if len(at) == 2 and options.roll:
-        raise BalcliError("--roll zero places the second shaft; give one --at")
+        raise ArgumentError("{roll} zero places the second shaft; give one {at}")
     if len(at) == 2:
         return {-1: (at[0],), 1: (at[1],)}
     wanted = find_wanted_roll(residual) if options.roll else 0j

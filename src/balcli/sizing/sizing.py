@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 from ..core.phasors import wrap_degrees
 from ..engine.engine import Engine, Placed, refuse_geared
-from ..errors import MOMENTS_UNKNOWN, BalcliError
+from ..errors import MOMENTS_UNKNOWN, ArgumentError, BalcliError
 from .factor import size_by_factor
 from .fitting import (
     Fitting,
@@ -99,7 +99,7 @@ def _size_at_throws(fitting: Fitting) -> Remedy:
     engine = fitting.engine
     refuse_geared(engine)
     if not engine.places_known and len(engine.throws_m) > 1:
-        raise BalcliError(f"--planes throws: {MOMENTS_UNKNOWN}")
+        raise ArgumentError("{planes} throws: {unknown}", unknown=MOMENTS_UNKNOWN)
     remedy = add_at_throws(fitting).remedy
     if not remedy.devices:
         raise NothingToBalanceError("Forces turning with the crank are balanced already")
@@ -199,6 +199,6 @@ def size(engine: Engine, scheme: str = "auto", options: SchemeOptions | None = N
     try:
         return SIZE[scheme](engine, asked)
     except NothingToBalanceError as reason:
-        return Remedy(scheme, asked.order, note=str(reason), details=reason.details)
-    except OnlySmallError as reason:
-        raise BalcliError(f"{scheme}: {reason}") from None
+        return Remedy(scheme, asked.order, note=reason.text, details=reason.details)
+    except OnlySmallError as error:
+        raise error.within(scheme) from None

@@ -15,7 +15,7 @@ from ..core.phasors import wrap_degrees
 from ..core.records import Node
 from ..core.unbalance import STEEL, find_drill_depth, find_drilled_unbalance
 from ..engine.engine import Engine
-from ..errors import BalcliError, check_number
+from ..errors import Argument, ArgumentError, Message, check_number, join_messages
 from ..file.model import Counterweight, Sector, Shaft, Slider
 from ..file.read import T, TableReader
 from .planes import DeviceTable, as_millimetres, find_order, find_unbalance
@@ -93,7 +93,7 @@ class Practical(NamedTuple):
     hole_angle_deg: float | None = None
 
 
-class HolesDoNotFitError(BalcliError):
+class HolesDoNotFitError(ArgumentError):
     """More holes are needed than fit side by side on the crank."""
 
 
@@ -101,7 +101,7 @@ def find_practical(engine: Engine, remedy: Remedy, tools: Tools) -> tuple[Practi
     """Return the workshop's figures of all devices, in the order of `remedy.devices`.
 
     Raises:
-        BalcliError: Figures of tools are impossible, or exclude each other.
+        ArgumentError: Figures of tools are impossible, or exclude each other.
         HolesDoNotFitError: Holes do not fit on the crank.
         TypeError: A figure is no number.
     """
@@ -109,30 +109,33 @@ def find_practical(engine: Engine, remedy: Remedy, tools: Tools) -> tuple[Practi
     _refuse_impossible(tools)
     rim = min((_find_rim(engine, one, tools) for one in remedy.devices), default=math.inf)
     if tools.drill is not None and tools.drill > 2 * rim:
-        raise BalcliError(
-            f"--drill: {1e3 * tools.drill:g} mm is wider than a rim of radius {1e3 * rim:g} mm"
+        raise ArgumentError(
+            "{drill}: {width:g} mm is wider than a rim of radius {rim:g} mm",
+            width=1e3 * tools.drill,
+            rim=1e3 * rim,
         )
     room = tools.width or _find_room(engine, remedy)
     return tuple(_find_figures(engine, device, tools, room) for device in remedy.devices)
 
 
 def _refuse_impossible(tools: Tools) -> None:
-    """Raise BalcliError for figures that are not above 0, or that exclude each other."""
-    units = {"slug": (1e-3, "g/cm3")}
-    strange = [
-        f"--{name.replace('_', '-')}: {figure * size:g} {unit}"
-        for name, figure in tools._asdict().items()
-        for size, unit in [units.get(name, (1e3, "mm"))]
-        if figure is not None and not 0 < figure < math.inf
-    ]
+    """Raise ArgumentError for figures that are not above 0, or that exclude each other."""
+    strange = []
+    for name, figure in tools._asdict().items():
+        if figure is None or 0 < figure < math.inf:
+            continue
+        shown = f"{1e-3 * figure:g} g/cm3" if name == "slug" else f"{1e3 * figure:g} mm"
+        strange.append(Message("{argument}: {shown}", argument=Argument(name), shown=shown))
     if strange:
-        raise BalcliError(f"{', '.join(strange)}; give figures above 0")
+        raise ArgumentError("{strange}; give figures above 0", strange=join_messages(strange))
     if tools.drill is None and (tools.max_depth, tools.slug, tools.width) != (None,) * 3:
-        raise BalcliError("--max-depth, --slug and --width are for holes: give --drill")
+        raise ArgumentError("{max_depth}, {slug} and {width} are for holes: give {drill}")
     if tools.slug is not None and tools.slug <= STEEL:
-        raise BalcliError(f"--slug: {tools.slug / 1e3:g} g/cm3 is not denser than steel")
+        raise ArgumentError(
+            "{slug}: {density:g} g/cm3 is not denser than steel", density=tools.slug / 1e3
+        )
     if tools.thickness is not None and tools.disc is not None:
-        raise BalcliError("--disc and --thickness: give one of them, the other follows from it")
+        raise ArgumentError("{disc} and {thickness}: give one of them, the other follows from it")
 
 
 def _check_figure(name: str, figure: float | None) -> float | None:
@@ -179,10 +182,15 @@ def _plan_holes(
     if count * tools.drill > room * (1 + ROUNDING) or math.isinf(count):
         fitting = float(np.floor(room / tools.drill * (1 + ROUNDING)))
         raise HolesDoNotFitError(
-            f"--drill {1e3 * tools.drill:g} mm: {count:g} holes for {1e6 * unbalance:.6g} g mm do "
-            f"not fit: {1e3 * room:g} mm (--width) have room for {fitting:g} holes side by side, "
-            f"{1e6 * fitting * of_one:.6g} g mm; use a larger drill, --radius or --max-depth, or "
-            "--slug"
+            "{drill} {size:g} mm: {count:g} holes for {wanted:.6g} g mm do not fit: {room:g} mm "
+            "({width}) have room for {fitting:g} holes side by side, {possible:.6g} g mm; use a "
+            "larger drill, {radius} or {max_depth}, or {slug}",
+            size=1e3 * tools.drill,
+            count=count,
+            wanted=1e6 * unbalance,
+            room=1e3 * room,
+            fitting=fitting,
+            possible=1e6 * fitting * of_one,
         )
     depth = find_drill_depth(unbalance / count, rim, tools.drill, density)
     depth = deepest if math.isnan(depth) else min(depth, deepest)
@@ -231,11 +239,16 @@ def shape_devices(engine: Engine, remedy: Remedy, shapes: Shapes) -> Remedy:
         shapes: Bearings and sector.
 
     Raises:
-        BalcliError: Bearings or sector are impossible, or no new device can have them.
+        ArgumentError: Bearings or sector are impossible, or no new device can have them.
     """
-    for option, found in (("sector", remedy.counterweights), ("bearings", remedy.shafts)):
-        if getattr(shapes, option) is not None and not found:
-            raise BalcliError(f"--{option}: scheme {remedy.scheme} fits no device with {option}")
+    for key, found in (("sector", remedy.counterweights), ("bearings", remedy.shafts)):
+        if getattr(shapes, key) is not None and not found:
+            raise ArgumentError(
+                "{argument}: scheme {name} fits no device with {key}",
+                argument=Argument(key),
+                name=remedy.scheme,
+                key=key,
+            )
     of_weights = {"sector": _read_sector(shapes.sector)} if shapes.sector is not None else {}
     bearings = _read_bearings(shapes.bearings) if shapes.bearings is not None else {}
     used = set() if engine.model is None else {shaft.name for shaft in engine.model.shaft}
@@ -257,19 +270,23 @@ def _read_sector(values: Sequence[float]) -> Sector | None:
     """Return a sector whose thickness follows from the unbalance."""
     sector = dict(zip(("inner_radius", "outer_radius", "opening"), values, strict=False))
     sector |= {key: as_millimetres(value) for key, value in sector.items() if key != "opening"}
-    return _read_table("--sector", {"unbalance": 1, "sector": sector}, Counterweight).sector
+    return _read_table("sector", {"unbalance": 1, "sector": sector}, Counterweight).sector
 
 
 def _read_bearings(values: Sequence[float]) -> Node:
     """Return the key `bearings` of a shaft."""
     places = [as_millimetres(z) for z in values]
-    shaft = _read_table("--bearings", {"ratio": 1, "inertia": 1, "bearings": places}, Shaft)
+    shaft = _read_table("bearings", {"ratio": 1, "inertia": 1, "bearings": places}, Shaft)
     return {"bearings": shaft.bearings}
 
 
-def _read_table(option: str, values: Node, table: type[T]) -> T:
+def _read_table(argument: str, values: Node, table: type[T]) -> T:
     reader = TableReader("an option")
-    found = reader.read_table(option, values, table)
+    found = reader.read_table(argument, values, table)
     if found is None:
-        raise BalcliError(f"{option}: {'; '.join(one.message for one in reader.problems)}")
+        raise ArgumentError(
+            "{argument}: {problems}",
+            argument=Argument(argument),
+            problems="; ".join(problem.message for problem in reader.problems),
+        )
     return found
