@@ -78,7 +78,7 @@ def test_two_engines_are_their_sum(geared, tmp_path, loads, load):
     """In every figure, and the sum writes the file that it stands for."""
     both = geared([one | {"load": own} for one, own in zip(TWO, loads, strict=True)])
     parts = [replace(balcli.load(tmp_path / one["file"]), speed_rpm=3000.0) for one in TWO]
-    place = {"phase_deg": 75, "at_m": (0.2, -0.3, 0.4), "turn_deg": 35, "reverse": True, "load": load}
+    place = {"phase": 75, "at": (0.2, -0.3, 0.4), "turn": 35, "reverse": True, "load": load}
     agree(balcli.analyze(both, ORDERS).spectra, balcli.sum(*parts, **place, orders=ORDERS).spectra)
     options = ["--phase", 75, "--at", "200,-300,400", "--turn", 35, "--reverse", "--load", load, "--speed", 3000]
     files = [str(tmp_path / one["file"]) for one in TWO]
