@@ -26,7 +26,7 @@ def test_a_command_has_a_function_and_a_method_of_its_name(name):
 def test_a_method_gives_what_the_function_gives():
     engine = balcli.load_example("i4")
     assert engine.analyze([2]).to_dict() == balcli.analyze(engine, [2]).to_dict()
-    assert engine.sum(engine, phase_deg=90).to_dict() == balcli.sum(engine, engine, phase_deg=90).to_dict()
+    assert engine.sum(engine, phase=90).to_dict() == balcli.sum(engine, engine, phase=90).to_dict()
 
 
 @pytest.mark.parametrize(
