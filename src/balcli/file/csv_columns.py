@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import math
+import os
 import re
 from collections.abc import Sequence
 from io import StringIO
@@ -112,7 +113,7 @@ def locate_beside(folder: Path, name: str) -> Path:
         raise BalcliError(f"{shorten(name)}: cannot be read ({error})") from None
     if not place.is_relative_to(home):
         raise BalcliError(f"{shorten(name)} is outside the folder of the engine file; put it there")
-    if place.exists() and not (place.is_file() or place.is_dir()):
+    if os.path.exists(place) and not (os.path.isfile(place) or os.path.isdir(place)):
         raise BalcliError(f"{shorten(name)} is a named pipe or a device; give a regular file")
     return folder / name
 

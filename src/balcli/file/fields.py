@@ -244,9 +244,9 @@ class AnyFigure(_Field):
             raise ValueError(
                 f"{shorten(value)} is not a figure; give a number, or text with a unit"
             )
-        if not math.isfinite(value):
+        if not abs(value) <= sys.float_info.max:  # also nan, and integers too large for a float
             raise ValueError(f"{shorten(value)} is not a finite number")
-        return value
+        return float(value)
 
     def json(self) -> Node:
         return {"anyOf": [{"type": "number"}, {"type": "string"}]}

@@ -15,7 +15,8 @@ from typing import Any
 
 from ..core.records import Node
 
-_MOST_LINES = 2000  # lines of a file in which keys are found; an engine file has up to 300
+_MOST_LINES = 1000  # lines of a file in which keys are found; an engine file has up to 300
+_LONGEST_PATH = 300  # characters of a path: a key and the name of a quantity
 _LONGEST_STATEMENT = 200  # lines of a value, such as a list of positions
 
 
@@ -43,6 +44,8 @@ class LineFinder:
         Args:
             path: Dotted name as in messages about mistakes: `shaft.2.ratio`, `crank.throws.1`.
         """
+        if len(path) > _LONGEST_PATH:
+            return None
         with suppress(_TooLongError):
             return self._find(path.split("."))
         return None

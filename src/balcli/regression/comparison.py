@@ -88,8 +88,8 @@ def find_abandoned(files: Iterable[FilePath]) -> Iterator[CheckedEngine]:
     """Yield a difference for each record among `files` whose engine file is missing."""
     for engine_file, record in list_abandoned(files):
         reason = (
-            f"its result is recorded in {record.parent.name}/{record.name}, but there is no "
-            f"{engine_file.name}; restore it, or delete the record"
+            f"its result is recorded in {record.parent.name}/{spell_path(record.name)}, but there "
+            f"is no {spell_path(engine_file.name)}; restore it, or delete the record"
         )
         yield _refuse(engine_file, Fault.ABANDONED, reason)
 
@@ -104,22 +104,23 @@ def _compare_with_record(
     engine: Engine, file: FilePath, tolerances: Tolerances, lines: LineFinder
 ) -> CheckedEngine:
     record = find_record(file)
-    where = f"{record.parent.name}/{record.name}"
+    where = f"{record.parent.name}/{spell_path(record.name)}"
     if not record.exists():
         reason = f"no result is recorded in {where}; check --update records it"
         return _refuse(file, Fault.MISSING, reason)
     present = describe_engine(engine)
     try:
         recorded = read_record(record)
-        inputs = recorded.get(INPUTS) if isinstance(recorded, dict) else None
+        differences = tuple(find_differences(engine, recorded, present, tolerances))
         changed = None
-        if isinstance(inputs, dict):
-            changed = find_changed(take_model(engine), inputs, lines)
+        if isinstance(recorded.get(INPUTS), dict):
+            changed = find_changed(take_model(engine), recorded[INPUTS], lines)
+        version = recorded.get("version")
         return CheckedEngine(
             engine=spell_path(file),
             changed_inputs=changed,
-            differences=tuple(find_differences(engine, recorded, present, tolerances)),
-            recorded_with=recorded.get("version"),
+            differences=differences,
+            recorded_with=str(version) if version else None,
         )
     except BROKEN as error:
         reason = (
@@ -230,7 +231,7 @@ class _Comparison:
     def is_equal_peak(self, engine: Engine, path: Path) -> bool:
         """Return whether a difference is only that between the angles of two equally high peaks."""
         kind = _PEAKS.get(path)
-        angles = self._old.get(path), self._new.get(path)
+        angles = self._get_both(path)
         if kind is None or None in angles:
             return kind is not None  # no angle: a peak of 0, whose value is compared
         curve = compute_spectra(engine, find_relevant_orders(engine), [kind])[kind]
@@ -239,7 +240,7 @@ class _Comparison:
 
     def describe(self, path: Path) -> Difference:
         """Return the record of a difference."""
-        before, after = self._old.get(path), self._new.get(path)
+        before, after = self._get_both(path)
         largest = self._largest.get(find_group(path), 0.0)
         share = None
         if _is_number(before) and _is_number(after) and largest and not path[-1].endswith("_deg"):
@@ -248,9 +249,13 @@ class _Comparison:
         unit = find_unit_of(path) if is_number else ""
         return Difference(name_cause(path), describe_figure(path), before, after, share, unit, path)
 
+    def _get_both(self, path: Path) -> tuple[Any, Any]:
+        """Return recorded and present value; None for one that is missing."""
+        return self._old.get(path), self._new.get(path)
+
     # -------------------------------------------------------------- kinds of figures
     def _is_same_size(self, path: Path) -> bool:
-        before, after = self._old.get(path), self._new.get(path)
+        before, after = self._get_both(path)
         is_null = path in self._old and path in self._new and None in (before, after)
         if is_null or not (_is_number(before) and _is_number(after)):
             return False
@@ -264,7 +269,7 @@ class _Comparison:
         return order not in ALWAYS_RECORDED
 
     def _is_same_angle(self, path: Path) -> bool:
-        before, after = self._old.get(path), self._new.get(path)
+        before, after = self._get_both(path)
         if before is None or after is None:
             return False
         least = DEAD_CENTER_DEG if path[0] == TRAVEL else PEAK_ANGLE_DEG
@@ -282,7 +287,7 @@ class _Comparison:
         allowed = self._find_allowed(path)
         if min(sizes, default=0.0) <= allowed:
             return True
-        before, after = self._old.get(path), self._new.get(path)
+        before, after = self._get_both(path)
         if before is None or after is None:
             return False
         turn = math.degrees(allowed * sum(1 / size for size in sizes) / len(sizes))
@@ -295,7 +300,8 @@ class _Comparison:
 
     def _is_same_balance(self, path: Path) -> bool:
         """Return whether rounding or a tolerated change explains that only one is balanced."""
-        then, now = _find_sizes(self._old, path), _find_sizes(self._new, path)
+        then = _find_sizes(self._old, path)
+        now = _find_sizes(self._new, path)
         if not then or not now:  # an order that is not shown
             return True
         return then != now and max(*then, *now) <= self._find_allowed(path)
@@ -345,6 +351,5 @@ def _find_sizes(figures: Figures, path: Path) -> tuple[float, ...]:
         return ()
     sizes = []
     for sense in ("forward", "backward"):
-        x, y = figures[*place, sense, "x"], figures[*place, sense, "y"]
-        sizes.append(math.hypot(x, y))
+        sizes.append(math.hypot(figures[*place, sense, "x"], figures[*place, sense, "y"]))
     return tuple(sizes)

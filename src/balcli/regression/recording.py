@@ -78,7 +78,8 @@ def check_target(engine_file: Path) -> Path:
     Raises:
         BalcliError: The record is a link that leads out of the engine's folder.
     """
-    record, folder = find_record(engine_file), engine_file.parent.resolve()
+    record = find_record(engine_file)
+    folder = engine_file.parent.resolve()
     if not record.resolve().is_relative_to(folder):
         raise BalcliError(
             f"{record}: is a link that leads out of the engine's folder; nothing is recorded"

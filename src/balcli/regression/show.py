@@ -10,13 +10,14 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
-from ..file.fields import counted, shorten
+from ..file.fields import counted, printable, shorten
 from ..show.sheet import given
 from ..version import __version__
 from .records import BrokenLimit, ChangedInput, CheckedEngine, Difference, Fault, Mistake
 
 _MOST_NAMED = 3  # number of inputs, or of engines with one cause, that a line names
-_LEAST_DIGITS, _MOST_DIGITS = 4, 17  # significant digits of a changed figure
+_LEAST_DIGITS = 4  # significant digits of a changed figure
+_MOST_DIGITS = 17
 _COMPONENTS = ("x", "y", "cos", "sin")  # last keys of figures that are parts of a vector's size
 _MOST_PERCENT = 1000  # larger changes are not written in percent
 
@@ -24,12 +25,14 @@ _MOST_PERCENT = 1000  # larger changes are not written in percent
 # ------------------------------------------------------------------ words for one fact
 def describe_input(changed: ChangedInput) -> str:
     """Return a changed input in words: `crank.stroke: 86 -> 88 mm`."""
-    before, after = changed.recorded, changed.now
+    key = printable(changed.key)
+    before = changed.recorded
+    after = changed.now
     if _is_file(before) and _is_file(after) and before["file"] == after["file"]:
-        return f'{changed.key}: the content of "{after["file"]}" changed'
+        return f'{key}: the content of "{after["file"]}" changed'
     unit_before = changed.unit if after is None else ""
     values = f"{_write_input(before, unit_before)} -> {_write_input(after, changed.unit)}"
-    return f"{changed.key}: {values}"
+    return f"{key}: {values}"
 
 
 def _is_file(value: object) -> bool:
@@ -50,7 +53,8 @@ def describe_difference(difference: Difference) -> str:
     """Return a changed figure in words: `order 2 force major: 9817 -> 10052 N (+2.4 %)`."""
     if difference.cause is None:
         return difference.figure
-    before, after = difference.recorded, difference.now
+    before = difference.recorded
+    after = difference.now
     if not (isinstance(before, float) and isinstance(after, float)):
         values = f"{_write_value(before)} -> {_write_value(after)}"
         return _with_unit(f"{difference.figure}: {values}", difference.unit)
@@ -159,9 +163,9 @@ def describe_cause(cause: Cause) -> str:
 
 def _suspect(recorded_with: str | None) -> str:
     """Return what may have changed figures if no input changed."""
-    if recorded_with in (None, __version__):
+    if recorded_with is None or recorded_with == __version__:
         return "was the record edited?"
-    return f"recorded with balcli {recorded_with}, this is {__version__}"
+    return f"recorded with balcli {printable(recorded_with)}, this is {__version__}"
 
 
 def find_line(checked: CheckedEngine) -> int | None:
