@@ -144,7 +144,8 @@ def measure() -> Bench:
 
 def list_cases() -> Iterator[Case]:
     """Yield a case for every method of every task."""
-    cylinder, v8 = build(parse(CYLINDER)), build(parse(V8))
+    cylinder = build(parse(CYLINDER))
+    v8 = build(parse(V8))
     for task, engine, orders in (
         ("one cylinder, order 2", cylinder, [2]),
         ("one cylinder, order 8", cylinder, [8]),
@@ -183,7 +184,8 @@ def _cut_series(power: int) -> Coefficients:
 
 def _accelerate(psi: Array, lam: float) -> Array:
     """Return the acceleration of the piston, divided by crank radius times crank speed squared."""
-    cosine, sine = np.cos(psi), np.sin(psi)
+    cosine = np.cos(psi)
+    sine = np.sin(psi)
     cos_beta = np.sqrt(1 - (lam * sine) ** 2)
     return cosine - lam * sine**2 / cos_beta + lam * cosine**2 / cos_beta**3
 
@@ -224,7 +226,8 @@ def _sample(points: int, force_of: Callable[[Array, float, float, float], Comple
         force = force_of(psi, float(engine.cylinders.lam[0]), reciprocating, rotating)
         force = force * np.exp(1j * axis)[:, None]
         curves = np.stack([force.sum(axis=0), 1j * (z[:, None] * force).sum(axis=0)])
-        lines, n = np.fft.fft(curves) / points, np.array(orders)
+        lines = np.fft.fft(curves) / points
+        n = np.array(orders)
         both = np.stack([lines[:, n % points], lines[:, -n % points]], axis=-1)
         return np.where(2 * n[:, None] < points, both, 0)  # too few points for higher orders
 
@@ -238,7 +241,8 @@ def _force_at_angles(psi: Array, lam: float, reciprocating: float, rotating: flo
 def _force_of_steps(psi: Array, lam: float, reciprocating: float, rotating: float) -> Complex:
     """Return the force by central differences of the position, over one revolution."""
     piston = np.cos(psi) + np.sqrt(1 - (lam * np.sin(psi)) ** 2) / lam  # position / radius
-    place, step = reciprocating * piston + rotating * np.exp(1j * psi), 2 * np.pi / psi.shape[-1]
+    place = reciprocating * piston + rotating * np.exp(1j * psi)
+    step = 2 * np.pi / psi.shape[-1]
     return (2 * place - np.roll(place, -1, axis=-1) - np.roll(place, 1, axis=-1)) / step**2
 
 

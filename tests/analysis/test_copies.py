@@ -28,7 +28,9 @@ def fit(scheme: str):
 
 RESULTS = {
     "analysis": lambda: analyze(load(ENGINES / "v8_crossplane.toml"), None, EVERYTHING, by="cylinder", why=True),
-    "articulated": lambda: analyze(load(ENGINES / "radial7_articulated.toml"), None, EVERYTHING, by="cylinder", why=True),
+    "articulated": lambda: analyze(
+        load(ENGINES / "radial7_articulated.toml"), None, EVERYTHING, by="cylinder", why=True
+    ),
     "curves": lambda: curves(load(ENGINES / "i4_wiebe.toml"), 30, cylinder=2),
     "fired": lambda: analyze(pickle.loads(pickle.dumps(load(FIRED)))),
     "knuckles": lambda: balance_knuckles(parse((ENGINES / "radial7_articulated.toml").read_bytes())),

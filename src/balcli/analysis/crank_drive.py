@@ -70,9 +70,11 @@ def find_journals(engine: Engine) -> tuple[Journal, ...]:
     """
     places = engine.joined_throws_m
     kinds = {"pin": places, "main": place_bearings(places)}
-    torques, found = CrankTorques.of(engine), []
+    torques = CrankTorques.of(engine)
+    found = []
     for (kind, place), weights in weigh_cylinders(engine).items():
-        inertia, total = torques.measure(weights), torques.measure_total(weights)
+        inertia = torques.measure(weights)
+        total = torques.measure_total(weights)
         at = kinds[kind] if engine.places_known else None
         found.append(
             Journal(
@@ -94,7 +96,8 @@ def weigh_cylinders(engine: Engine) -> dict[tuple[str, int], Array]:
     if engine.rotary:
         raise BalcliError("journals: the crank of a rotary engine stands still")
     throws = np.array(engine.joined_throw_of_rows) + 1
-    last, found = int(throws.max()), dict[tuple[str, int], Array]()
+    last = int(throws.max())
+    found = dict[tuple[str, int], Array]()
     for k in range(1, last + 2):
         found["main", k] = np.where(throws < k, 1.0, 0.0)
         if k <= last:
@@ -145,7 +148,8 @@ class CrankTorques(NamedTuple):
         """Return the sum of the cylinders' torques, N m, at an array of crank angles, rad. Each
         torque is multiplied by its entry of `weights`, shape (cylinders,).
         """
-        gas, inertia = self._find_gas(weights), self._sum(angle, weights)
+        gas = self._find_gas(weights)
+        inertia = self._sum(angle, weights)
         return inertia if gas is None else inertia + gas.at(angle)
 
     def _sum(self, angle: Array, weights: Array) -> Array:
@@ -163,7 +167,8 @@ class CrankTorques(NamedTuple):
 
 
 def _write(high: CyclePeak | Extreme, low: CyclePeak | Extreme, mean: float = 0.0) -> JournalTorque:
-    highest, lowest = float(high.value), float(low.value)
+    highest = float(high.value)
+    lowest = float(low.value)
     return JournalTorque(
         max_Nm=highest,
         min_Nm=lowest,
@@ -210,7 +215,8 @@ def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> N
 
 def evaluate_engine(engine: Engine, quantities: Sequence[TargetQuantity]) -> list[float]:
     """Return the value of each quantity of one engine, N m."""
-    torques, weights = CrankTorques.of(engine), weigh_cylinders(engine)
+    torques = CrankTorques.of(engine)
+    weights = weigh_cylinders(engine)
     places = [(_KINDS[q.kind], int(q.target)) for q in quantities]
     found = {
         place: torques.measure_total(weights[place]) or torques.measure(weights[place])
@@ -297,12 +303,14 @@ def list_masses(engine: Engine) -> tuple[Masses, ...]:
     Args:
         engine: One engine, not an array of variants.
     """
-    c, count = engine.cylinders, len(engine.numbers)
+    c = engine.cylinders
+    count = len(engine.numbers)
     figures = [np.broadcast_to(np.ravel(v), count) for v in (c.radius, c.rod_length, c.couple)]
     each = zip(engine.numbers, engine.weighed, *(v.tolist() for v in figures), strict=True)
     found: dict[tuple[Masses, float], list[int]] = {}
     for number_, weighed, radius, length, couple in sorted(each, key=lambda row: row[0]):
-        small, big = float(weighed.small_end), float(weighed.big_end)
+        small = float(weighed.small_end)
+        big = float(weighed.big_end)
         one = Masses(
             cylinders=(),
             piston_kg=float(weighed.piston),
@@ -314,7 +322,8 @@ def list_masses(engine: Engine) -> tuple[Masses, ...]:
         if (mass := small + big) > 0:
             one = one._replace(rod_kg=mass, rod_small_end_kg=small, rod_big_end_kg=big)
         if mass > 0 and math.isfinite(length):
-            a, b = length * big / mass, length * small / mass
+            a = length * big / mass
+            b = length * small / mass
             inertia = mass * a * b - couple
             one = one._replace(
                 rod_inertia_kg_m2=inertia,

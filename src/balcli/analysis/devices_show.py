@@ -112,7 +112,9 @@ def practical_grid(remedy: Remedy, practical: tuple[Practical, ...], system: Sys
         practical: Figures for the workshop, one entry for each device; at least one entry.
         system: System of units.
     """
-    length, mass, force = system.length, system.mass, system.force
+    length = system.length
+    mass = system.mass
+    force = system.force
     radius = list_radii(practical, length)
     note = f"Force: centrifugal. Mass: at a radius of {radius}. Disc: semicircular, of steel."
     if remedy.sliders:

@@ -47,7 +47,8 @@ def ladder_grid(
         system: System of units.
         tell_fitted: Whether a note names the steps that `balcli balance` fits.
     """
-    steps, scale = ladder.steps, ladder.scale
+    steps = ladder.steps
+    scale = ladder.scale
     columns = [Column("step", [f"{row} {step.step}" for row, step in enumerate(steps)], words=True)]
     forces = [step.peak_force_N for step in steps]
     columns.append(_size_column(FORCE, forces, scale.force_N, system))
@@ -144,7 +145,8 @@ def _tell_left_out(out: LeftOut, ladder: Ladder, system: System) -> str:
     """Return a sentence on an omitted step: the force or the moment that it would remove, or the
     change of the main bearing load. Empty if its effect would be printed as 0.
     """
-    size, fall = abs(ladder.measure(out)), out.main_bearing_N
+    size = abs(ladder.measure(out))
+    fall = out.main_bearing_N
     if size < _HARDLY:
         return ""
     share = ""
@@ -153,7 +155,9 @@ def _tell_left_out(out: LeftOut, ladder: Ladder, system: System) -> str:
     name = f"a {out.step}" if out.step in SINGLE_SHAFTS else out.step
     why = "left out"
     if fall is None:
-        force, moment, scale = out.force_N, out.moment_Nm or 0.0, ladder.scale
+        force = out.force_N
+        moment = out.moment_Nm or 0.0
+        scale = ladder.scale
         by_moment = moment * scale.force_N > force * (scale.moment_Nm or 0.0)
         largest = size_text(moment, system.moment) if by_moment else size_text(force, system.force)
         does = f"remove {largest}"

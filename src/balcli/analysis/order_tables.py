@@ -100,10 +100,12 @@ def direction_tables(spectra: Spectra, system: System, *, every: bool = False) -
                 yield size_cell(abs(c), unit)
                 yield degrees(float(phase_deg(c))) if c else ""
 
-    title, levers = "Along x and y", _LEVERS
+    title = "Along x and y"
+    levers = _LEVERS
     heads = [kind.symbol + axis for kind, *_ in vectors for axis in "xy"]
     if up is not None:
-        title, levers = f"Components with up at {up:g} deg from x", _UPRIGHT_LEVERS
+        title = f"Components with up at {up:g} deg from x"
+        levers = _UPRIGHT_LEVERS
         heads = [word for kind, *_ in vectors for word in kind.upright]
     units = ", ".join(unit.name for _, _, unit in vectors)
     yield _table(
@@ -125,7 +127,8 @@ def textbook_tables(book: Textbook, system: System, *, every: bool = False) -> I
         system: System of units.
         every: As for `order_tables`.
     """
-    units, built = book.units, book.built
+    units = book.units
+    built = book.built
     if not units.force:
         return
     if built.force is not None:
@@ -155,7 +158,8 @@ def cylinder_tables(
         about_crank: Whether couple and torques are wanted.
     """
     orders = Column("order", [*map(order_name, share.orders)], words=True)
-    vectors, scalars = [orders], [orders]
+    vectors = [orders]
+    scalars = [orders]
     for kind, phasors in share.vectors():
         for way, part in (("with", phasors.forward), ("against", phasors.backward)):
             vectors.append(_column(f"{kind.name} {way}", part, system.unit(kind)))
@@ -289,7 +293,8 @@ def fit_largest(unit: ShownUnit, *columns: Phasors) -> ShownUnit:
 
 def _textbook_table(kind: Kind, book: Textbook, note: str, every: bool) -> Grid:
     """Return a table of multiples of each order's unit; a dash if the order has no unit."""
-    alone, built = book.reciprocating[kind.name], book.built[kind.name]
+    alone = book.reciprocating[kind.name]
+    built = book.built[kind.name]
 
     columns = (alone.major, abs(alone.forward), abs(alone.backward), built.major)
 
@@ -309,7 +314,8 @@ def _peak(peak: Peak, unit: ShownUnit, least: float) -> str:
     size = size_text(peak.value, unit, 5)
     if not peak.every:
         return f"{size} at every crank angle"
-    at, every = degrees(float(np.degrees(peak.theta))), float(np.degrees(peak.every))
+    at = degrees(float(np.degrees(peak.theta)))
+    every = float(np.degrees(peak.every))
     again = f" and every {every:.6g} deg" if every < WHOLE_TURN else ""
     return f"{size} at crank angle {at} deg{again}"
 

@@ -53,7 +53,8 @@ def find_parts(
     if skirt is not None and not engine.rotary:  # rotary: counterweights turn with the cylinders
         innermost = float(find_innermost(engine.cylinders).min())
         lowest = innermost - skirt / 1e3 if math.isfinite(innermost) else None
-    omega, groups = float(engine.omega), group_eccentrics(shafts)
+    omega = float(engine.omega)
+    groups = group_eccentrics(shafts)
     return BalanceParts(
         tuple(_describe_shaft(name, [*entries.values()], omega) for name, entries in groups),
         tuple(_describe_counterweight(one, lowest) for one in counterweights),
@@ -76,7 +77,8 @@ def _describe_shaft(name: str, entries: Sequence[Shaft], omega: float) -> Balanc
     bearings = next((entry.bearings for entry in entries if entry.bearings), None)
     if bearings is None:
         return BalancerShaft(*shaft)
-    places, planes = np.array([float(d.z) for d in devices]), np.array(bearings) / 1e3
+    places = np.array([float(d.z) for d in devices])
+    planes = np.array(bearings) / 1e3
     vectors: Complex = np.array([d.forward + d.backward for d in devices], complex)
     loads: Complex = (order * omega) ** 2 * vectors
     turning = _share(loads, places, planes)
@@ -100,8 +102,10 @@ def _describe_gear(
     gear = next((entry.gear for entry in entries if entry.gear), None)
     if gear is None:
         return None, np.zeros(2, complex)
-    drag, sense = max(entry.drag for entry in entries), np.sign(entries[0].ratio)
-    tangential, slope = 1e3 * drag / gear.radius, math.tan(math.radians(gear.pressure_angle))
+    drag = max(entry.drag for entry in entries)
+    sense = np.sign(entries[0].ratio)
+    tangential = 1e3 * drag / gear.radius
+    slope = math.tan(math.radians(gear.pressure_angle))
     force: Complex = np.array([tangential * unit(gear.direction) * (1j * sense - slope)])
     loads = _share(force, np.array([gear.position / 1e3]), planes)
     return ShaftGear(tangential, tangential * slope, drag * omega), loads
@@ -225,10 +229,12 @@ def list_columns(
         units: Units in addition to those of the system, by their SI names.
         system: System of units.
     """
-    length, angle = system.length, ShownUnit("deg", 1)
+    length = system.length
+    angle = ShownUnit("deg", 1)
     units = units | system.of_parts | {"deg": angle, "mm": length._replace(size=1e3 * length.size)}
     for key, label in labels.items():
-        values, unit_ = [getattr(record, key) for record in records], units[find_unit(key)]
+        values = [getattr(record, key) for record in records]
+        unit_ = units[find_unit(key)]
         cells = [UNKNOWN if value is None else number(unit_.of(value)) for value in values]
         if set(cells) != {UNKNOWN}:
             yield Column(name_with_unit(label, unit_.name), cells)

@@ -181,14 +181,18 @@ def piston(engine: Engine) -> Pistons:
     """
     engine = check_engine("piston", engine)
     refuse_geared(engine)
-    c, numbers = engine.cylinders, np.array(engine.numbers)
+    c = engine.cylinders
+    numbers = np.array(engine.numbers)
     orders = np.arange(1.0, max(c.find_highest_order(), 2) + 1)
     harmonics, which = c.find_distinct_harmonics(orders, {"piston"})
-    omega, travel, bore = float(engine.omega), find_travel(c), float(engine.bore_m)
+    omega = float(engine.omega)
+    travel = find_travel(c)
+    bore = float(engine.bore_m)
     kinds = np.broadcast_to(which, len(numbers)) + 1j * c.radius_of_each  # mechanism and size
     mechanisms = []
     for kind in dict.fromkeys(kinds[np.argsort(numbers)].tolist()):
-        rows, radius = np.flatnonzero(kinds == kind), kind.imag
+        rows = np.flatnonzero(kinds == kind)
+        radius = kind.imag
         first = rows[0]
         stroke, top, bottom = (float(v[first]) for v in travel)
         inward = (bottom + 180 - top) % 360
@@ -261,7 +265,8 @@ def _use_two_terms(lam: float, radius: float, omega: float) -> TwoTerm:
     The acceleration in units of r omega^2 is `cos psi + lam cos 2 psi`. Its minimum is at
     `cos psi = -1/(4 lam)` if there is such an angle psi, otherwise at 180 deg.
     """
-    (psi, value), scale = fastest_two_term(lam), radius * omega**2
+    psi, value = fastest_two_term(lam)
+    scale = radius * omega**2
     two = lam > _TWO_TERM_LIMIT
     return TwoTerm(
         velocity_max_m_per_s=radius * omega * float(value),

@@ -114,7 +114,8 @@ def rows(inner: InnerLoads, system: System) -> Iterator[FigureRow]:
     length = system.length
     for kind, along in list_loads(inner):
         for k, z in enumerate(along.z_m):
-            place, unit = f"{kind.name} {k + 1}", system.unit(kind)
+            place = f"{kind.name} {k + 1}"
+            unit = system.unit(kind)
             yield FigureRow(0, place, None, "position", clean(length.of(z)), length.name)
             yield from peak_rows(place, along.peaks[k], unit)
             for entry in write_each(list_load_orders(along.at(k))):

@@ -69,25 +69,30 @@ def tell_change(result: Balance, system: System) -> str:
     """Return in words the changes to a measured crankshaft for the wanted factor; empty without a
     measured mass or a wanted factor.
     """
-    details, unit = result.remedy.details, system.unbalance
+    details = result.remedy.details
+    unit = system.unbalance
     if not (changes := details.get("change")):
         return ""
     sizes = [one["unbalance_kg_m"] for one in changes]
     alike = all(abs(size - sizes[0]) <= 1e-9 * abs(sizes[0]) for size in sizes)
-    everywhere, what = "each pin" if len(sizes) > 1 else "the pin", []
+    everywhere = "each pin" if len(sizes) > 1 else "the pin"
+    what = []
     for one, size in zip(changes, sizes, strict=True):
         pin = everywhere if alike else f"pin {one['throw']}"
         done = f"{one['action']} {size_text(abs(size), unit)} opposite {pin}"
         what.append(done if size else f"change nothing at {pin}")
-    has, wanted = percent(details["measured_factor"]), percent(details["wanted_factor"])
+    has = percent(details["measured_factor"])
+    wanted = percent(details["wanted_factor"])
     return f"The crank has the factor {has}; for {wanted}, {', '.join(dict.fromkeys(what))}."
 
 
 def tell_best_factors(result: Balance, system: System) -> str:
     """Return a sentence on the best factors and what they minimise; empty if no factor is best."""
-    remedy, told = result.remedy, []
+    remedy = result.remedy
+    told = []
     for name, one in remedy.details.get("best", {}).items():
-        key, what = next(key for key in one if key != "factor"), name.replace("_", " ")
+        key = next(key for key in one if key != "factor")
+        what = name.replace("_", " ")
         size = size_text(one[key], system.force if find_unit(key) == "N" else system.moment)
         goal = f"peak {what}" if key.startswith("peak") else f"{what} load"
         told.append((percent(one["factor"]), f"the smallest {goal} ({size})"))
@@ -111,7 +116,8 @@ def _list_figures(result: Balance) -> Iterator[_Figure]:
 
 def _choose_figures(result: Balance) -> Iterator[_Figure]:
     """Yield the figures that tables show; figures that are not known are nan."""
-    order, about_crank = result.remedy.order, {*chain(*_ROLLS)}
+    order = result.remedy.order
+    about_crank = {*chain(*_ROLLS)}
     for each in _list_figures(result):
         if each.key in _FOR_PROGRAMS:
             continue
@@ -133,7 +139,8 @@ def _name(figure: _Figure) -> str:
 
 def _show(figure: _Figure, system: System) -> str:
     """Return a figure with its unit; a dash if it is not known."""
-    value, unit = figure.value, find_unit(figure.key) or find_unit(figure.group)
+    value = figure.value
+    unit = find_unit(figure.key) or find_unit(figure.group)
     if isinstance(value, str):
         return value
     if value == [] or (isinstance(value, float) and isnan(value)):
@@ -168,7 +175,8 @@ def tell_growing_rolls(result: Balance, system: System) -> Iterator[str]:
     """Yield a sentence for every order whose roll (of inertia; for an engine with gas, of inertia
     and gas) is larger with the new devices than without them.
     """
-    remedy, (x, y, _) = result.remedy, result.before.engine.reference_m
+    remedy = result.remedy
+    x, y, _ = result.before.engine.reference_m
     pivot = "the point of reference" if x or y else "the crankshaft"
     groups = {"": remedy.details} | {k: v for k, v in remedy.details.items() if type(v) is dict}
     for group, figures in groups.items():
@@ -180,7 +188,8 @@ def tell_growing_rolls(result: Balance, system: System) -> Iterator[str]:
         why = f"the forces of the devices do not pass through {pivot}"
         took = "the devices cancel inertia roll that opposes the gas roll at this speed"
         why = took if grown[0] < 0 else why
-        gas, size = " with gas" * (len(grown) > 1), size_text(grown[-1], system.moment)
+        gas = " with gas" * (len(grown) > 1)
+        size = size_text(grown[-1], system.moment)
         yield f"The roll of {order}{gas} grows by {size}: {why}."
 
 

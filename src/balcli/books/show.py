@@ -33,7 +33,8 @@ from .recomputed import (
 
 def sheet(table: Table, _system: System) -> Sheet:
     """Return the source, the table laid out as printed, and the number of deviating figures."""
-    facts, title = Facts((("source", table.source),)), f"{table.name}: {table.title}"
+    facts = Facts((("source", table.source),))
+    title = f"{table.name}: {table.title}"
     if STATEMENT in table.columns:
         return Sheet(title, (facts, *map(_lay_out_statement, table.errata), _explain(table.errata)))
     columns = []
@@ -70,7 +71,8 @@ def _is_word(cell: Cell) -> bool:
 
 def _shown(table: Table, i: int, j: int) -> str:
     """Return a cell in the form of the print, followed by the print if it deviates."""
-    value, text = table.exact[i][j], table.printed[i][j]
+    value = table.exact[i][j]
+    text = table.printed[i][j]
     shown = _round_as_printed(value, text or "") if isinstance(value, (int, float)) else value or ""
     return f"{shown} ≠ {text}" if text is not None and deviates(value, text) else shown
 

@@ -92,7 +92,8 @@ def torque(
     shown = list_gas_orders(engine) if orders is None else check_orders(orders)
     row = find_row(engine, cylinder)
     curves = find_torque_curves(steady)
-    above, omega = surplus(curves.total), float(engine.omega)
+    above = surplus(curves.total)
+    omega = float(engine.omega)
     imep = gas.work / float(engine.displacement_m3)
     efficiency = engine.mechanical_efficiency
     pressures = (t.pressure for t, rows in gas.group_equal() if gas.shares[rows].any())

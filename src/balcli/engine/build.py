@@ -81,10 +81,12 @@ def build(
     if model.engine:
         return build_geared(model, varied, partial(build, rank=rank))
     parts = assemble(model, varied, rank=rank, gas=gas)
-    figures, places = parts.figures, parts.places
+    figures = parts.figures
+    places = parts.places
     bore = figures.take_optional("piston.bore", model.piston.bore)
     inertia = figures.take_optional("crank.inertia", model.crank.inertia)
-    bearings, power = None, model.operation.power
+    bearings = None
+    power = model.operation.power
     if (table := model.bearing) is not None:
         pairs = (table.pin_diameter, table.pin_width), (table.main_diameter, table.main_width)
         pin, main = (None if a is None or b is None else a * b * 1e-6 for a, b in pairs)
@@ -184,12 +186,14 @@ def check_rods(parts: Parts) -> Iterator[Problem]:
 
     `check_knuckles` checks articulated rods, because their motion depends on the master rod.
     """
-    model, harmonic = parts.model, parts.model.rod.motion == "harmonic"
+    model = parts.model
+    harmonic = parts.model.rod.motion == "harmonic"
     fixed = model.articulation is None and not model.layout.rotary
     each = (parts.find_rod(number, number in parts.masters) for number in parts.plan.numbers)
     # Rods with equal figures are checked once.
     for place in {parts.kind_of_rod(place): place for place in each}.values():
-        gear, one_end = parts.weigh_gear(place), list(check_ends(place))
+        gear = parts.weigh_gear(place)
+        one_end = list(check_ends(place))
         if harmonic:
             yield from one_end or check_harmonic(place, fixed=fixed)
             continue
@@ -261,8 +265,11 @@ def check_knuckles(parts: Parts) -> Iterator[Problem]:
     """
     if parts.model.articulation is None:
         return
-    cylinders, numbers = parts.cylinders, parts.numbers
-    linkage, lam, eps = cast(Linkage, cylinders.linkage), cylinders.lam, cylinders.eps
+    cylinders = parts.cylinders
+    numbers = parts.numbers
+    linkage = cast(Linkage, cylinders.linkage)
+    lam = cylinders.lam
+    eps = cylinders.eps
     hung = cast(Articulated, linkage.hung if isinstance(linkage, Rotary) else linkage)
     # A knuckle pin is at most crank radius + knuckle radius away from the crank axis.
     if np.all(lam * (1 + np.abs(hung.knuckle)) + np.abs(eps) <= 1 - NEAREST_TO_LOCK):
@@ -283,7 +290,8 @@ def check_knuckles(parts: Parts) -> Iterator[Problem]:
         lean = at + ((after - before) ** 2 / (8 * bend) if bend > 0 else 0.0)
         if hung.master[row] == row or lean <= 1 - NEAREST_TO_LOCK:
             continue
-        own, crank_deg = parts.model.cylinder.get(number), (360 / STEPS * worst - turned[row]) % 360
+        own = parts.model.cylinder.get(number)
+        crank_deg = (360 / STEPS * worst - turned[row]) % 360
         general = own is None or (own.rod_length is None and own.rod_ratio is None)
         yield Problem(
             "articulation.rod.length" if general else f"cylinder.{number}.rod_length",
@@ -312,7 +320,8 @@ def check_speed(parts: Parts) -> Iterator[Problem]:
     figures = [figure for line in lines for figure in (line.amplitude, line.angle_deg)]
     columns = map(np.ravel, np.broadcast_arrays(*figures))
     for variant in zip(*columns, strict=True):
-        amplitudes, angles = variant[::2], variant[1::2]
+        amplitudes = variant[::2]
+        angles = variant[1::2]
         if sum(map(abs, amplitudes)) < 1 - STANDSTILL:
             continue
         slowest = find_slowest(list(map(RippleLine, orders, amplitudes, angles)))

@@ -74,12 +74,14 @@ def plan_cylinders(model: EngineFile) -> Plan:
     Raises:
         InputError: Positions, numbering or firing order do not fit the throws and banks.
     """
-    crank, layout = model.crank, model.layout
+    crank = model.crank
+    layout = model.layout
     banks = count_banks(layout)
     if problems := list(_check_letters(layout, banks)):
         raise InputError(problems)
     shared = layout.rods == "shared" or banks == 1
-    rods, cylinders = banks if shared else 1, len(layout.firing_order or ())
+    rods = banks if shared else 1
+    cylinders = len(layout.firing_order or ())
     if crank.throws is None and cylinders % rods:
         told = f"has {cylinders} cylinders, which {rods} banks cannot share evenly: "
         told += f"give crank.throws, or a multiple of {rods} cylinders"
@@ -117,7 +119,8 @@ def plan_cylinders(model: EngineFile) -> Plan:
 
 def _check_rows(model: EngineFile, throws: int) -> Iterator[Problem]:
     """Check that each row of a radial has its own throw, and that the throws' angles are known."""
-    crank, layout = model.crank, model.layout
+    crank = model.crank
+    layout = model.layout
     if not layout.in_rows:
         return
     key = "rows" if layout.rows is not None else "row_angle"
@@ -217,7 +220,8 @@ def _check_firing_order(
     """Check that the firing order has every cylinder once; dummies, which have no gas, may be left
     out. If its length is the number of throws, the message proposes alternating rods.
     """
-    layout, order = model.layout, model.layout.firing_order
+    layout = model.layout
+    order = model.layout.firing_order
     silent = {number for number, own in model.cylinder.items() if own.gas == 0}
     if order is None or (
         len({*order}) == len(order) and {*numbers} - silent <= {*order} <= {*numbers}
@@ -261,7 +265,8 @@ def _check_letters(layout: Layout, banks: int) -> Iterator[Problem]:
 
 def _check_bank_sizes(layout: Layout, plan: Plan) -> Iterator[Problem]:
     """Check that a firing order with letters has as many cylinders of each letter as a bank has."""
-    order, sizes = layout.firing_order, [len(group) for group in plan.groups]
+    order = layout.firing_order
+    sizes = [len(group) for group in plan.groups]
     if isinstance(order, NamedOrder) and sorted(order.bank_sizes) != sorted(sizes):
         told = f"{_describe_bank_sizes(order)}, but the banks have {join_words(sizes)} cylinders"
         yield Problem("layout.firing_order", told)

@@ -76,7 +76,8 @@ def sheet(result: FieldBalance, system: System) -> Sheet:
 
 
 def _show_senses(result: FieldBalance) -> Text:
-    phases, weights = result.phases, result.weights
+    phases = result.phases
+    weights = result.weights
     same = "like phases" if phases == weights else "opposite to phases"
     senses = (
         f"Phases of readings {result.file.rotation}: they count {phases} rotation. Angles of "
@@ -293,7 +294,8 @@ def _draw_readings(ax: PolarAxes, result: FieldBalance) -> None:
     hollow: Look = {"color": SOFT, "markerfacecolor": PAPER}
     ends = [*zip(result.before, result.residual, strict=True)]
     for name, (start, end) in zip(_name_readings(result), ends, strict=True):
-        angles, sizes = [np.angle(start or end), np.angle(end or start)], [abs(start), abs(end)]
+        angles = [np.angle(start or end), np.angle(end or start)]
+        sizes = [abs(start), abs(end)]
         ax.plot(angles, sizes, color=SOFT, linewidth=1, linestyle=(0, (4, 2)))
         ax.plot(angles[:1], sizes[:1], "o", **hollow)
         ax.plot(angles[1:], sizes[1:], "o", color=BLUE, markersize=5, zorder=3)
@@ -316,7 +318,8 @@ def _draw_weights(ax: PolarAxes, result: FieldBalance) -> None:
         if each.wanted is not None:
             rays[f"{name}, wanted"] = (each.wanted - each.weight + each.step, ":")
         for label, (weight, style) in rays.items():
-            angle, size = np.angle(weight), abs(weight)
+            angle = np.angle(weight)
+            size = abs(weight)
             text = f"{label}: {number(size, 3)} at {angle_deg(weight):.1f} deg"
             look: Look = {"color": colour, "linestyle": style, "marker": "o", "markersize": 5}
             ax.plot([angle, angle], [0, size], label=text, markevery=[1], **look)

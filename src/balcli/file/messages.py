@@ -73,11 +73,15 @@ def describe_finding(path: str, finding: ErrorDetails, table: type[FileTable]) -
         finding: Finding, with the place of the key in the table.
         table: Class of the table.
     """
-    kind, loc, value = finding["type"], finding["loc"], finding["input"]
-    inner, key = find_inner_table(table, loc), str(loc[-1]) if loc else ""
+    kind = finding["type"]
+    loc = finding["loc"]
+    value = finding["input"]
+    inner = find_inner_table(table, loc)
+    key = str(loc[-1]) if loc else ""
     field = inner.keys().get(key)
     document = document_keys(inner).get(key, KeyDocument())
-    place, shown = join_path(path, loc), shorten(value)
+    place = join_path(path, loc)
+    shown = shorten(value)
     if kind == "missing":
         example = "{ length = 200 }" if document.example is None else shorten(document.example)
         return Problem.of_missing(place, f"give it, such as {key} = {example}")

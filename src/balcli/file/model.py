@@ -248,7 +248,9 @@ class Layout(FileTable):
                 yield f"{key} has cylinder {listed} more than once; name every cylinder once"
 
     def _check_intervals(self) -> Iterator[str]:
-        intervals, order, cycle = self.firing_intervals, self.firing_order, 180 * self.strokes
+        intervals = self.firing_intervals
+        order = self.firing_order
+        cycle = 180 * self.strokes
         if intervals is None:
             return
         if order is None:

@@ -131,7 +131,8 @@ def _descend(place: Any, given: Any, keys: Sequence[str], path: str) -> tuple[An
     for key in keys:
         if isinstance(place, list):
             k = _find_member(place, given, key, path)
-            place, given = place[k], given[k]
+            place = place[k]
+            given = given[k]
         else:
             known = {str(k): one for k, one in given.items()} if isinstance(given, dict) else {}
             given = known.get(key) if known else getattr(given, key, None)

@@ -139,7 +139,8 @@ class FileTable(BaseModel):
             inner: Key of the length.
             outer: Key of the length around it.
         """
-        bore, diameter = getattr(self, inner), getattr(self, outer)
+        bore = getattr(self, inner)
+        diameter = getattr(self, outer)
         if bore and (diameter is None or bore >= diameter):
             told = ", which is missing" if diameter is None else f" = {as_written(diameter, 'mm')}"
             yield f"{inner} = {as_written(bore, 'mm')}: has to be below {outer}{told}"

@@ -75,10 +75,13 @@ def report_mounts(
         InputError: Tables of the file do not fit together.
         BalcliError: The scheme cannot be fitted, or `respond` fails.
     """
-    mounted, title = build_mounted_body(model, name), model.name
+    mounted = build_mounted_body(model, name)
+    title = model.name
     if engine is None and others:
         (title, engine), *others = others
-    modes, found, remedy = find_mounted_modes(mounted), [], None
+    modes = find_mounted_modes(mounted)
+    found = []
+    remedy = None
     try:
         asked = None if orders is None else check_orders(orders)
         if asked is not None and asked[0] == 0:

@@ -66,7 +66,8 @@ def find_changed(
         if key in present:
             _, now, unit = present[key]
         else:
-            now, unit = None, _find_unit(model, key)
+            now = None
+            unit = _find_unit(model, key)
         for place, before, after in _compare(key, recorded.get(key), now):
             changed.append(ChangedInput(place, before, after, unit, lines.find(place)))
     return tuple(changed)

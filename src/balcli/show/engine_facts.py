@@ -195,7 +195,8 @@ def _bore(engine: Engine, system: System) -> str:
         return ""
     unit = system.length
     bore = number(unit.of(bore_m), 5)
-    stroke, first = _list_strokes(engine, system), engine.numbers.index(1)
+    stroke = _list_strokes(engine, system)
+    first = engine.numbers.index(1)
     if len(engine.cylinders.radius) == 1:
         nominal = number(unit.of(2 * float(engine.cylinders.radius[0])))
         true = number(unit.of(float(find_travel(engine.cylinders).stroke[first])))
@@ -211,9 +212,11 @@ def _volume(engine: Engine, system: System) -> str:
 
 def _crank(engine: Engine, system: System) -> str:
     """Return crank radius, rod length and their ratio for cylinder 1."""
-    c, unit = engine.cylinders, system.length
+    c = engine.cylinders
+    unit = system.length
     first = engine.numbers.index(1)
-    radius, lam = float(c.radius_of_each[first]), float(c.lam[first if len(c.lam) > 1 else 0])
+    radius = float(c.radius_of_each[first])
+    lam = float(c.lam[first if len(c.lam) > 1 else 0])
     strokes = f"stroke {_list_strokes(engine, system)}, " if len(c.radius) > 1 else ""
     r = f"{strokes}r = {number(unit.of(radius))} {unit.name}"
     if c.harmonic:
@@ -235,7 +238,8 @@ def _masses(engine: Engine, system: System, *, whole: bool) -> str:
     """Return the reciprocating and rotating masses of cylinder 1, and the whole rotating mass of
     its pin if the pin carries several rods.
     """
-    row, unit = engine.numbers.index(1), system.mass
+    row = engine.numbers.index(1)
+    unit = system.mass
     weighed = engine.weighed[row]
 
     def shown(kg: Figure) -> str:
@@ -268,7 +272,9 @@ def _firing(engine: Engine) -> str:
         return tell_strokes(engine) if said or engine.gas is not None else ""  # not assumed
     instants = [*engine.fires_deg.values(), 180.0 * engine.strokes]
     gaps = [b - a for a, b in pairwise(instants)]
-    intervals, even, splay = f"every {gaps[0]:.4g}", "", engine.splay_for_even_firing
+    intervals = f"every {gaps[0]:.4g}"
+    even = ""
+    splay = engine.splay_for_even_firing
     if max(gaps) - min(gaps) >= EVEN_DEG:
         intervals = f"after {', '.join(f'{gap:.4g}' for gap in gaps)}"
         even = "" if splay is None else f" (crank.splay = {splay:g} makes them equal)"

@@ -37,7 +37,8 @@ NAMELESS = "engine without a name"
 # An order is negligible if its amplitude is below this share of one cylinder's amplitude, or of the
 # largest amplitude of all orders.
 NEGLIGIBLE = 1e-3
-NOTHING, UNKNOWN = "balanced", "–"  # words for a force of 0, and for an unknown force
+NOTHING = "balanced"
+UNKNOWN = "–"  # words for a force of 0, and for an unknown force
 
 
 class Column(NamedTuple):

@@ -24,7 +24,10 @@ _SINGLE = frozenset("–−…≠≤≥→∠⋅θλμπψω")  # letters in tex
 
 
 Piece = tuple[str, str]  # part of a line: text, and style in a terminal
-_BOLD, _DIM, _RED, _PLAIN = "1", "2", "1;31", ""  # ANSI codes
+_BOLD = "1"
+_DIM = "2"
+_RED = "1;31"
+_PLAIN = ""  # ANSI codes
 
 
 def write_text(sheets: Sequence[Sheet], width: int | None = None, *, styled: bool = False) -> str:

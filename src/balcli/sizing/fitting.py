@@ -152,7 +152,8 @@ def find_effect(
     device: Device, parts: Sequence[ResidualPart], reference: ReferencePoint
 ) -> NDArray[np.complex128]:
     """Return the effect of a device on each part, shape (parts,), in units of `Residual.parts`."""
-    place, z = device.place - reference.place, device.z - reference.z
+    place = device.place - reference.place
+    z = device.z - reference.z
     vectors = {
         1: device.forward,
         -1: device.backward,
@@ -302,7 +303,8 @@ class Fitting(NamedTuple):
             keep_overbalance: Whether nothing is fitted if counterweights of the file balance more
                 than these masses.
         """
-        engine, residual = self.engine, self.find_residual(1)
+        engine = self.engine
+        residual = self.find_residual(1)
         if engine.rotary or engine.placed:
             return self
         masses = np.array([float(weighed.rotating + weighed.share) for weighed in engine.weighed])
@@ -311,7 +313,8 @@ class Fitting(NamedTuple):
         own = [one for one in engine.devices if one.kind is DeviceKind.COUNTERWEIGHT]
         vectors = np.array([*pins, *(one.forward for one in own)])
         z = np.array([*engine.cylinders.z, *(one.z for one in own)])
-        force, moment = complex(vectors.sum()), complex(vectors @ (z - residual.reference.z))
+        force = complex(vectors.sum())
+        moment = complex(vectors @ (z - residual.reference.z))
         if keep_overbalance and (pins.sum().conjugate() * force).real < 0:
             return self
         parts = {**residual.parts, FORWARD_FORCE: force, FORWARD_MOMENT: moment}

@@ -49,7 +49,8 @@ def add_at_throws(fitting: Fitting) -> Fitting:
     Each counterweight of the file is subtracted at the nearest throw. If a force or moment remains
     (from stagger, or weights of the file), the smallest additional unbalances cancel it.
     """
-    engine, throws = fitting.engine, fitting.engine.joined_throws_m
+    engine = fitting.engine
+    throws = fitting.engine.joined_throws_m
     forward = compute_spectra(engine, [1], ("force",), each=True)["force"].forward[0]
     unbalances = np.zeros(len(throws), complex)
     np.add.at(unbalances, engine.joined_throw_of_rows, -forward / float(engine.omega) ** 2)
@@ -72,7 +73,8 @@ def add_shafts(fitting: Fitting, residual: Residual, senses: Iterable[int]) -> F
     for sense in senses:
         planes = find_planes(fitting.engine, residual, sense)
         slots = [Slot("shaft", residual.order, sense, z) for z in planes]
-        parts, reason = list_parts(sense), explain_shaft(residual, sense, len(slots))
+        parts = list_parts(sense)
+        reason = explain_shaft(residual, sense, len(slots))
         fitting = fitting.cancel(slots, parts, reason, residual)
     return fitting
 
@@ -80,7 +82,8 @@ def add_shafts(fitting: Fitting, residual: Residual, senses: Iterable[int]) -> F
 def size_complete(engine: Engine) -> Remedy:
     """Return devices that cancel all forces and moments of orders 1 and 2, even small ones."""
     fitting = Fitting.start(ignore_compensators(engine), "complete")
-    first, second = fitting.find_residual(1), fitting.find_residual(2)
+    first = fitting.find_residual(1)
+    second = fitting.find_residual(2)
     carriers = find_carriers(engine)
     for sense in carriers:
         if any(first.parts[part] for part in list_parts(sense)):

@@ -143,7 +143,9 @@ def _numbers_of(start: str, table: FileTable) -> Iterator[tuple[str, Place]]:
     """Yield the numbers of a table, with the existing members of its lists and inner tables."""
     kind = type(table)
     for key, value in table:
-        path, reader, field = f"{start}.{key}", find_number(kind, key), kind.model_fields[key]
+        path = f"{start}.{key}"
+        reader = find_number(kind, key)
+        field = kind.model_fields[key]
         if isinstance(value, FileTable):
             yield from _numbers_of(path, value)
         elif isinstance(value, tuple):
@@ -289,7 +291,8 @@ def _read_values(text: str, number: Number) -> NDArray[np.float64]:
 def ladder(first: Fraction, step: Fraction, count: int) -> NDArray[np.float64]:
     """Return `first + k * step` for k = 0 .. count - 1, each correctly rounded."""
     scale = math.lcm(first.denominator, step.denominator)
-    start, rise = int(first * scale), int(step * scale)
+    start = int(first * scale)
+    rise = int(step * scale)
     return np.fromiter(((start + rise * k) / scale for k in range(count)), float, count)
 
 

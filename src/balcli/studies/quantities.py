@@ -208,7 +208,8 @@ class _VariedGas:
     """
 
     def __init__(self, model: EngineFile, figures: Mapping[str, Figure], rank: int) -> None:
-        self._model, self._engines = model, list[Engine]()
+        self._model = model
+        self._engines = list[Engine]()
         self._figures = {k: value for k, value in figures.items() if concerns_gas(k, model.gas)}
         self._shape = np.broadcast_shapes((1,) * rank, *map(np.shape, self._figures.values()))
 
@@ -258,7 +259,8 @@ class Evaluator:
     """
 
     def __init__(self, model: EngineFile, quantities: Sequence[AnyQuantity]) -> None:
-        self._model, self._quantities = model, quantities
+        self._model = model
+        self._quantities = quantities
         self.of_engine = choose_of_engine(quantities)
         self._chapters = [
             (members, load_chapter(chapter).Variants(model, members))

@@ -40,8 +40,10 @@ from .quantities import (
 from .quantity_names import ENGINE, MOUNTS, TORSION
 
 # Default numbers of samples if engines are computed together as arrays, and if one by one.
-RANDOM_ENGINES, RANDOM_SINGLES = 100_000, 500
-CHUNK, AT_ONCE = 8_192, 400_000  # most samples, and most (samples x parts), at once
+RANDOM_ENGINES = 100_000
+RANDOM_SINGLES = 500
+CHUNK = 8_192
+AT_ONCE = 400_000  # most samples, and most (samples x parts), at once
 _EQUAL = 1e-8  # effects that differ by less than this share of the largest are equal
 _ROUNDING = 1e-12  # changes below this share of the nominal value are rounding errors
 _LEAST = -0.99  # least relative deviation, so that no mass or spring becomes negative
@@ -173,10 +175,12 @@ class Variants:
 
     def __init__(self, model: EngineFile, names: str | None, within: Tolerances) -> None:
         asked = parse_quantities(names or DEFAULT_QUANTITIES, with_gas=model.has_gas)
-        engine, of_engine = build(model), choose_of_engine(asked)
+        engine = build(model)
+        of_engine = choose_of_engine(asked)
         if names is None:
             asked = of_engine = leave_out_unknown(engine, of_engine)
-        self.asked, self.assumed = asked, list_assumed(model, asked)
+        self.asked = asked
+        self.assumed = list_assumed(model, asked)
         kinds = {q.chapter if isinstance(q, TargetQuantity) else ENGINE for q in asked}
         apart = kinds & {MOUNTS, TORSION}
         if apart and len(kinds) > 1:
@@ -259,7 +263,8 @@ class Variants:
         ends = np.diag([source.tolerance for source in self.sources])
         nominal = np.ravel([*self._evaluator.evaluate({}, (1,)).values()])
         changes = _find_changes(nominal, self.evaluate(ends), self.evaluate(-ends))
-        chunks, done = list[Array](), 0
+        chunks = list[Array]()
+        done = 0
         for deviations in self._draw_deviations(samples, seed, shape):
             chunks.append(self.evaluate(deviations))
             done += len(deviations)
@@ -314,7 +319,8 @@ def _find_changes(nominal: Array, above: Array, below: Array) -> Array:
     the difference between the values at both ends of the tolerance. If both ends change a quantity
     in the same direction, such as an amplitude that is nominally 0, the larger change counts.
     """
-    up, down = above - nominal, below - nominal
+    up = above - nominal
+    down = below - nominal
     larger = np.where(np.abs(up) >= np.abs(down), up, down)
     change = np.where(up * down > 0, larger, (up - down) / 2)
     return np.where(np.abs(change) <= _ROUNDING * np.abs(nominal), 0.0, change)

@@ -117,7 +117,8 @@ def make_sheet(sweep: Sweep, figures: Array) -> Sheet:
         shown.append(Column(name_with_unit(name, unit.name), cells, words=is_first))
     note = tell_speeds((q.name for q in sweep.quantities), sweep.columns)
     if missing := sweep.variants - len(figures):
-        whole, others = count_name(sweep.variants), count_name(missing)
+        whole = count_name(sweep.variants)
+        others = count_name(missing)
         note = f"{whole} variants, {others} of them not shown; -o X.csv writes all. {note}"
     grid = Grid("", shown, note.rstrip())
     head = assumed_facts(sweep.assumed)

@@ -37,7 +37,8 @@ def describe_letters(order: NamedOrder) -> str:
         numbers = sorted(
             number for number, name in zip(order, order.names, strict=True) if name.letter == letter
         )
-        first, last = numbers[0], numbers[-1]
+        first = numbers[0]
+        last = numbers[-1]
         names = f"{order.find_name(first)} to {order.find_name(last)} are {first} to {last}"
         of_banks.append(names if len(numbers) > 1 else f"{order.find_name(first)} is {first}")
     return ", ".join(of_banks)

@@ -25,7 +25,8 @@ def is_flat_two_stroke(parts: Parts) -> bool:
     """Return whether the engine is a flat two-stroke with one rod on each throw and an even number
     of cylinders, whose file gives neither throws nor firing intervals.
     """
-    layout, order = parts.model.layout, parts.order
+    layout = parts.model.layout
+    order = parts.order
     if layout.strokes != 2 or order is None or layout.firing_intervals is not None:
         return False
     one_rod_each = parts.plan.rods_on_throw == 1 and not parts.throws_given

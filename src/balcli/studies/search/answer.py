@@ -50,7 +50,8 @@ _ARRANGED = {"crank.throws", "layout.firing_intervals"}  # numbers that searches
 ANGLES = {"bank_angle": (0.0, 180.0), "splay": (-180.0, 180.0)}  # searched ranges, deg
 NEAR_AN_END = 1e-4  # a value closer to an end than this share of the range counts as the end
 _ROUNDING = 1e-13  # objectives that differ by less than this ratio are equal
-_GRID, _SPREAD = 720, 2048  # number of candidates for one number, and for several
+_GRID = 720
+_SPREAD = 2048  # number of candidates for one number, and for several
 _SLOW = 32  # number of candidates for each number if they are computed one by one
 
 
@@ -92,7 +93,8 @@ class Search(Result):
         """
         if self.constant:
             return ()
-        known, best = find_numbers(self.model), self.results[0].design
+        known = find_numbers(self.model)
+        best = self.results[0].design
         return tuple(
             key
             for key, number in self.ranges.items()
@@ -153,7 +155,8 @@ def search_arrangements(
     ranges = read_ranges(model, wanted)
     named = ", ".join(ranges) or wanted[0]
     varied = {number.path for number in ranges.values()} or _ARRANGED
-    constant, refused = False, ""
+    constant = False
+    refused = ""
     if ranges:
         candidates, constant, refused = _search_numbers(model, ranges, objective, even_firing, tell)
     elif named == "throws":
