@@ -107,3 +107,43 @@ def test_units_of_an_engine_whose_first_cylinder_is_articulated_are_its_masters(
     of_master = each.major[:, vee.numbers.index(2)]
     assert units.cylinder == 2
     assert [units.size(FORCE, n) for n in orders] == pytest.approx(list(of_master), rel=1e-12)
+
+
+# ------------------------------------------------------------------ one cylinder
+def read_one_cylinder(name: str) -> dict[str, list[str]]:
+    """Cells of the table of one cylinder by order."""
+    text = run_here("analyze", folder() / f"{name}.toml", "--only", "textbook").out
+    rows = re.findall(r"^(\d+(?: \(\w+\))?)  +(\S.*)$", text.partition("Free force")[0], re.MULTILINE)
+    return {order: re.split(r"  +", cells) for order, cells in rows}
+
+
+def test_one_cylinder_has_the_exact_series_beside_the_textbooks_two_terms():
+    """i4: crank radius over rod length 43/139, F1 = 15.479 kN."""
+    rows = read_one_cylinder("i4")
+    lam = 43 / 139
+    assert rows["1 (primary)"] == ["1", "15.48", "15.48", "–"]
+    second = lam + lam**3 / 4 + 15 * lam**5 / 128
+    assert float(rows["2 (secondary)"][0]) == pytest.approx(second, abs=1e-4)
+    assert float(rows["2 (secondary)"][2]) == pytest.approx(15.479 * lam, abs=1e-3)
+    assert rows["2 (secondary)"][3] == "2.4 %"
+    assert rows["4"][2:] == ["0", "100 %"]
+
+
+def test_the_note_says_why_exact_figures_differ():
+    text = " ".join(run_here("analyze", folder() / "i4.toml", "--only", "textbook").out.split())
+    assert "Order 1 (once per revolution) is called primary, order 2 secondary." in text
+    assert "F2 = m r ω² λ = 4789 N (λ = 0.3094); here it is exact." in text
+    assert "offset" not in text
+    offset = " ".join(run_here("analyze", folder() / "vr6.toml", "--only", "textbook").out.split())
+    assert "The piston pin is offset, which changes all orders and adds odd ones." in offset
+    assert float(read_one_cylinder("vr6")["1 (primary)"][0]) > 1
+
+
+def test_harmonic_motion_has_a_primary_alone():
+    """Without rods of finite length there is no series to end."""
+    text = (folder() / "i4.toml").read_text().replace("length  = 139\n", 'motion = "harmonic"\n')
+    text = text.replace("cg      = 39\n", "").replace("mass    = 0.57\n", "").replace("inertia = 2000\n", "")
+    out = run_here("analyze", "-", "--only", "textbook", stdin=text).out
+    assert "1 (primary)" in out
+    assert "(secondary)" not in out
+    assert "Textbooks end" not in out

@@ -49,6 +49,7 @@ from .overview import (
     vectors_grid,
 )
 from .parts import lay_out_parts, list_part_rows
+from .textbook_show import one_cylinder_grids
 from .verdict_words import VerdictWords
 
 _UNCOUNTED = (
@@ -137,6 +138,7 @@ def _chosen_order_parts(result: Analysis, system: System, view: View) -> Iterato
     if "textbook" in parts and spectra.vectors():
         known = [k.name for k, _ in spectra.vectors() if k is not MOMENT or result.moments_known]
         book = find_textbook(result.engine, spectra.orders, known)
+        tables += one_cylinder_grids(book.units, system)
         tables += textbook_tables(book, system, every=every)
     yield from tables
     if tables and others:

@@ -50,6 +50,8 @@ class TextbookUnits(NamedTuple):
         ratios: |A_n| of each order, shape (orders,).
         cylinder: Number of the cylinder to which the units refer.
         equal: Whether all cylinders are equal.
+        crank_ratio: Crank radius over rod length of this cylinder; 0 in harmonic motion.
+        offset: Whether its piston pin moves beside the crank axis.
     """
 
     orders: Array
@@ -58,6 +60,8 @@ class TextbookUnits(NamedTuple):
     ratios: Array
     cylinder: int
     equal: bool
+    crank_ratio: float
+    offset: bool
 
     def size(self, kind: Kind, order: float) -> float:
         """Return F_n of an order, N, or F_n a, N m; nan if there is no such force or arm.
@@ -148,6 +152,8 @@ def find_textbook_units(engine: Engine, orders: Array) -> TextbookUnits:
         ratios=np.abs(series.c[:, 0]),
         cylinder=int(engine.numbers[row]),
         equal=engine.equal,
+        crank_ratio=float(lam[0]),
+        offset=bool(eps[0]),
     )
 
 
