@@ -10,6 +10,7 @@ import numpy as np
 
 from ..core.phasors import Array, Complex, Phasors
 from ..engine.engine import Engine
+from ..file.fields import order_number
 from ..forces.kinds import COUPLE
 from ..forces.spectrum import compute_spectra
 from ..show.sheet import NEGLIGIBLE
@@ -60,7 +61,7 @@ def find_couple(couple: Phasors | None, scales: Scales, engine: Engine) -> Coupl
     selected = select_couple(couple, scales)
     if selected is None:
         return None
-    order = float(selected.orders[np.argmax(selected.major)])
+    order = order_number(selected.orders[np.argmax(selected.major)])
     if engine.placed:
         return Couple(order)
     return Couple(order, find_causes(engine, selected.orders, NEGLIGIBLE * scales.moment))

@@ -17,6 +17,7 @@ from ..core.cylinders import Device, DeviceKind
 from ..core.phasors import Phasors
 from ..engine.engine import Engine
 from ..engine.figures import find_first_largest
+from ..file.fields import order_number
 from ..forces.spectrum import Spectra
 from ..limits import SMALL
 from ..sizing.residual import Scales, is_small
@@ -163,7 +164,7 @@ def judge(
     compensated: list[Compensated] = []
     balanced: list[float] = []
     small_parts: list[Part] = []
-    for row, order in enumerate(spectra.orders.tolist()):
+    for row, order in enumerate(map(order_number, spectra.orders)):
         if order <= 0:
             continue
         pairs = [device for device in compensators if device.order == order]
@@ -327,7 +328,7 @@ def _describe_compensated(
     if introduced <= _ROUNDING * square * sum(abs(complex(device.forward)) for device in pairs):
         introduced = 0.0
     found = Compensated(
-        order=float(order),
+        order=order,
         at_m=tuple(sorted({float(device.z) for device in pairs})),
         introduced_N=introduced,
     )
@@ -354,4 +355,5 @@ def _find_rocking(spectra: Spectra) -> Rocking | None:
     sizes = np.where(roll.orders > 0, roll.major, 0.0)
     if not sizes.any():
         return Rocking("total", None)
-    return Rocking("total", float(roll.orders[find_first_largest(sizes)]))
+    row = int(find_first_largest(sizes))
+    return Rocking("total", order_number(roll.orders[row]))

@@ -18,7 +18,6 @@ from operator import itemgetter
 from pathlib import Path
 from typing import Any
 
-from ..analysis.verdict_words import NEARLY_ROUND
 from ..core.mechanisms.linkage import Rotary
 from ..core.records import Node
 from ..engine.engine import Engine, take_model
@@ -40,12 +39,20 @@ from ..file.units import (
     UNBALANCE,
     convert,
 )
-from ..forces.kinds import FORCE, VECTORS
-from ..forces.spectrum import SHOWN
+from ..forces.kinds import FORCE, GAS_KINDS, VECTORS
+from ..forces.spectrum import (
+    SHOWN,
+    choose_orders,
+    compute_spectra,
+    find_relevant_orders,
+    list_gas_orders,
+    merge_orders,
+)
 from ..limits import SMALL
 from ..show.figures import clean
-from ..show.sheet import NEGLIGIBLE, sentence
+from ..show.sheet import sentence
 from ..show.units import ShownUnit, System
+from ..sizing.fitting import LEFT
 from ..studies.parameters import find_places
 
 # tables with numbers to change
@@ -129,6 +136,7 @@ def describe_engine(model: EngineFile, engine: Engine, text: str) -> Node:
         "known": engine.places_known,
         "gas": engine.gas is not None,
         "strokes": engine.strokes,
+        "gasOrders": _list_orders_of_gas(engine),
         "up": engine.up_deg,
         "axes": ("x", "y") if engine.up_deg is None else FORCE.upright,
         "bore": clean(engine.bore_m * 1e3),
@@ -194,11 +202,8 @@ def make_book(
         "file": file.removesuffix(".toml"),
         "source": file if file.endswith(".toml") else "",
         "choice": choice,
-        "small": small,
+        "limits": {"small": small, "shown": SHOWN, "rounding": LEFT},
         "options": "" if small == SMALL else f" --small {100 * small:g}%",
-        "negligible": NEGLIGIBLE,
-        "nearlyRound": NEARLY_ROUND,
-        "shown": SHOWN,
         "unknown": sentence(MOMENTS_UNKNOWN),
         "devices": _NEW,
         "units": {
@@ -234,6 +239,17 @@ def _describe_limits(number: Number) -> Node:
     limits = {"above": number.above, "least": number.least, "most": number.most}
     finite = {key: v for key, v in limits.items() if v is not None and abs(v) < math.inf}
     return {"unit": number.dimension.unit, **finite}
+
+
+def _list_orders_of_gas(engine: Engine) -> list[int]:
+    """Return the whole orders that `analyze` shows because gas has them; the page does not compute
+    gas.
+    """
+    if engine.gas is None:
+        return []
+    of_gas = list_gas_orders(engine)
+    found = compute_spectra(engine, merge_orders(find_relevant_orders(engine), of_gas), GAS_KINDS)
+    return [int(order) for order in choose_orders(found, of_gas) if order > 0 and not order % 1]
 
 
 # ------------------------------------------------------------------ the text of the file

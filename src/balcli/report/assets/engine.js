@@ -3,7 +3,7 @@
 // transform. This calculation shares no code with the Python program. Vectors in the plane are
 // [x, y]; SI units and radians unless a name says mm or deg.
 const Kernel = (() => {
-  const TURN = 2 * Math.PI, SAMPLES = 256, ORDERS = 12, ROUNDING = 4e-15;
+  const TURN = 2 * Math.PI, SAMPLES = 256, ORDERS = 12, ROUNDING = 4e-15, NONE = [[0, 0], [0, 0]];
   const LONG_STROKE = 1, LONG_STROKE_IN_BORES = 2.5;          // m, and in bores: only crosshead engines have longer strokes
   const UPRIGHT = { force: ["vertical", "horizontal"], moment: ["yawing", "pitching"] };
   const rad = (deg) => deg * TURN / 360, deg = (angle) => angle * 360 / TURN;
@@ -63,7 +63,7 @@ const Kernel = (() => {
     const crossheads = data.strokes === 2 && (long || data.cylinders.some((c) => take(c.crosshead) > 0));
     return {
       omega, r, cylinders, throws, reference, devices: listDevices(numbers, first.axis), firstAxis: first.axis,
-      known: data.known, up: data.up, bore, crossheads,
+      known: data.known, up: data.up, gasOrders: data.gasOrders, bore, crossheads,
     };
   }
 
@@ -144,11 +144,10 @@ const Kernel = (() => {
   // Phasors by kind and order, and peaks; cylinders are sampled, devices are computed in closed form.
   function compute(engine) {
     const loads = Array.from({ length: SAMPLES }, (_, k) => load(engine, TURN * k / SAMPLES)), most = bound(engine);
-    const series = (pick, limit, count = ORDERS) => transform(loads.map(pick), count).map((pair) =>
+    const series = (pick, limit) => transform(loads.map(pick), SAMPLES / 2 - 1).map((pair) =>
       pair.map((v) => size(v) <= ROUNDING * limit ? [0, 0] : v));
     return addDevices(engine, {
-      force: series((v) => v.force, most.force, SAMPLES / 2 - 1),
-      moment: series((v) => v.moment, most.moment, SAMPLES / 2 - 1),
+      force: series((v) => v.force, most.force), moment: series((v) => v.moment, most.moment),
       couple: series((v) => [v.couple, 0], most.about), torque: series((v) => [v.torque, 0], most.about),
       roll: series((v) => [v.couple - v.torque, 0], most.about),
     }, engine.devices);
@@ -159,14 +158,13 @@ const Kernel = (() => {
     const sums = Object.fromEntries(Object.entries(kinds).map(([kind, pairs]) => [kind, [...pairs]]));
     const drop = (v, part) => size(v) <= 1e-13 * size(part) ? [0, 0] : v;
     const put = (kind, n, parts) => {
-      const before = sums[kind][n] || [[0, 0], [0, 0]];
+      const before = sums[kind][n] || NONE;
       sums[kind][n] = parts.map((v, k) => drop(add(before[k], v), v));
     };
     for (const d of devices) {
       const pair = [d.forward, d.backward].map((v) => scaled(v, (d.order * engine.omega) ** 2));
       put("force", d.order, pair);
       put("moment", d.order, pair.map((v) => momentOf(engine, v, d.z)));
-      if (d.order > ORDERS) continue;
       const arm = armOf(engine, d.at), [[ax, ay], [bx, by]] = pair;                // Im(conj(arm) F), F = a e + b/e
       const turned = [arm[0] * (ay + by) - arm[1] * (ax + bx), -arm[0] * (ax - bx) - arm[1] * (ay - by)];
       const half = scaled(turned, 0.5);
@@ -209,8 +207,12 @@ const Kernel = (() => {
   }
 
   // ------------------------------------------------------------------ the ladder
+  // A part is small if it is 0 or below a limit; a part of just this size is not small.
+  const isSmall = (value, least) => !value || value < least * (1 - 1e-9);
+
   // Devices that balance the engine step by step, without counterweights at every throw, which only relieve bearings.
-  function findLadder(engine, small = 0.05) {
+  // `limits` are those of the command: small, shown, rounding.
+  function findLadder(engine, limits) {
     const square = engine.omega ** 2, z = engine.cylinders.map((c) => c.z);
     const F = Math.max(...engine.cylinders.map((c) => c.reciprocating * c.r)) * square;
     const M = F * Math.max(Math.max(...z) - Math.min(...z), 2 * engine.r);
@@ -220,7 +222,7 @@ const Kernel = (() => {
       return kind === "force" ? v : engine.known ? [v[1], -v[0]] : [0, 0];      // the moment is i z F
     });
     const share = ([f, m]) => F ? Math.max(size(f) / F, size(m) / M) : 0;
-    const isLarge = (value) => value && value >= small * (1 - 1e-9);
+    const isLarge = (value) => !isSmall(value, limits.small);
     const list = (step, devices) => {
       const all = [...steps.at(-1).devices, ...devices];
       steps.push({ step, devices: all, ...addDevices(engine, drawn.kinds, all) });
@@ -229,13 +231,13 @@ const Kernel = (() => {
     const offer = (order, senses, name) => {
       const due = senses.map((sense) => ({ order, sense, part: part(drawn.kinds, order, sense) }));
       const large = due.filter((each) => isLarge(share(each.part)));
-      if (large.length) list(name(large.map(({ sense }) => sense)), large.flatMap((each) => cancel(engine, each, M / F)));
+      if (large.length) list(name(large.map(({ sense }) => sense)), large.flatMap((each) => cancel(engine, each, M / F, limits)));
     };
     // A step with pairs of masses at both ends, for the moment about y that the rows before leave.
     const offerCompensators = (order) => {
       const [[, ahead], [, against]] = [1, -1].map((sense) => part(steps.at(-1).kinds, order, sense));
       const moment = add(ahead, [against[0], -against[1]]);
-      if (size(moment) > 1e-12 * M && isLarge(size(moment) / M)) list(`compensators of order ${order}`, compensate(engine, order, moment));
+      if (size(moment) > limits.rounding * M && isLarge(size(moment) / M)) list(`compensators of order ${order}`, compensate(engine, order, moment));
     };
     offer(1, [1], () => "counterweights");
     if (engine.crossheads) {
@@ -262,7 +264,7 @@ const Kernel = (() => {
   }
 
   // Devices that cancel a rotating force and moment: a single device if it suffices, otherwise two at the ends.
-  function cancel(engine, { order, sense, part: [f, m] }, length) {
+  function cancel(engine, { order, sense, part: [f, m] }, length, limits) {
     const kind = order * sense === 1 ? "counterweight" : "shaft", per = -1 / (order * engine.omega) ** 2;
     const [low, high] = findEnds(engine);
     const reach = [...engine.throws, ...engine.cylinders.map((c) => c.z)], zr = engine.reference[2];
@@ -273,9 +275,41 @@ const Kernel = (() => {
       if (size(add(m, scaled(f, zr - z))) <= 1e-11 * (size(m) + size(f) * length)) return [make(scaled(f, per), z)];
     }
     const upper = scaled(add(m, scaled(f, zr - low)), per / (high - low)), lower = add(scaled(f, per), scaled(upper, -1));
-    const least = kind === "shaft" ? 0 : 1e-12 * sum(engine.cylinders.map((c) => (c.reciprocating + c.rotating) * c.r));
+    const most = sum(engine.cylinders.map((c) => (c.reciprocating + c.rotating) * c.r));
+    const least = kind === "shaft" ? 0 : limits.rounding * most;
     return [[lower, low], [upper, high]].filter(([v]) => size(v) > least).map((each) => make(...each));
   }
+
+  // ------------------------------------------------------------------ the verdict
+  // Orders that the command shows: 1, 2, those of gas, and those in which some kind exceeds a share of its largest amplitude.
+  function listShown(engine, { steps: [{ kinds }] }, { shown }) {
+    const orders = new Set([1, 2, ...engine.gasOrders]);
+    for (const [kind, pairs] of Object.entries(kinds)) {
+      if (kind === "moment" && !engine.known) continue;
+      const sizes = Object.entries(pairs).map(([n, [a, b]]) => [Number(n), size(a) + size(b)]);
+      const most = Math.max(...sizes.map(([, each]) => each));
+      for (const [n, each] of sizes) if (n && each > shown * most) orders.add(n);
+    }
+    return [...orders].sort((a, b) => a - b);
+  }
+
+  // Which of force and moment of an order are large, and a device for each direction in which a large vector turns; as `analysis.verdict` finds them.
+  function judgeOrder(engine, { steps: [{ kinds }], scale }, { small }, order) {
+    const large = [], due = new Set();
+    for (const kind of engine.known ? ["force", "moment"] : ["force"]) {
+      const [forward, backward] = (kinds[kind][order] || NONE).map(size), least = small * scale[kind];
+      if (!isSmall(forward, least)) due.add(1);
+      if (!isSmall(backward, least)) due.add(-1);
+      if (!isSmall(Math.max(forward, backward), least)) large.push(kind);
+    }
+    const turns = (d, ratio) => d.kind !== "slider" && d.order === order && size(ratio > 0 ? d.forward : d.backward) > 0;
+    const cures = [order, -order].filter((ratio) => due.has(Math.sign(ratio))).map((ratio) => ({
+      ratio, on_crank: ratio === 1, further: engine.devices.some((d) => turns(d, ratio)),
+    }));
+    return { order, large, cures };
+  }
+  const judge = (engine, ladder, limits) =>
+    listShown(engine, ladder, limits).map((order) => judgeOrder(engine, ladder, limits, order)).filter(({ large }) => large.length);
 
   // ------------------------------------------------------------------ the document
   const first = (c, n) => { const at = (deg(-Math.atan2(c[1], c[0])) % 360 + 360) % 360 / n; return at < 360 / n ? at : 0; };
@@ -300,8 +334,8 @@ const Kernel = (() => {
     moment_Nm: moment.value, moment_deg: moment.theta === null ? null : deg(moment.theta),
   });
 
-  // Orders 0 to 12, peaks and ladder as in the output of `balcli analyze -f json`.
-  function describe(engine, ladder) {
+  // Orders 0 to 12, verdict, peaks and ladder as in the output of `balcli analyze -f json`.
+  function describe(engine, ladder, limits) {
     const { kinds, peak } = ladder.steps[0], known = engine.known;
     const vector = (kind, n) => describeVector(kinds[kind][n], n, engine.up === null ? [] : UPRIGHT[kind], engine.up);
     const orders = Array.from({ length: ORDERS + 1 }, (_, n) => ({
@@ -318,8 +352,8 @@ const Kernel = (() => {
     const scale = { force_N: ladder.scale.force, ...(known ? { moment_Nm: ladder.scale.moment } : {}) };
     return {
       format: "balcli.analysis/1", speed_rpm: engine.omega * 60 / TURN, reference_mm: engine.reference.map((v) => 1e3 * v),
-      orders, peak: describePeak(peak), ladder: { scale, steps },
+      orders, verdict: { matter: judge(engine, ladder, limits) }, peak: describePeak(peak), ladder: { scale, steps },
     };
   }
-  return { assemble, compute, findLadder, describe, describeVector, load, UPRIGHT };
+  return { assemble, compute, findLadder, describe, listShown, load };
 })();

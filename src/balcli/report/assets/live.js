@@ -6,7 +6,7 @@
   const TITLES = { crank: "Crank", rod: "Rods", piston: "Pistons", layout: "Layout", operation: "Speed" };
   const DEVICE = /^(counterweight|shaft|slider)\.([1-9]\d*)(?:\.(.+))?$/;
   const GEOMETRY = /^(crank\.(throws|splay)|layout\.(bank_angle|banks))|\.(bank|throw)$/;   // what a firing order depends on
-  let data, original, numbers, engine, ladder, drawn, before, past = [], future = [];
+  let data, original, written, numbers, engine, ladder, drawn, before, past = [], future = [];
 
   const make = (tag, attributes = {}, ...children) => {
     const made = document.createElement(tag);
@@ -94,7 +94,20 @@
     if (book.choice) parts.unshift(`engine=${data.key}`);
     return parts.length ? `#${parts.join("&")}` : "";
   }
-  let due;
+  const isEqual = (one, other) => Object.keys(one).length === Object.keys(other).length && Object.keys(one).every((name) => one[name] === other[name]);
+  // Changed numbers in words, "rod.length 160 → 150 mm", then devices that the file does not have.
+  function tellChanges() {
+    const known = new Set(Object.keys(original).map(tableOf)), told = [], added = {};
+    for (const [name, value] of listChanges()) {
+      const table = tableOf(name), unit = find(name)?.unit, before = name in original ? shown(original[name], 6) : "none";
+      const now = value === "none" ? value : [shown(Number(value), 6), unit].filter(Boolean).join(" ");
+      if (name === table) told.push(`${table} removed`);
+      else if (known.has(table)) told.push(`${name} ${before} → ${now}`);
+      else (added[table] ??= []).push(`${name.slice(table.length + 1)} ${now}`);
+    }
+    return [...told, ...Object.entries(added).map(([table, keys]) => `${table} added: ${keys.join(", ")}`)];
+  }
+  let due, spoken;
   function keepAddress() {                                    // browsers refuse more than a few changes a second
     clearTimeout(due);
     due = setTimeout(() => {
@@ -156,7 +169,7 @@
     let made, steps;
     try {
       made = Kernel.assemble(data, next);
-      steps = Kernel.findLadder(made, book.small);
+      steps = Kernel.findLadder(made, book.limits);
     } catch (error) {
       complain([error.message, ...wrong]);
       return false;
@@ -182,12 +195,13 @@
   // ------------------------------------------------------------------ what the page shows
   let waiting = false;
   function show() {
-    const figures = Kernel.describe(engine, ladder), changed = listChanges().length > 0;
+    const figures = Kernel.describe(engine, ladder, book.limits), changed = listChanges().length > 0;
     byId("figures").textContent = JSON.stringify(figures);
-    byId("live-changed").hidden = !changed;
-    byId("live-verdict").textContent = writeVerdict();
+    document.body.classList.toggle("changed", !isEqual(numbers, written));
+    byId("live-changes").replaceChildren(...tellChanges().map((text) => make("li", {}, text)));
     showOrders(figures);
     showLadder(figures);
+    announce(figures);
     byId("live-undo").disabled = !past.length;
     byId("live-redo").disabled = !future.length;
     byId("live-reset").disabled = !changed;
@@ -211,115 +225,21 @@
     const { name, thousand } = book.show[kind], found = quantity(kind, value);
     return thousand && found >= 5000 ? `${shown(found / 1000)} ${thousand}` : `${shown(found)} ${name}`;
   }
-  const NAMES = ["", "First", "Second", "Third", "Fourth", "Fifth", "Sixth", "Seventh", "Eighth"];
-  const nameOrder = (n) => NAMES[n] || `${n}${n % 100 - n % 10 !== 10 && ["", "st", "nd", "rd"][n % 10] || "th"}`;
-  const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1);
-  // Orders that the command shows: 1, 2, and those in which some kind exceeds a millionth of its largest amplitude.
-  function listShownOrders(kinds) {
-    const shownOrders = new Set([1, 2]), total = (parts) => parts.reduce((a, v) => a + Math.hypot(...v), 0);
-    for (const type of data.known ? Object.keys(kinds) : Object.keys(kinds).filter((each) => each !== "moment")) {
-      const sizes = Object.entries(kinds[type]).map(([n, parts]) => [Number(n), total(parts)]);
-      const most = Math.max(...sizes.map(([, size]) => size));
-      for (const [n, size] of sizes) if (n && size > book.shown * most) shownOrders.add(n);
-    }
-    return [...shownOrders].sort((a, b) => a - b);
+  // Largest force and moment in a sentence that screen readers read aloud, a moment after the last change.
+  function announce({ peak }) {
+    const size = (kind, value) => `${kind} ${value ? sizeText(kind, value) : "balanced"}`, force = size("force", peak.force_N);
+    const told = data.known ? `${force}, ${size("moment", peak.moment_Nm)}.` : `${force}. ${book.unknown}`;
+    clearTimeout(spoken);
+    spoken = setTimeout(() => { byId("live-largest").textContent = `Largest over a revolution: ${told}`; }, 300);
   }
-  // The verdict of `balcli analyze` in the same words, but without the causes of the couple. A force or moment is large if its vector that turns
-  // with the crank, or its vector that turns against the crank, is not small compared with one cylinder's.
-  const MOST_WORDS = 25, MOST_NAMED = 5, SENSES = ["with the crank", "against the crank"];
-  const NAMED = { force: "force", moment: "longitudinal moment" };
-  const joinWords = (words) => words.length > 1 ? `${words.slice(0, -1).join(", ")} and ${words.at(-1)}` : words[0];
-  const lineDegrees = (value) => {
-    const tenths = (Number(Number(value.toFixed(6)).toFixed(1)) + 0).toFixed(1);
-    return tenths === "-90.0" ? "90.0" : tenths;
-  };
-  function nameOrders(orders) {
-    if (orders.length > MOST_NAMED) return `${orders.length} orders up to ${Math.max(...orders)}`;
-    return `order${orders.length > 1 ? "s" : ""} ${joinWords(orders.map(String))}`;
+  // What cancels an order, as the column says it.
+  function nameCure({ ratio, on_crank, further }) {
+    const device = on_crank ? "counterweights" : `shaft at ${ratio > 0 ? "+" : ""}${ratio}`;
+    return further ? `further ${device}` : device;
   }
-  // Size and direction of a force or moment of an order: "force of 4 N along x".
-  function describeVector({ type, size, parts, axis }, directed) {
-    const told = `${NAMED[type]} of ${sizeText(type, size)}`;
-    const turning = parts.findIndex((part, k) => parts[1 - k] <= book.nearlyRound * part);
-    if (!directed) return told;
-    if (turning >= 0) return `${told} turning ${SENSES[turning]}`;
-    const names = { "0.0": "x", "90.0": "y" }, angle = lineDegrees(axis);
-    const line = `${type === "force" ? "along" : "about"} ${names[angle] || `an axis at ${angle} deg`}`;
-    const fromUp = data.up === null ? "" : lineDegrees(90 - ((90 - axis + data.up) % 180 + 180) % 180);
-    const upright = Kernel.UPRIGHT[type][Object.keys(names).indexOf(fromUp)];
-    return `${told} ${upright ? `${upright} (${line})` : line}`;
-  }
-  // Devices that would cancel the vectors of an order that are not small, by direction of rotation.
-  function findCures(n, large) {
-    const turns = engine.devices.filter((d) => d.order === n && d.kind !== "slider");
-    return [1, -1].flatMap((sense, k) => {
-      if (!large.some(({ due }) => due[k])) return [];
-      const further = turns.some((d) => Math.hypot(...(k ? d.backward : d.forward))) ? "further " : "";
-      return [{ k, device: sense * n === 1 ? `${further}counterweights` : `a ${further}shaft at ${sense > 0 ? "+" : "-"}${n}` }];
-    });
-  }
-  function tellCure({ n, large }, withSizes) {
-    const cures = findCures(n, large), one = large.length === 1 ? large[0] : null;
-    if (!cures.length) return "";
-    if (n > 2) return `usually left: its shafts would turn at ${n} times crank speed`;
-    const everything = one ? "it" : "both", devices = cures.map(({ device }) => device);
-    const sizes = one ? one.parts.map((part) => sizeText(one.type, part)) : [];
-    if (cures.length === 1) {
-      const [{ k, device }] = cures, cancel = `${device} cancel${device.startsWith("a ") ? "s" : ""}`;
-      if (!large.some(({ parts }) => parts[1 - k])) return `${cancel} ${everything}`;
-      return one ? `${cancel} ${sizes[k]} of it` : `${cancel} what turns ${SENSES[k]}`;
-    }
-    if (n === 2) return `${devices.some((each) => each.includes("further")) ? "further " : ""}shafts at +2 and -2 cancel ${everything}`;
-    if (one && withSizes) return `${devices[0]} cancel ${sizes[0]} of it, ${devices[1]} the other ${sizes[1]}`;
-    return `${devices.join(" and ")} cancel ${everything}`;
-  }
-  // The longest sentence on an order that has at most MOST_WORDS words.
-  function tellOrder(order) {
-    const name = `${nameOrder(order.n)} order`;
-    let told = "";
-    for (const [directed, withSizes] of [[true, true], [true, false], [false, false]]) {
-      const there = order.large.map((each) => describeVector(each, directed)).join(" and ");
-      told = `${name}: ${[there, tellCure(order, withSizes)].filter(Boolean).join("; ")}.`;
-      if (told.split(" ").length <= MOST_WORDS) break;
-    }
-    return told;
-  }
-  function tellLargest(vectors) {
-    const most = {};
-    for (const each of vectors) if (each.size > (most[each.type]?.size || 0)) most[each.type] = each;
-    return Object.values(most).map(({ type, size, n }) => `${NAMED[type]} of ${sizeText(type, size)} (order ${n})`).join(", ");
-  }
-  function judgeOrder(n) {
-    const { scale, steps: [{ kinds }] } = ladder, types = data.known ? ["force", "moment"] : ["force"];
-    const vectors = types.map((type) => {
-      const pair = kinds[type][n] || [[0, 0], [0, 0]], parts = pair.map((v) => Math.hypot(...v));
-      const due = parts.map((part) => part > 0 && part >= book.small * scale[type] * (1 - 1e-9));
-      return { type, n, parts, due, size: parts[0] + parts[1], axis: Kernel.describeVector(pair, n).axis_deg };
-    });
-    return {
-      n, vectors, large: vectors.filter(({ due }) => due.some(Boolean)), balanced: vectors.every(({ size }) => !size),
-      couple: 2 * Math.hypot(...(kinds.couple[n] || [[0, 0]])[0]),
-    };
-  }
-  function writeVerdict() {
-    const every = listShownOrders(ladder.steps[0].kinds).map(judgeOrder), names = every[0].vectors.map(({ type }) => type);
-    const matter = every.filter(({ large }) => large.length), high = matter.filter(({ n }) => n > 2);
-    const told = matter.filter(({ n }) => n <= 2 || high.length < 2).map(tellOrder);
-    if (high.length > 1) {
-      const largest = tellLargest(high.flatMap(({ large }) => large));
-      told.push(`${capital(nameOrders(high.map(({ n }) => n)))}: ${largest}; usually left.`);
-    }
-    const still = every.filter((each) => each.n <= 2 && each.balanced), balanced = still.map(({ n }) => n);
-    if (still.every(({ couple }) => !couple)) names.push("couple");
-    const most = every.reduce((a, b) => b.couple > a.couple ? b : a);
-    const small = tellLargest(every.flatMap(({ vectors, large }) => vectors.filter((each) => !large.includes(each))));
-    const rest = [
-      balanced.length ? `${nameOrders(balanced)}: ${joinWords(names)} balanced` : "",
-      small ? `small: ${small}` : "",
-    ].filter(Boolean).join("; ");
-    const couple = `Transverse couple: up to ${sizeText("moment", most.couple)} (order ${most.n}).`;
-    const turning = most.couple > book.negligible * ladder.scale.moment ? [couple] : [];
-    return [...told, ...(rest ? [`${capital(rest)}.`] : []), ...turning, ...(data.known ? [] : [book.unknown])].join(" ");
+  function tellCures(finding) {
+    if (!finding) return "";
+    return finding.order > 2 ? "usually left" : finding.cures.map(nameCure).join(", ");
   }
   function fill(id, heads, rows) {
     const head = make("tr", {}, ...heads.map((text) => make("th", { scope: "col" }, text)));
@@ -327,18 +247,17 @@
     byId(id).replaceChildren(make("thead", {}, head), make("tbody", {}, ...body));
   }
   const cell = (kind, value, least = 0) => value <= least ? "balanced" : shown(quantity(kind, value));
-  function showOrders({ orders, peak, ladder: { scale } }) {
-    const [least, small] = [1e-6 * scale.force_N, 1e-6 * (scale.moment_Nm || 0)], size = (v) => Math.hypot(...v);
-    const seen = orders.filter(({ order, force_N: f, moment_Nm: m, roll_Nm: roll }) =>
-      order === 1 || order === 2 || f.major > least || m.major > small || roll.amplitude > small);
+  function showOrders({ orders, verdict: { matter }, peak, ladder: { scale } }) {
+    const [least, small] = [1e-9 * scale.force_N, 1e-9 * (scale.moment_Nm || 0)], size = (v) => Math.hypot(...v);
+    const listed = Kernel.listShown(engine, ladder, book.limits), seen = orders.filter(({ order }) => listed.includes(order));
     const rows = seen.map(({ order, force_N: f, moment_Nm: m, roll_Nm: roll }) => [
       String(order), cell("force", f.major, least), cell("force", size(f.forward), least), cell("force", size(f.backward), least),
       ...[m.major, size(m.forward), size(m.backward)].map((v) => data.known ? cell("moment", v, small) : "–"),
-      cell("moment", roll.amplitude, small),
+      cell("moment", roll.amplitude, small), tellCures(matter.find((finding) => finding.order === order)),
     ]);
     const [f, m] = ["force", "moment"].map(unitName);
-    rows.push(["all", cell("force", peak.force_N, least), "", "", data.known ? cell("moment", peak.moment_Nm, small) : "–", "", "", ""]);
-    fill("live-orders", ["order", `force, ${f}`, "with crank", "against", `moment, ${m}`, "with crank", "against", `${data.gas ? "roll of inertia" : "roll"}, ${m}`], rows);
+    rows.push(["all", cell("force", peak.force_N, least), "", "", data.known ? cell("moment", peak.moment_Nm, small) : "–", "", "", "", ""]);
+    fill("live-orders", ["order", `force, ${f}`, "with crank", "against", `moment, ${m}`, "with crank", "against", `${data.gas ? "roll of inertia" : "roll"}, ${m}`, "cancelled by"], rows);
   }
   function showLadder({ ladder: { steps, scale } }) {
     const [least, small] = [1e-9 * scale.force_N, 1e-9 * (scale.moment_Nm || 0)];
@@ -525,6 +444,7 @@
     const key = book.choice ? (keys.includes(asked) ? asked : book.choice) : keys[0];
     data = { ...book.engines[key], key: book.choice ? key : book.file };
     original = Object.fromEntries(data.numbers.map(({ name, value }) => [name, value]));
+    written = { ...original, ...data.start };                 // the engine of what Python wrote
     [numbers, past, future] = [original, [], []];
     const made = Kernel.assemble(data, original);
     before = { made, ...Kernel.compute(made) };
