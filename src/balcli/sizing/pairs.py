@@ -96,7 +96,7 @@ def place_forces(moment: complex, places: Sequence[float], z_ref: float) -> dict
         z_ref: With a single place, the moment is taken about this z, m.
 
     Raises:
-        BalcliError: There are more than two places, or the force has no lever arm.
+        ArgumentError: There are more than two places, or the force has no lever arm.
     """
     if len(places) > 2:
         raise ArgumentError("{position} takes one z, or two")
