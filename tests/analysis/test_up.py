@@ -13,6 +13,7 @@ from balcli.analysis.verdict import judge
 from balcli.analysis.verdict_words import VerdictWords
 from balcli.core.phasors import Phasors
 from balcli.core.records import to_document
+from balcli.engine.load import vary_engine
 from balcli.forces.spectrum import Spectra
 from balcli.report.page import scene
 from balcli.report.pages import PageSubject, make_page
@@ -60,7 +61,7 @@ def _complex(component: dict) -> complex:
 def test_what_is_upright_has_no_level_part(up):
     """Exactly 0, in orders and over the crank angle, whatever cosines are rounded to."""
     rods = {"rod.mass": 0.0, "crank.throw_mass": 0.0}  # pistons alone
-    single = build_text(leaning(up, up, spread=0)).vary({**rods, "shaft.1.unbalance": 0.0})
+    single = vary_engine(build_text(leaning(up, up, spread=0)), {**rods, "shaft.1.unbalance": 0.0})
     for order in to_document(analyze(single))["orders"]:
         assert order["force_N"]["horizontal"] == {"amplitude": 0.0, "phase_deg": None}
     found = curves(single, 30).curves

@@ -12,6 +12,7 @@ from support.engines import engine
 from support.paths import ENGINES
 
 from balcli import load, locomotive, sweep
+from balcli.engine.load import vary_engine
 from balcli.file.examples import template
 from balcli.forces.spectrum import compute_spectra
 
@@ -176,7 +177,7 @@ def test_coupling_masses_are_counterweights():
         for kind in ("force", "moment"):
             one, other = (compute_spectra(engine(**each), [1, 2])[kind].vectors for each in (parts, plain))
             assert one == pytest.approx(other, rel=1e-12, abs=1e-6)
-    heavier = engine(**parts).vary({"axle.second.coupling_mass.2": 190})
+    heavier = vary_engine(engine(**parts), {"axle.second.coupling_mass.2": 190})
     swept = sweep(engine(**parts), {"axle.second.coupling_mass.2": [90, 190]}, ["force.1.major"])
     assert swept["force.1.major"][1] == pytest.approx(compute_spectra(heavier, [1]).force.major[0], rel=1e-12)
 
@@ -292,7 +293,8 @@ def test_examples_of_books():
 
 
 def test_no_scheme_divides_weights_between_axles(tmp_path: Path) -> None:
-    done = run_here("balance", ENGINES / "historic/locomotive4.toml", "--write", tmp_path / "out.toml")
+    engine_file = ENGINES / "historic/locomotive4.toml"
+    done = run_here("balance", engine_file, "--scheme", "counterweights", "--write", tmp_path / "out.toml")
     assert done.status == 2
     assert "several axles have cranks" in done.err
     assert "balcli locomotive does" in done.err
