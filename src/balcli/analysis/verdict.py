@@ -21,6 +21,7 @@ from ..file.fields import order_number
 from ..forces.spectrum import Spectra
 from ..limits import SMALL
 from ..sizing.residual import Scales, is_small
+from .compensator_need import CompensatorNeed, find_needs
 from .couple import Couple, find_couple
 
 VectorKind = Literal["force", "moment"]  # names in `forces.kinds`
@@ -126,6 +127,8 @@ class Verdict:
             come from another order, and would vanish with that order.
         couple: The largest transverse couple; left out if it is negligible or not computed.
         rocking: The largest roll; left out if no roll with gas was computed.
+        compensators: Orders 1 and 2 whose vertical moment is not small, with the need of
+            compensators; left out unless the engine is a two-stroke engine with crossheads.
     """
 
     matter: tuple[Finding, ...] = ()
@@ -136,6 +139,7 @@ class Verdict:
     uneven: bool = False
     couple: Couple | None = None
     rocking: Rocking | None = None
+    compensators: tuple[CompensatorNeed, ...] | None = None
 
 
 def judge(
@@ -160,6 +164,7 @@ def judge(
     devices = () if engine is None else engine.every_device
     compensators = [device for device in devices if device.compensates]
     large = _find_large(vectors, scales, small)
+    needs = find_needs(vectors.get("moment"), scales, small, engine)
     matter: list[Finding] = []
     compensated: list[Compensated] = []
     balanced: list[float] = []
@@ -174,11 +179,17 @@ def judge(
         parts = [Part(order, kind) for kind in vectors]
         large_parts = [part for part in parts if large[part]]
         if large_parts:
-            matter.append(_find_cures(large_parts, large, engine))
+            finding = _find_cures(large_parts, large, engine)
+            if needs is not None and order <= 2:  # compensators take the place of shafts
+                finding = finding._replace(cures=())
+            matter.append(finding)
         elif all(phasors.balanced[row] for phasors in vectors.values()):
             balanced.append(order)
         small_parts += [part for part in parts if not large[part]]
     largest_small = select_largest(small_parts, vectors)
+    compensated_orders = [order.order for order in compensated]
+    if needs is not None:
+        needs = tuple(need for need in needs if need.order not in compensated_orders)
     named = bool(matter or compensated)
     listed = _choose_balanced(balanced, others_named=named, some_small=bool(largest_small))
     return Verdict(
@@ -190,6 +201,7 @@ def judge(
         uneven=engine is not None and bool(engine.ripple),
         couple=None if engine is None else find_couple(spectra.couple, scales, engine),
         rocking=_find_rocking(spectra),
+        compensators=needs,
     )
 
 

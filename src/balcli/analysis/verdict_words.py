@@ -17,6 +17,7 @@ from ..show.engine_facts import tell_pivot
 from ..show.sheet import NEGLIGIBLE, degrees, number, order_name, sentence, size_text
 from ..show.units import ShownUnit, System
 from ..sizing.residual import Scales
+from .compensator_need import CompensatorNeed
 from .couple import Couple, CoupleCause
 from .verdict import (
     AGAINST_CRANK,
@@ -50,6 +51,15 @@ _CAUSES: dict[CoupleCause, str] = {
     "reference_point": "forces whose lines miss the point of reference",
     "angular_acceleration": "the acceleration of turning parts",
 }
+_NEEDS = {  # sentences on compensators, by the need in the words of project guides
+    "not relevant": "a compensator is not relevant",
+    "unlikely": "a compensator is unlikely to be needed",
+    "likely": "a compensator is likely needed",
+    "most likely": "a compensator is most likely needed",
+}
+_NEEDED = ("likely", "most likely")
+_AT_ENDS = "pairs at the engine's ends cancel it"
+_GIVE_POWER = "Give operation.power: compensators are judged by power related unbalance."
 _EQUIVALENT_ROD = "a rod dynamically equivalent to two masses at its ends has none"
 
 
@@ -122,9 +132,9 @@ class VerdictWords(NamedTuple):
 
     def _write_each(self, verdict: Verdict) -> Iterator[str]:
         high = [finding for finding in verdict.matter if finding.order > 2]
-        for finding in verdict.matter:
-            if finding.order <= 2 or len(high) == 1:
-                yield self.write_order(finding)
+        yield from self._write_low(verdict)
+        if len(high) == 1:
+            yield self.write_order(high[0])
         for compensated in verdict.compensated:
             yield self.write_compensated(compensated)
         if len(high) > 1:
@@ -138,6 +148,17 @@ class VerdictWords(NamedTuple):
             yield self.write_couple(verdict.couple)
         if verdict.rocking is not None:
             yield self.write_rocking(verdict.rocking)
+
+    def _write_low(self, verdict: Verdict) -> Iterator[str]:
+        """Yield a sentence for each order up to 2 that matters."""
+        needs = {need.order: need for need in verdict.compensators or ()}
+        for finding in verdict.matter:
+            if finding.order in needs:
+                yield self.write_need(finding, needs[finding.order])
+            elif finding.order <= 2:
+                yield self.write_order(finding)
+        if any(need.need is None for need in needs.values()):
+            yield _GIVE_POWER
 
     def _find_vector(self, part: Part) -> _Vector:
         kind = EVERY_KIND[part.kind]
@@ -159,6 +180,23 @@ class VerdictWords(NamedTuple):
             if len(written.split()) <= _MOST_WORDS:
                 return written
         return sentences[-1]
+
+    def write_need(self, finding: Finding, need: CompensatorNeed) -> str:
+        """Return the sentence on an order that compensators may have to cancel."""
+        moment = self._find_vector(Part(finding.order, "moment"))
+        vertical = size_text(float(abs(moment.phasors.y[0])), moment.unit)
+        written = f"{name_order(finding.order)}: "
+        if "force" in finding.large:
+            force = self._find_vector(Part(finding.order, "force"))
+            written += f"{force.describe_with_direction()} and "
+        written += f"vertical moment of {vertical}"
+        if need.need is None or need.Nm_per_kW is None:
+            return f"{written}."
+        written += f", PRU {number(need.Nm_per_kW, 3)} N·m/kW: {_NEEDS[need.need]}"
+        if need.need not in _NEEDED:
+            return f"{written}."
+        cure = _AT_ENDS if finding.order > 1 else f"counterweights and {_AT_ENDS}"
+        return f"{written}; {cure}."
 
     def _write_higher(self, high: Sequence[Finding]) -> str:
         """Return one sentence on several orders above 2."""

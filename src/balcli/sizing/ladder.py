@@ -369,7 +369,7 @@ class _Drawn(NamedTuple):
 def _draw(engine: Engine, small: float) -> _Drawn:
     """Return what the steps of the ladder need to know of an engine without new devices."""
     start = Fitting.start(ignore_compensators(engine), "")
-    by_power = all(map(is_crosshead_two_stroke, (one.engine for one in engine.cranks)))
+    by_power = is_judged_by_power(engine)
     return _Drawn(
         engine=engine,
         start=start,
@@ -380,6 +380,13 @@ def _draw(engine: Engine, small: float) -> _Drawn:
         by_power=by_power,
         power=find_power(engine) if by_power else None,
     )
+
+
+def is_judged_by_power(engine: Engine) -> bool:
+    """Return whether devices are judged by the power related unbalance: every crank belongs to a
+    two-stroke engine with crossheads.
+    """
+    return all(is_crosshead_two_stroke(crank.engine) for crank in engine.cranks)
 
 
 def is_crosshead_two_stroke(engine: Engine) -> bool:

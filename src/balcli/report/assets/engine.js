@@ -302,6 +302,7 @@ const Kernel = (() => {
       if (!isSmall(backward, least)) due.add(-1);
       if (!isSmall(Math.max(forward, backward), least)) large.push(kind);
     }
+    if (engine.crossheads && order <= 2) return { order, large, cures: [] };      // compensators take the place of shafts
     const turns = (d, ratio) => d.kind !== "slider" && d.order === order && size(ratio > 0 ? d.forward : d.backward) > 0;
     const cures = [order, -order].filter((ratio) => due.has(Math.sign(ratio))).map((ratio) => ({
       ratio, on_crank: ratio === 1, further: engine.devices.some((d) => turns(d, ratio)),

@@ -239,6 +239,7 @@
   }
   function tellCures(finding) {
     if (!finding) return "";
+    if (engine.crossheads && finding.order <= 2) return finding.order > 1 ? "compensators" : "counterweights, compensators";
     return finding.order > 2 ? "usually left" : finding.cures.map(nameCure).join(", ");
   }
   function fill(id, heads, rows) {
