@@ -128,4 +128,5 @@ def test_a_force_is_named_without_shafts(tmp_path):
     text = SHIP.format(throws="[0, 0]", power="power = 4000")
     told = read_verdict(write(tmp_path / "two.toml", text))
     assert "Second order: force of" in told
-    assert "shaft" not in told
+    assert "shaft at" not in told
+    assert "shafts at" not in told
