@@ -159,9 +159,9 @@ def test_the_study_of_factors_takes_planes_alone():
     assert [row.peak_moment_Nm for row in ends] == pytest.approx([row.peak_moment_Nm for row in free], abs=1)
     assert ends[0].counterweight_kg_m > 1.02 * free[0].counterweight_kg_m
     for asked, reason in (
-        ({"scheme": "minimax"}, "--what factor shows the scheme factor: leave --scheme minimax out"),
-        ({"options": SchemeOptions(factor=(0.5,))}, "--what factor shows all factors: leave"),
-        ({"options": SchemeOptions(at=(0j,))}, "scheme factor has no --at"),
+        ({"scheme": "minimax"}, "what factor shows the scheme factor: leave scheme minimax out"),
+        ({"options": SchemeOptions(factor=(0.5,))}, "what factor shows all factors: leave"),
+        ({"options": SchemeOptions(at=(0j,))}, "scheme factor has no at; it takes factor, measured, planes"),
     ):
         with pytest.raises(BalcliError, match=reason):
             compute_study(build_text(CROSS), "factor", **asked)
@@ -177,7 +177,7 @@ def test_the_page_of_the_ladder_has_the_loci_of_all_steps():
         page = draw_page(subject, "ladder", "svg").decode()
         assert [name in page for name in subject.study.steps] == [True] * len(subject.study.steps)
         assert f"{last}: {size_text(step.peak_moment_Nm, SI.moment, 4)}" in page
-    with pytest.raises(BalcliError, match="--what ladder shows the engine as it is"):
+    with pytest.raises(BalcliError, match="^what ladder shows the engine as it is"):
         compute_study(build_text(three), "ladder", scheme="auto")
-    with pytest.raises(BalcliError, match="--what bank shows the engine as it is: leave --scheme"):
+    with pytest.raises(BalcliError, match="^what bank shows the engine as it is: leave scheme"):
         compute_study(build_text(VEE), "bank", scheme="auto")

@@ -45,6 +45,8 @@ def test_the_examples_run(command: str, tmp_path: Path, monkeypatch: pytest.Monk
     monkeypatch.chdir(tmp_path)
     for name, source in FILES.items():
         shutil.copy(ENGINES / source, name)
+    Path("engines").mkdir()
+    shutil.copy("v8.toml", "engines")
     Path("runs.toml").write_text(template("field"), encoding="utf-8")
     for line in examples(command):
         if ".parquet" in line:

@@ -74,7 +74,7 @@ def check(
       balcli check --update engines
       balcli check engines
       balcli check engines --format github
-      balcli check v8.toml --tolerance 1e-6 --verbose
+      balcli check engines/v8.toml --tolerance 1e-6 --verbose
     """
     from .comparison import find_abandoned
 
