@@ -131,6 +131,28 @@ def test_two_cranks_at_right_angles_are_those_of_textbooks(factor, apart):
     assert found.swaying_couple_Nm == pytest.approx(one * apart / 1e3 / math.sqrt(2), abs=1e-6)
 
 
+@pytest.mark.parametrize(
+    ("positions", "reference", "about", "lever"),
+    [
+        ([-300, 300], None, 50.0, [-0.35, 0.25]),
+        ([700, 1300], None, 50.0, [0.65, 1.25]),
+        ([700, 1300], [0, 0, 400], 400.0, [0.3, 0.9]),
+        ([-300, 300], [0, 0, 0], 0.0, [-0.3, 0.3]),
+    ],
+)
+def test_the_swaying_couple_is_about_the_middle_of_the_track(positions, reference, about, lever):
+    """The middle lies between the planes of the wheels at -700 and 800 mm; `frame.reference` names
+    another point. Textbook: (1 - c) m r w^2 times the levers of two cranks at right angles.
+    """
+    frame = {"frame": {"reference": reference}} if reference else {}
+    crank = {"positions": positions}
+    made = engine(**changed(crank=crank, locomotive={"planes": [-700, 800]}, **frame))
+    swaying = locomotive(made, 0.6)
+    of_one = 0.4 * 300 * 0.3 * float(made.omega) ** 2
+    assert swaying.swaying_couple_z_mm == about
+    assert swaying.swaying_couple_Nm == pytest.approx(of_one * math.hypot(*lever), rel=1e-9)
+
+
 COUPLED = {
     "axle": [
         {"name": "leading", "cylinders": [2], "coupling_mass": 110, "part": 0.5},

@@ -215,7 +215,7 @@ class Places(NamedTuple):
         pins: Position of each throw as [crank] gives it, or the middle of its rods if [crank] gives
             no positions, shape (throws, *trailing).
         reference: x, y, z of the point about which moments are taken: the point of the file, or the
-            point on the crank axis half-way between the first and the last throw.
+            point on the crank axis half-way between the outermost throws.
     """
 
     z: dict[int, Figure]

@@ -116,6 +116,8 @@ class LocomotiveBalance(Result):
         hammer_blow_N: Amplitude of the varying load of all wheels together.
         tractive_variation_N: Amplitude of order 1 of the free force along the track.
         tractive_variation_peak_N: Largest absolute value of this force, all orders together.
+        swaying_couple_z_mm: Place along the crank about which the swaying couple is taken: that of
+            `frame.reference`; without it, half-way between the planes of the wheels.
         swaying_couple_Nm: Amplitude of order 1 of the free moment about y.
         swaying_couple_peak_Nm: Largest absolute value of this moment, all orders together.
         engine: Engine without the balance masses that are sized.
@@ -131,6 +133,7 @@ class LocomotiveBalance(Result):
     hammer_blow_N: float
     tractive_variation_N: float
     tractive_variation_peak_N: float
+    swaying_couple_z_mm: float
     swaying_couple_Nm: float
     swaying_couple_peak_Nm: float
     engine: Annotated[Engine, HIDDEN]
@@ -256,7 +259,8 @@ def locomotive(
     weights = _list_weights(table, names, added)
     share = f" and {c:.4g} of the reciprocating ones" if c else ""
     remedy = Remedy("locomotive").add_devices(weights, f"{_WHY}{share}")
-    fitted = fit_devices(engine, remedy)
+    middle = _find_middle(engine, model, table)
+    fitted = replace(fit_devices(engine, remedy), reference_m=middle)
     found = compute_spectra(fitted, find_relevant_orders(fitted), ("force", "moment"))
     along = found["force"].x
     about_y = found["moment"].y
@@ -277,11 +281,24 @@ def locomotive(
         hammer_blow_N=blow(left),
         tractive_variation_N=float(abs(along[0])),
         tractive_variation_peak_N=float(find_longest(found.orders, along[:, None]).value),
+        swaying_couple_z_mm=1e3 * middle[2],
         swaying_couple_Nm=float(abs(about_y[0])),
         swaying_couple_peak_Nm=float(find_longest(found.orders, about_y[:, None]).value),
         engine=engine,
         remedy=remedy,
     )
+
+
+def _find_middle(
+    engine: Engine, model: EngineFile, table: Locomotive
+) -> tuple[float, float, float]:
+    """Return the point about which the swaying couple is taken, m: the file's point of reference;
+    without it, the middle of the track, half-way between the planes of the wheels.
+    """
+    x, y, z = (float(figure) for figure in engine.reference_m)
+    if model.frame.reference is None:
+        z = sum(table.planes) / 2e3
+    return x, y, z
 
 
 def _take_table(engine: Engine, model: EngineFile, *, speed_given: bool) -> Locomotive:

@@ -86,13 +86,14 @@ def sheet(result: LocomotiveBalance, system: System) -> Sheet:
     force = system.force
     tractive = result.tractive_variation_N, result.tractive_variation_peak_N
     swaying = result.swaying_couple_Nm, result.swaying_couple_peak_Nm
+    middle = size_text(result.swaying_couple_z_mm / 1e3, system.length)
     blows = [size_text(rail.hammer_blow_N, force) for rail in result.rails]
     pairs = (
         ("balance factor", UNKNOWN if result.factor is None else given(result.factor, 4)),
         ("hammer blow per rail", " and ".join(blows)),
         ("hammer blow of engine", size_text(result.hammer_blow_N, force)),
         ("tractive effort", _tell_variation(*tractive, force)),
-        ("swaying couple", _tell_variation(*swaying, system.moment)),
+        ("swaying couple", f"{_tell_variation(*swaying, system.moment)}; about z = {middle}"),
     )
     blow = size_text(max(wheel.hammer_blow_N for wheel in result.wheels), force)
     speed = _tell_speed(result.speed_rpm, result.speed_km_h, system)
