@@ -177,7 +177,7 @@ def test_the_page_of_the_ladder_has_the_loci_of_all_steps():
         page = draw_page(subject, "ladder", "svg").decode()
         assert [name in page for name in subject.study.steps] == [True] * len(subject.study.steps)
         assert f"{last}: {size_text(step.peak_moment_Nm, SI.moment, 4)}" in page
-    with pytest.raises(BalcliError, match="^what ladder shows the engine as it is"):
+    with pytest.raises(BalcliError, match=r"^what ladder shows the engine as it is"):
         compute_study(build_text(three), "ladder", scheme="auto")
-    with pytest.raises(BalcliError, match="^what bank shows the engine as it is: leave scheme"):
+    with pytest.raises(BalcliError, match=r"^what bank shows the engine as it is: leave scheme"):
         compute_study(build_text(VEE), "bank", scheme="auto")

@@ -125,7 +125,7 @@ def test_a_system_that_gives_no_thread_is_told(monkeypatch: pytest.MonkeyPatch) 
     monkeypatch.setattr("balcli.studies.sweep.CHUNK", 300)
     sweep = asked(VEE, *GRID, of="force.2.major")
     monkeypatch.setattr(Thread, "start", refuse)
-    with pytest.raises(BalcliError, match="^jobs 5: can't start new thread; give fewer, such as jobs 1$"):
+    with pytest.raises(BalcliError, match=r"^jobs 5: can't start new thread; give fewer, such as jobs 1$"):
         list(evaluate_chunks(sweep, partial(share_among_threads, threads=5)))
 
 

@@ -312,7 +312,8 @@ class Frame(FileTable):
 
     reference: Triple | None = None
     """x, y, z of the point about which all moments are taken; left out: the point on the crank
-    axis half-way between the outermost throws (a throw stands in the middle of its rods). Example: [0, 0, 0]"""
+    axis half-way between the outermost throws (a throw stands in the middle of its rods).
+    Example: [0, 0, 0]"""
     up: Angle | None = None
     """Upward direction on the test bed, as an angle from the x axis in the direction of rotation;
     left out: results name x and y instead of vertical and horizontal. Example: 0"""
