@@ -85,7 +85,7 @@ _COMMANDS_OF = {
 }
 MODULES = {name: module for module, names in _COMMANDS_OF.items() for name in names}
 
-IN_FULL_PRECISION = ("curves", "sweep", "tables")  # commands whose figures --digits does not change
+IN_FULL_PRECISION = ("curves", "sweep")  # commands whose figures --digits does not change
 
 
 class _Command(TyperCommand):

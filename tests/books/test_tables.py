@@ -22,6 +22,7 @@ from balcli.books.recomputed import (
     parse_crank_ratios,
     parse_range,
 )
+from balcli.books.sources import SOURCES
 from balcli.core.mechanisms import slidercrank as sc
 from balcli.errors import BalcliError
 
@@ -185,7 +186,8 @@ def test_list_of_tables():
     listed = run().out
     assert {t["name"]: t["errata"] for t in document()} == ERRATA
     assert max(map(len, listed.splitlines())) <= 80
-    printed = ((t["name"], t["title"], t["source"].partition(", Table ")[0]) for t in document())
+    printed = [(t["name"], t["title"]) for t in document()]
+    printed += [(source.key, source.citation) for source in SOURCES]
     words = {word for texts in printed for text in texts for word in text.split()}
     assert words <= set(listed.split())
 
@@ -218,8 +220,9 @@ def test_a_lambda_that_cannot_be_is_told_what_it_would_be(given):
 def test_errata_by_class():
     """22 printed figures of 130 in the five sources are misprints; each class is explained under the errata."""
     every = document("--errata")
-    assert len(every) == sum(ERRATA.values())
-    of_figures = [e["class"] for e in every if e["name"] not in ("statements", "published")]
+    assert len(every) == sum(ERRATA.values()) - WRONG, "those of published problems are not among them"
+    assert len(document("--errata", "published")) == WRONG
+    of_figures = [e["class"] for e in every if e["name"] != "statements"]
     assert len(of_figures) == 130
     assert of_figures.count("misprint") == 22
     assert {e["class"] for e in every} == set(CLASSES)
@@ -237,6 +240,37 @@ def test_errata_as_text():
         assert max(map(len, run(*asked).out.splitlines())) <= 80
     first = document("tsinghua-1-2", "--errata")[0]
     assert (first["row"], first["label"], first["class"]) == (10, "50", "rounding")
+
+
+# ---------------------------------------------------------------- sources
+@pytest.mark.parametrize("source", SOURCES, ids=lambda source: source.key)
+def test_a_source_has_its_tables_and_statements(source):
+    found = document(source.key)
+    assert found["citation"] == source.citation
+    assert [t["name"] for t in found["tables"]] == [n for n in NAMES if n.startswith(f"{source.key}-")]
+    places = load_print("statements").column("source")
+    assert len(found["statements"]) == places.count(source.key)
+    for name in source.names:
+        assert document(name.upper()) == found
+    text = run(source.key).out
+    assert max(map(len, text.splitlines())) <= 80
+    assert all(table["name"] in text for table in found["tables"])
+
+
+def test_errata_of_one_source():
+    found = document("--errata", "Liu Xianzhi")
+    assert {e["name"] for e in found} == {"liu-1", "liu-3", "statements"}
+    assert len([e for e in found if e["name"] != "statements"]) == ERRATA["liu-1"] + ERRATA["liu-3"]
+    assert all(e["label"].startswith("liu, ") for e in found if e["name"] == "statements")
+
+
+def test_digits_are_those_of_the_request_where_no_print_rules():
+    """A_2 at 0.3 is not printed: series of its definition, 0.3 + 0.3^3/4 + 15/128 0.3^5 + ..."""
+    shown = run("kvasnikov-1", "--lambda", "0.3", "--digits", "10").out
+    assert "0.3070506591" in shown
+    assert run_here("--digits", "10", "tables", "kvasnikov-1", "--lambda", "0.3").out == shown
+    assert "0.307051" in run("kvasnikov-1", "--lambda", "0.3").out
+    assert run("tsinghua-1-2", "--digits", "10").out == run("tsinghua-1-2").out, "as printed"
 
 
 @cases("books/tables", "wrong_names_and_options_are_refused")

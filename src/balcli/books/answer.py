@@ -15,6 +15,7 @@ from collections.abc import Callable
 from functools import partial
 from itertools import pairwise
 from types import NoneType
+from typing import NamedTuple
 
 import numpy as np
 
@@ -31,6 +32,7 @@ from ..limits import HIGHEST_POWER
 from ..shell.arguments import check_count
 from . import schemes, series, tsinghua, worked_examples
 from .recomputed import (
+    Erratum,
     Print,
     Ranges,
     Row,
@@ -40,6 +42,7 @@ from .recomputed import (
     parse_range,
     tabulate_statements,
 )
+from .sources import SOURCES, Source, find_origin, find_source
 
 ORDERS = (1, 2, 4, 6)
 
@@ -138,8 +141,7 @@ def select_tables(
     angles = parse_range("angle", angle) if angle is not None else None
     ranges = Ranges(lams, angles, power)
     if name is not None and name not in TABLES:
-        near = suggest_nearest(name, NAMES, f"there are {', '.join(NAMES)}")
-        raise BalcliError(f"no table {name!r}; {near}")
+        raise BalcliError(f"no table {name!r}; {_tell_nearest(name)}")
     names = NAMES if name is None else (name,)
     for (argument, takers), value in zip(TAKES.items(), ranges, strict=True):
         if value is not None and (name is None or names[0] not in takers):
@@ -149,6 +151,73 @@ def select_tables(
                 takers=", ".join(takers),
             )
     return [TABLES[each](load_print(each), ranges) for each in names]
+
+
+def _tell_nearest(name: str) -> str:
+    """Return the nearest name of a table or source, or all names."""
+    source = find_source(name)
+    if source is not None:
+        return f"{source.key} is a source with the tables {', '.join(list_tables_of(source))}"
+    names = (*NAMES, *(source.key for source in SOURCES))
+    return suggest_nearest(name, names, f"there are {', '.join(names)}")
+
+
+# ------------------------------------------------------------------ sources
+class SourceTables(NamedTuple):
+    """All that balcli has from one book or paper.
+
+    Attributes:
+        source: Book or paper.
+        tables: Its tables, recomputed.
+        statements: Its equations and sentences that are wrong.
+    """
+
+    source: Source
+    tables: tuple[Table, ...]
+    statements: tuple[Erratum, ...]
+
+
+def list_tables_of(source: Source) -> tuple[str, ...]:
+    """Return the names of a source's tables."""
+    return tuple(name for name in NAMES if find_origin(name) == source)
+
+
+def select_source(source: Source) -> SourceTables:
+    """Return the tables of a source, and its wrong statements."""
+    (statements,) = select_tables("statements")
+    place = statements.columns.index("source")
+    wrong = [e for e in statements.errata if statements.exact[e.row][place] == source.key]
+    recomputed = [select_tables(name)[0] for name in list_tables_of(source)]
+    return SourceTables(source, tuple(recomputed), tuple(wrong))
+
+
+# Errata of published problems are not those of the five sources: they are listed by this name only.
+PUBLISHED = "published"
+
+
+def select_errata(
+    name: str | None, lambda_: str | None = None, angle: str | None = None, power: int | None = None
+) -> list[tuple[str, Erratum]]:
+    """Return the errata of a table or source, each with its table's name.
+
+    Args:
+        name: Name of a table or source; None: errata of all tables but those of published problems.
+        lambda_: As in `select_tables`, as are `angle` and `power`.
+        angle: See there.
+        power: See there.
+
+    Raises:
+        BalcliError: As `select_tables` raises it.
+    """
+    source = find_source(name) if name else None
+    if source is not None and not (lambda_ or angle or power):
+        of_source = select_source(source)
+        of_tables = [(table.name, e) for table in of_source.tables for e in table.errata]
+        return of_tables + [("statements", e) for e in of_source.statements]
+    chosen = select_tables(name, lambda_, angle, power)
+    if name is None:
+        chosen = [table for table in chosen if table.name != PUBLISHED]
+    return [(table.name, e) for table in chosen for e in table.errata]
 
 
 def tables(

@@ -14,17 +14,19 @@ from ..shell.values import as_bare_angles, optional
 
 
 def complete_tables(incomplete: str) -> list[str]:
-    """Return the names of tables that begin with this text."""
+    """Return the names of tables and sources that begin with this text."""
     from . import answer as registry
+    from .sources import SOURCES
 
-    return [name for name in registry.NAMES if name.startswith(incomplete)]
+    names = (*registry.NAMES, *(source.key for source in SOURCES))
+    return [name for name in names if name.startswith(incomplete)]
 
 
 Name = Annotated[
     str | None,
     typer.Argument(
         metavar="NAME",
-        help="Name of a table; without it, all tables are listed.",
+        help="Name of a table, or of a source (liu, 刘先志); without it, all tables are listed.",
         show_default=False,
         autocompletion=complete_tables,
     ),
@@ -63,19 +65,29 @@ def tables(
     \b
     Examples:
       balcli tables tsinghua-1-2
+      balcli tables liu
+      balcli tables --errata liu
       balcli tables --errata --kind misprint
       balcli tables published
       balcli tables --errata --format json
     """
     form = text_format(output, form)
     from . import answer, show as pages
+    from .sources import find_source
 
     angles = angle and as_bare_angles("angle", angle)
-    chosen = answer.select_tables(name, lambda_, angles, power)
     if errata or kind:
-        errors = [(t.name, e) for t in chosen for e in t.errata if kind in (None, e.category)]
+        errors = answer.select_errata(name, lambda_, angles, power)
+        if kind:
+            errors = [(table, error) for table, error in errors if error.category == kind]
         show([errors], pages.ERRATA, form, output)
-    elif name:
+        return
+    source = find_source(name) if name else None
+    if source is not None and not (lambda_ or angles or power):
+        show([answer.select_source(source)], pages.SOURCE, form, output)
+        return
+    chosen = answer.select_tables(name, lambda_, angles, power)
+    if name:
         own = {"layouts": pages.LAYOUTS, "published": pages.PUBLISHED}
         show(chosen, own.get(name, pages.RENDERER), form, output)
     else:

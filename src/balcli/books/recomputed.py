@@ -1,8 +1,10 @@
 """Compare recomputed tables with the printed ones, and classify the printed figures that are wrong
 (errata).
 
-Each printed table is a CSV file of the package whose first lines name source and title. The user
-may replace the rows and columns of a table by ranges such as `0.20:0.40:0.01` or `0.24,0.28,1/3`.
+Each printed table is a CSV file of the package. Its first lines are its title, and either its
+number in its source (`printed as`) or, if it is from none of the five books and papers, its source.
+The user may replace the rows and columns of a table by ranges such as `0.20:0.40:0.01` or
+`0.24,0.28,1/3`.
 """
 
 from __future__ import annotations
@@ -23,6 +25,7 @@ from ..core.records import HIDDEN, WrittenAs
 from ..errors import Argument, ArgumentError
 from ..limits import LARGEST_TABLE_VALUE, MOST_TABLE_VALUES
 from ..show.result import Result
+from .sources import find_origin
 
 Cell: TypeAlias = float | str | None
 Row: TypeAlias = tuple[Cell, ...]
@@ -292,12 +295,21 @@ def read_data(file: str) -> str:
 
 
 def load_print(name: str) -> Print:
-    """Read the print of a table: lines `# source:` and `# title:`, then headings and rows."""
+    """Read the print of a table: lines `# printed as:` or `# source:` and `# title:`, then headings
+    and rows.
+    """
     lines = read_data(f"{name}.csv").splitlines()
     notes = dict(line[2:].split(": ", 1) for line in lines if line.startswith("# "))
     head, *body = csv.reader(line for line in lines if not line.startswith("# "))
     rows = tuple(tuple(cell or None for cell in row) for row in body)
-    return Print(name, notes["title"], notes["source"], tuple(head), rows)
+    origin = find_origin(name)
+    if origin is None:
+        source = notes["source"]
+    elif "printed as" in notes:
+        source = f"{origin.citation}, {notes['printed as']}"
+    else:
+        source = origin.citation
+    return Print(name, notes["title"], source, tuple(head), rows)
 
 
 def identify(text: str) -> object:

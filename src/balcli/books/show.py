@@ -16,7 +16,7 @@ from ..show.formats import Renderer, Rows
 from ..show.sheet import UNKNOWN, Column, Facts, Grid, Sheet, Text, number
 from ..show.table import WIDTH, fold
 from ..show.units import System
-from .answer import find_gaps
+from .answer import PUBLISHED as PUBLISHED_PROBLEMS, SourceTables, find_gaps
 from .recomputed import (
     ANSWER,
     CLASSES,
@@ -29,6 +29,7 @@ from .recomputed import (
     parse_number,
     round_like,
 )
+from .sources import SOURCES
 
 
 def sheet(table: Table, _system: System) -> Sheet:
@@ -83,7 +84,7 @@ def _round_as_printed(value: float, text: str) -> str:
     """
     like = parse_decimal(text)
     if like is None:
-        return f"{value:.6g}"
+        return number(value, 6)
     shown = f"{round_like(value, like):f}"
     if text.lstrip("+-").startswith(".") and abs(value) < 1:
         shown = shown.replace("0.", ".", 1)
@@ -163,12 +164,16 @@ def lay_out_list(tables: Sequence[Table], _system: System) -> Sheet:
         Column("errata", [str(len(t.errata)) for t in tables]),
         Column("title", [t.title for t in tables], words=True),
     ]
-    errata = sum(len(t.errata) for t in tables)
-    note = f"{errata} errata; --errata lists them, tables NAME shows one table"
-    sources = {t.name.partition("-")[0]: t.source.partition(", Table ")[0] for t in tables}
+    of_problems = sum(len(t.errata) for t in tables if t.name == PUBLISHED_PROBLEMS)
+    errata = sum(len(t.errata) for t in tables) - of_problems
+    note = (
+        f"{errata} errata of the five sources (--errata lists them, --errata liu those of liu), "
+        f"{of_problems} of published problems (--errata {PUBLISHED_PROBLEMS}). tables NAME shows "
+        "one table, tables liu what there is of that source."
+    )
     printed = [
-        Column("tables", [*sources], words=True),
-        Column("printed in", [*sources.values()], words=True),
+        Column("source", [source.key for source in SOURCES], words=True),
+        Column("printed in", [source.citation for source in SOURCES], words=True),
     ]
     parts = (Grid("", columns, note), Grid("Sources", printed))
     return Sheet("Printed tables, recomputed", parts)
@@ -188,6 +193,53 @@ def list_tables(tables: Sequence[Table], _system: System) -> Rows:
     return Rows([*entries[0]], [[*entry.values()] for entry in entries])
 
 
+def lay_out_source(found: SourceTables, _system: System) -> Sheet:
+    """Return the tables of a source and its wrong statements, a line for each."""
+    tables = found.tables
+    columns = [
+        Column("name", [table.name for table in tables], words=True),
+        Column("errata", [str(len(table.errata)) for table in tables]),
+        Column("title", [table.title for table in tables], words=True),
+    ]
+    wrong = [
+        Column("place", [_place_in_source(e) for e in found.statements], words=True),
+        Column("printed", [e.printed for e in found.statements], words=True),
+        Column("right", [_exact(e) for e in found.statements], words=True),
+    ]
+    key = found.source.key
+    parts: list[Facts | Grid] = [
+        Facts((("source", found.source.citation),)),
+        Grid("Tables", columns, f"tables {key}-… shows a table, tables --errata {key} all errata"),
+    ]
+    if found.statements:
+        parts.append(Grid("Wrong equations and sentences", wrong))
+    return Sheet(f"{key}: {found.source.authors}", tuple(parts))
+
+
+def _place_in_source(erratum: Erratum) -> str:
+    """Return where in its source a wrong statement stands."""
+    return erratum.label.partition(", ")[2]
+
+
+def describe_source(found: SourceTables) -> Node:
+    """Return tables and wrong statements of a source for JSON."""
+    return {
+        "format": "balcli.source/1",
+        "source": found.source.key,
+        "citation": found.source.citation,
+        "tables": describe_list(found.tables),
+        "statements": describe_errata([("statements", e) for e in found.statements]),
+    }
+
+
+def list_source(found: SourceTables, _system: System) -> Rows:
+    """Return CSV with a line for each table, and one for each wrong statement."""
+    lines = [("table", t.name, t.title, len(t.errata), None) for t in found.tables]
+    wrong = [("statement", e.label, e.printed, None, _exact(e)) for e in found.statements]
+    return Rows(("kind", "name", "text", "errata", "right"), [*lines, *wrong])
+
+
+SOURCE = Renderer(sheet=lay_out_source, document=describe_source, rows=list_source)
 TABLE_LIST = Renderer(sheet=lay_out_list, document=describe_list, rows=list_tables)
 
 
