@@ -277,6 +277,48 @@ _CYRILLIC = {
     "кВт": "kW",
     "л": "l",
 }
+_CHINESE = {
+    "微米": "um",
+    "毫米": "mm",
+    "厘米": "cm",
+    "分米": "dm",
+    "米": "m",
+    "英寸": "in",
+    "英尺": "ft",
+    "毫克": "mg",
+    "克": "g",
+    "千克": "kg",
+    "公斤": "kg",
+    "吨": "t",
+    "磅": "lb",
+    "盎司": "oz",
+    "毫秒": "ms",
+    "秒": "s",
+    "分": "min",
+    "分钟": "min",
+    "小时": "h",
+    "转": "turn",
+    "度": "deg",
+    "弧度": "rad",
+    "赫": "Hz",
+    "赫兹": "Hz",
+    "牛": "N",
+    "牛顿": "N",
+    "千牛": "kN",
+    "公斤力": "kgf",
+    "千克力": "kgf",
+    "帕": "Pa",
+    "千帕": "kPa",
+    "兆帕": "MPa",
+    "巴": "bar",
+    "焦": "J",
+    "千焦": "kJ",
+    "瓦": "W",
+    "千瓦": "kW",
+    "马力": "PS",
+    "升": "l",
+}
+_CHINESE_POWERS = {"": "", "平方": "^2", "立方": "^3"}  # 平方厘米: square centimetre
 FORTRAN = r"(?<=[\d.])[dD]([+-]?\d{1,3})(?![\d.])"  # the exponent of 1.5D3
 _SUPERSCRIPTS = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
 
@@ -304,6 +346,18 @@ def _spell_cyrillic(found: re.Match[str]) -> str:
     return _CYRILLIC.get(found[0]) or _CYRILLIC.get(found[0].lower(), found[0])
 
 
+def _spell_chinese(found: re.Match[str]) -> str:
+    """Return Chinese units that stand side by side (克毫米) as balcli writes them; other words are
+    returned unchanged.
+    """
+    units = "|".join(sorted(_CHINESE, key=len, reverse=True))
+    one_unit = f"(平方|立方|)({units})"
+    if not re.fullmatch(f"(?:{one_unit})+", found[0]):
+        return found[0]
+    factors = re.findall(one_unit, found[0])
+    return " ".join(f"{_CHINESE[unit]}{_CHINESE_POWERS[power]}" for power, unit in factors)
+
+
 def _join_thousands(found: re.Match[str]) -> str:
     """Return a figure without the characters that separate its thousands."""
     return found[1] + re.sub(r"[ '_]", "", found[2])
@@ -319,6 +373,7 @@ _RESPELT: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     (r"M(?:PA|pa)\b", "MPa"),
     (r"(?<=[^\W\d_])\.(?=\s*$|/)", ""),  # "3.5 in.", "об./мин"
     (r"[а-яёА-ЯЁ]+", _spell_cyrillic),
+    (r"[\u4e00-\u9fff]+", _spell_chinese),
     (r"(?<=\d)\s*[x×·⋅*]\s*10\^([+-]?\d{1,3})\b", r"e\1"),
     (FORTRAN, r"e\1"),
     (
