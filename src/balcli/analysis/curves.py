@@ -110,7 +110,8 @@ def compute_order_curves(
     spectra = compute_spectra(engine, check_orders(orders), tuple(kinds))
     curves: dict[str, Array] = {}
     for kind, phasors in spectra.items():
-        values, most = phasors.values(np.radians(crank_deg)), float(phasors.major.sum())
+        values = phasors.values(np.radians(crank_deg))
+        most = float(phasors.major.sum())
         curves[kind.key_along("x") if kind.vector else kind.key] = _settle(values.real, most)
         if kind.vector:
             curves[kind.key_along("y")] = _settle(values.imag, most)
@@ -225,8 +226,10 @@ def _compute_crank_parts(one: Placed, crank_deg: Array) -> dict[str, Array]:
 def _compute_cylinder_parts(engine: Engine, row: int, crank_deg: Array) -> dict[str, Array]:
     """Return the terms of the motion of the cylinder in this row, each of shape (terms, angles)."""
     motion = EngineMotion(engine, crank_deg)
-    m, r = motion.moved, float(engine.cylinders.radius_of_each[row])
-    v, a = -m.velocity[row], -m.acceleration[row]
+    m = motion.moved
+    r = float(engine.cylinders.radius_of_each[row])
+    v = -m.velocity[row]
+    a = -m.acceleration[row]
     angles = np.broadcast_to(np.arctan2(m.lean, m.cosine), motion.psi.shape)
     return {
         "travel_m": r * motion.travel()[row : row + 1],
@@ -238,7 +241,10 @@ def _compute_cylinder_parts(engine: Engine, row: int, crank_deg: Array) -> dict[
 
 def _force_of_cylinders(motion: EngineMotion) -> Complex:
     """Return the free force of each cylinder, N, shape (cylinders, angles)."""
-    c, r, w2, xi = motion.cylinders, motion.radius, motion.omega**2, motion.xi
+    c = motion.cylinders
+    r = motion.radius
+    w2 = motion.omega**2
+    xi = motion.xi
     m = motion.moved
     on_axis = -as_rows(c.reciprocating) * r * (w2 * m.acceleration + xi * m.velocity)
     on_curve = motion.mass * r * (w2 * m.acceleration_of_mass + xi * m.velocity_of_mass)
@@ -255,9 +261,12 @@ def _couple_of_cylinders(motion: EngineMotion) -> Array:
     turns at the crank radius r, H the couple constant of the rod, and spin the rod's angular
     velocity.
     """
-    c, r, m = motion.cylinders, motion.radius, motion.moved
+    c = motion.cylinders
+    r = motion.radius
+    m = motion.moved
     pull = as_rows(c.reciprocating) * as_rows(c.offset) * r
-    on_curve, couple = motion.mass * r**2, as_rows(c.couple)
+    on_curve = motion.mass * r**2
+    couple = as_rows(c.couple)
     h = as_rows(c.rotating) * r**2 - pull * m.velocity - couple * m.spin + on_curve * m.swirl
     slope = on_curve * m.swirl_rate - pull * m.acceleration - couple * m.spin_rate
     return np.asarray(-(motion.omega**2 * slope + motion.xi * h))
@@ -290,7 +299,8 @@ def _find_cylinder_gas(engine: Engine, row: int, crank_deg: Array) -> dict[str, 
     cylinder = gas.cylinders[row]
     at = np.radians(crank_deg) - cylinder.fires
     if cylinder.torque.pressure is not None:
-        forces, side = compute_rod_forces(engine, crank_deg), -1 if engine.rotary else 1
+        forces = compute_rod_forces(engine, crank_deg)
+        side = -1 if engine.rotary else 1
         found["pressure_Pa"] = forces.pressure[row]
         if gas.compression_ratio is not None:
             found["volume_m3"] = cylinder.piston.volume(at, gas.compression_ratio)

@@ -173,7 +173,8 @@ def describe_inner(inner: InnerLoads) -> Inner:
 
 def _describe_bent(shear: AlongCrank, bending: AlongCrank) -> Bent:
     """Return the record of shear force and bending moment at the same sections."""
-    (places, forces), (_, moments) = _list_loads(shear), _list_loads(bending)
+    places, forces = _list_loads(shear)
+    _, moments = _list_loads(bending)
     return Bent(*bending.highest, tuple(map(Section, places, forces, moments)))
 
 

@@ -120,7 +120,8 @@ def _further_parts(result: Analysis, system: System) -> Iterator[Part]:
 
 def _chosen_order_parts(result: Analysis, system: System, view: View) -> Iterator[Part]:
     """Yield all tables, or those that `--only` names; by default with the orders that matter."""
-    spectra, every = result.spectra.with_moment_if(result.moments_known), view.every_order
+    spectra = result.spectra.with_moment_if(result.moments_known)
+    every = view.every_order
     of_one = set() if result.engine.placed else {"textbook"}
     parts = view.parts or {*EVERY_KIND, "xy", *of_one}
     others = ""
@@ -131,7 +132,8 @@ def _chosen_order_parts(result: Analysis, system: System, view: View) -> Iterato
     tables: list[Grid] = []
     named = spectra.only({*parts, *(GAS_KINDS if GAS.name in parts else ())})
     if parts.intersection(EVERY_KIND):
-        pivot, with_gas = tell_pivot(result.engine), result.engine.gas is not None
+        pivot = tell_pivot(result.engine)
+        with_gas = result.engine.gas is not None
         tables += order_tables(named, system, pivot, with_gas=with_gas, every=every)
     if "xy" in parts:
         tables += direction_tables(spectra, system, every=every)
@@ -168,7 +170,8 @@ def _order_parts_in_brief(result: Analysis, system: System, view: View) -> Itera
 
 def _tell_uncounted(result: Analysis) -> Iterator[Text]:
     """Yield a note if the speed is uneven and the file gives no inertia that resists it."""
-    engine, shown = result.engine, result.spectra.only((COUPLE.name, TORQUE.name)).scalars()
+    engine = result.engine
+    shown = result.spectra.only((COUPLE.name, TORQUE.name)).scalars()
     if engine.ripple and shown and find_constant_inertia(engine) is None:
         yield Text("Note", (_UNCOUNTED,))
 
@@ -186,7 +189,8 @@ def _judge(result: Analysis, system: System) -> Iterator[Text]:
 
 
 def _sizing_parts(sizing: Sizing, system: System) -> Iterator[Part]:
-    remedy, after = sizing.remedy, sizing.after
+    remedy = sizing.remedy
+    after = sizing.after
     if not remedy.devices:
         yield Text("Sizing", ("No counterweight and no shaft is worth fitting.",))
         return

@@ -254,7 +254,8 @@ def _list_lines(
 def _list_amplitudes(one: Analysis, torque: str) -> tuple[MarineOrder, ...]:
     """Return amplitudes at one speed by order."""
     spectra = one.spectra.with_moment_if(one.moments_known)
-    force, moment = spectra["force"], spectra["moment"]
+    force = spectra["force"]
+    moment = spectra["moment"]
     guides = (None, None) if one.guide is None else (one.guide.h, one.guide.x)
     unknown = np.full(one.orders.shape, np.nan)
     columns = (
@@ -295,7 +296,9 @@ def rows(one: NamedResult[SpeedSeries], system: System) -> Rows:
 
 
 def _parts(one: NamedResult[SpeedSeries], system: System) -> Iterator[Facts | Grid | Text]:
-    series, view, speeds = one.result, one.view, one.result.speeds_rpm
+    series = one.result
+    view = one.view
+    speeds = one.result.speeds_rpm
     first = series.analyses[0]
     if not view.parts or view.whole:
         yield engine_facts(first.engine, system, whole=view.whole, speeds_rpm=speeds)
@@ -364,7 +367,8 @@ def lay_out_marine(one: NamedResult[MarineSheet], system: System) -> Sheet:
     else:
         for kind in FIGURES:
             lines = [line for line in result.lines if line.kind == kind]
-            speeds, whole = result.speeds_rpm, result.every_order
+            speeds = result.speeds_rpm
+            whole = result.every_order
             parts.append(_kind_part(kind, lines, speeds, system, whole=whole))
         parts.append(Text("", (f"Guide-force moments and torque are {of_what}.",)))
     if result.related is not None:

@@ -269,7 +269,8 @@ def describe_file(
 
 def _name_beside(path: str, target: Path) -> str:
     """Return the path of an engine file relative to the folder of `target`."""
-    home, place = target.parent.resolve(), Path(path).resolve()
+    home = target.parent.resolve()
+    place = Path(path).resolve()
     if path == "-" or not place.is_relative_to(home):
         raise ArgumentError(
             "{write} {target}: {path} is not in the folder of {target} or below",
@@ -306,7 +307,8 @@ def sheet(result: Combined, system: System) -> Sheet:
         system: System of units.
     """
     spectra = result.spectra.with_moment_if(result.moments_known)
-    how, pivot = result.arrangement, tell_pivot(result.engines[0])
+    how = result.arrangement
+    pivot = tell_pivot(result.engines[0])
     roll = f"{_GEARED} {_ROLL[how.load]}" if how.reverse else ""
     parts: tuple[Facts | Grid, ...] = (
         Facts(tuple(_list_facts(result, system))),
@@ -318,7 +320,8 @@ def sheet(result: Combined, system: System) -> Sheet:
 
 def _list_facts(result: Combined, system: System) -> Iterator[tuple[str, str]]:
     """Yield facts on the engines and their arrangement."""
-    (first, second), how = result.engines, result.arrangement
+    first, second = result.engines
+    how = result.arrangement
     named = {"first": first, "second": second}
     for which, engine in named.items():
         yield which, f"{engine.name}, {counted(engine.cylinders.count, 'cylinder')}"

@@ -251,7 +251,9 @@ def _answer(
         shapes: Shapes of new devices.
         changed: Engine with the remedy; None: `engine` with the devices of the remedy.
     """
-    tools, shapes, parts = tools or Tools(), shapes or Shapes(), None
+    tools = tools or Tools()
+    shapes = shapes or Shapes()
+    parts = None
     remedy = shape_devices(engine, remedy, shapes)
     shafts = () if shapes.bearings is None else remedy.shafts
     if shafts or any(weight.sector for weight in remedy.counterweights):
@@ -368,7 +370,8 @@ def _even_knuckles(
     of up to 30 degrees reaches the goal.
     """
     refuse_geared(engine)
-    c, linkage = engine.cylinders, engine.cylinders.linkage
+    c = engine.cylinders
+    linkage = engine.cylinders.linkage
     if not isinstance(linkage, Articulated) or engine.rotary:
         raise BalcliError("scheme knuckles needs articulated rods, and a crank that turns")
     if len(set(Parts(model).find_master_places())) > 1:

@@ -74,7 +74,8 @@ def sheet(result: Balance, system: System) -> Sheet:
     """Return the printed page: devices with reasons, figures for the workshop, and both analyses
     side by side.
     """
-    remedy, engine = result.remedy, result.before.engine
+    remedy = result.remedy
+    engine = result.before.engine
     known = result.before.moments_known
     loads = [find_crank_loads(state.engine) for state in (result.before, result.after)]
     parts: list[Grid | Facts | Text] = [*assumed_facts(result.before.assumed)]
@@ -131,7 +132,8 @@ def _name_fitted(remedy: Remedy) -> str:
 
 def _tell_left(result: Balance, system: System) -> str:
     """Return words on the forces and moments of orders 1 and 2 that steps of the ladder leave."""
-    known, left = result.after.moments_known, []
+    known = result.after.moments_known
+    left = []
     kinds = (FORCE, MOMENT) if known else (FORCE,)
     spectra = compute_spectra(result.after.engine, [1, 2], [kind.name for kind in kinds])
     for k, order in enumerate((1, 2)):
@@ -169,9 +171,11 @@ def _tell_bearings(result: Balance, system: System) -> str:
     """Return in words by how much counterweights at every throw lower the largest main bearing
     load, if the scheme is counterweights and fits no counterweight; else return an empty text.
     """
-    remedy, steps = result.remedy, () if result.ladder is None else result.ladder.steps
+    remedy = result.remedy
+    steps = () if result.ladder is None else result.ladder.steps
     loads = {step.step: step.main_bearing_N for step in steps}
-    before, after = loads.get(AS_DRAWN), loads.get(WEIGHTS_AT_THROWS)
+    before = loads.get(AS_DRAWN)
+    after = loads.get(WEIGHTS_AT_THROWS)
     if remedy.scheme != "counterweights" or remedy.devices or not (before and after):
         return ""
     unit = system.unit(FORCE).fit(before)
@@ -188,15 +192,21 @@ def _permitted(result: Balance, system: System) -> Iterator[Grid]:
     """
     if result.permitted is None:
         return
-    remedy, length, mass = result.remedy, system.length, system.mass
+    remedy = result.remedy
+    length = system.length
+    mass = system.mass
     each = result.permitted.each_g_mm / 1e6
     if remedy.needs:
-        head, what, last = f"plane at z, {length.name}", "missing", "of permitted"
+        head = f"plane at z, {length.name}"
+        what = "missing"
+        last = "of permitted"
         found = [
             (number(length.of(need.position_mm / 1e3)), abs(need.missing)) for need in remedy.needs
         ]
     else:
-        head, what, last = "counterweight", "unbalance", "tolerance"
+        head = "counterweight"
+        what = "unbalance"
+        last = "tolerance"
         weights = map(find_unbalance, remedy.counterweights)
         found = [(str(k), unbalance) for k, unbalance in enumerate(weights, 1)]
     unit = system.unbalance.fit(max(size for _, size in found))
@@ -228,14 +238,16 @@ def card_sheet(result: Balance, system: System) -> Sheet:
     Raises:
         BalcliError: The scheme has no card.
     """
-    remedy, engine = result.remedy, result.before.engine
+    remedy = result.remedy
+    engine = result.before.engine
     if not remedy.card:
         raise ArgumentError(
             "{format} card: scheme {name} has no bobweight card; leave {scheme} out, or choose "
             "{scheme} factor",
             name=remedy.scheme,
         )
-    factor, rods = remedy.card[0].factor, len(remedy.card[0].cylinders)
+    factor = remedy.card[0].factor
+    rods = len(remedy.card[0].cylinders)
     told = f"{percent(factor)} of all reciprocating mass on the pin"
     if rods > 1:
         told += f" = {percent(factor * rods)} of {name_one_cylinder(engine)}"
@@ -280,7 +292,8 @@ def _orders(result: Balance, system: System) -> Iterator[Grid]:
     scales = dict(result.before.of_one_cylinder)
     if has_gas:  # one cylinder gives no scale for the roll with gas
         scales[ROLL_TOTAL.name] = float(sizes[2].max())
-    every, least = result.every_order, [NEGLIGIBLE * scales[kind.name] for kind in kinds]
+    every = result.every_order
+    least = [NEGLIGIBLE * scales[kind.name] for kind in kinds]
     small = (sizes < np.reshape(least, (-1, 1, 1))) & (not every)  # kind, state, order
     changed = (_find_changes(*sizes.swapaxes(0, 1)) & ~small.all(axis=1)) | every
     left = np.where(changed | small.any(axis=1), 0.0, sizes[:, 1])
@@ -305,7 +318,8 @@ def _orders(result: Balance, system: System) -> Iterator[Grid]:
 
 def _peaks(result: Balance, system: System) -> Iterator[Grid]:
     """Yield a table of those largest values over a revolution that change."""
-    rows, left = [], list[str]()
+    rows = []
+    left = list[str]()
     for (kind, before), (_, after) in zip(result.before.peaks, result.after.peaks, strict=True):
         if kind is MOMENT and not result.before.moments_known:
             continue
@@ -378,7 +392,8 @@ def columns(result: Balance) -> Columns:
         figures = list_figures(to_document(practical), ("unbalance_kg_m",))
         others = ((remove_unit(name), value, unit) for name, value, unit in figures)
         for name, value, unit in (*device_rows(device, SI), *others):
-            line[name], units[name] = value, unit
+            line[name] = value
+            units[name] = unit
         lines.append(line)
     values = {name: [line.get(name) for line in lines] for name in units}
     return Columns(values, {name: unit for name, unit in units.items() if unit})

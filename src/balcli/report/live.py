@@ -93,7 +93,8 @@ def explain_still(engine: Engine) -> str:
     """Return the reason why the page cannot compute an engine itself; empty if it can."""
     if engine.placed:
         return "it has several cranks"
-    c, model = engine.cylinders, take_model(engine)
+    c = engine.cylinders
+    model = take_model(engine)
     of_throws = (model.crank.stroke, model.crank.throw_mass)
     weights = (*model.counterweight, *model.shaft)
     reasons = {
@@ -342,7 +343,9 @@ def _measure(parts: Parts, throws: Mapping[int, int]) -> dict[str, list[float]]:
     """Return the values of the functions of `_find_forms`: cylinder axes, and angles of crank pins
     from cylinder 1's pin (deg); positions of cylinders and throws (mm).
     """
-    cells, pins, places = parts.plan.cells, parts.pins, parts.places
+    cells = parts.plan.cells
+    pins = parts.pins
+    places = parts.places
     tops = {n: float(pins.tops_deg[n] - axis) for n, axis in pins.axes_deg.items()}
     first = next(cell for cell in cells if cell.number == 1)
 
@@ -371,7 +374,8 @@ def _list_masses(model: EngineFile, parts: Parts, cell: Cell) -> Node:
     """Return the masses and rod of a cylinder: names of numbers, or values in the units of the
     file.
     """
-    number, own = cell.number, model.cylinder.get(cell.number)
+    number = cell.number
+    own = model.cylinder.get(cell.number)
     weighed = parts.weighed[number]
 
     def name(key: str, usual: str) -> str:
@@ -381,7 +385,8 @@ def _list_masses(model: EngineFile, parts: Parts, cell: Cell) -> Node:
     pistons = [f"piston.{key}" for key in parts.find_piston_masses()]
     if own is not None and own.piston_mass is not None:
         pistons = [f"cylinder.{number}.piston_mass"]
-    place, crosshead = parts.find_rod(number), name("crosshead_mass", "crosshead.mass")
+    place = parts.find_rod(number)
+    crosshead = name("crosshead_mass", "crosshead.mass")
     return {
         "piston": [*pistons, crosshead],
         "crosshead": crosshead,

@@ -66,7 +66,8 @@ def scene(now: Analysis, shown: Mapping[str, Analysis], system: System) -> Node:
     in `shown`. If the file gives `frame.up`, the drawings are turned so that this direction is up.
     """
     engine = now.engine
-    stroke, bore = 2e3 * float(engine.cylinders.radius.max()), clean(engine.bore_m * 1e3)
+    stroke = 2e3 * float(engine.cylinders.radius.max())
+    bore = clean(engine.bore_m * 1e3)
     bore = bore or ASSUMED_BORE * stroke
     return {
         "stroke": stroke,
@@ -93,7 +94,8 @@ def _cylinder_entries(engine: Engine) -> list[Node]:
     axis at crank angle 0, rod length (0 in harmonic motion), offset and position; the crank radius
     if the radii differ; for an articulated rod, its knuckle pin and its master cylinder's index.
     """
-    c, linkage = engine.cylinders, engine.cylinders.linkage
+    c = engine.cylinders
+    linkage = engine.cylinders.linkage
     rods = linkage.hung if isinstance(linkage, Rotary) else linkage
     columns = {
         "number": engine.numbers,
@@ -133,7 +135,8 @@ def _variant_entry(label: str, result: Analysis, system: System, bore: float) ->
 
 def _vector_rows(phasors: Phasors, unit: ShownUnit) -> list[list[float]]:
     """Return a row for each order: the order, forward x and y, backward x and y."""
-    forward, backward = phasors.forward / unit.size, phasors.backward / unit.size
+    forward = phasors.forward / unit.size
+    backward = phasors.backward / unit.size
     parts = (phasors.orders, forward.real, forward.imag, backward.real, backward.imag)
     rows: list[list[float]] = (np.stack(parts, axis=-1) + 0.0).tolist()
     return rows
@@ -151,7 +154,8 @@ def place_beside(engine: Engine, bore: float) -> dict[int, complex]:
     r = float(c.radius.max())
     leans = np.radians(c.axis_of_each_deg - (engine.up_deg or 0.0))
     rods = np.where(c.lam == 0, _YOKE * c.radius, c.rod_length)
-    across, reach = np.sin(leans), c.radius + rods + bore
+    across = np.sin(leans)
+    reach = c.radius + rods + bore
     width = float(np.max(np.abs(across) * reach + (1 - np.abs(across)) * bore, initial=1.5 * r))
     found: dict[int, complex] = {}
     rows: dict[tuple[int, bool], int] = {}  # by order and direction: place on its side, downwards
@@ -263,12 +267,15 @@ def page(found: Answers, system: System, live: Node | None = None, tell: Tell = 
         BalcliError: The engine does not have the cylinder whose piston is wanted.
     """
     result, balanced, mounted, twisted, cylinder = found
-    own, remedy = analysis.sheet(result, system, ON_A_PAGE), balancing.sheet(balanced, system)
+    own = analysis.sheet(result, system, ON_A_PAGE)
+    remedy = balancing.sheet(balanced, system)
     told = ("force", "about", *(["moment"] if result.moments_known else []))
     compared = _COMPARED if balanced.remedy.reasons else ()
     now = PageSubject(Study(result), system)
     after = PageSubject(Study(balanced.after, balanced.before, balanced.remedy), system)
-    drawn, stars, loci = None, "", list[str]()
+    drawn = None
+    stars = ""
+    loci = list[str]()
     if not result.engine.placed:  # a mechanism of several cranks is not drawn
         drawn = scene(result, _list_variants(result, balanced), system)
         stars = _draw_page(PageSubject(compute_study(result.engine, "stars"), system), "stars")
@@ -329,7 +336,8 @@ def _list_variants(result: Analysis, balanced: Balance) -> dict[str, Analysis]:
     (balancing in steps), or as in the file if there is no ladder; and with the scheme's devices, if
     the scheme is not a step.
     """
-    remedy, ladder = balanced.remedy, balanced.ladder
+    remedy = balanced.remedy
+    ladder = balanced.ladder
     shown = {"as in the file": result}
     if ladder is not None:
         shown = analyze_steps(balanced.before.engine, ladder, result.orders)
@@ -399,9 +407,9 @@ def rocking(result: MountReport) -> Node | None:
         "projection": PROJECTION.tolist(),
         "corners": (1e3 * find_corners(body)).round(3).tolist(),
         "mounts": (1e3 * (result.mounted.dynamic.at - body.centre)).round(3).tolist(),
-        "speeds": [float(f"{rpm:.5g}") for rpm in response.speeds_rpm[rows]],
+        "speeds": _rounded(response.speeds_rpm[rows]),
         "orders": [passed.order for passed in response.passed],
-        "motion": [[[float(f"{v:.5g}") for v in order] for order in speed] for speed in parts],
+        "motion": [[_rounded(order) for order in speed] for speed in parts],
     }
 
 
@@ -410,7 +418,8 @@ _STEP = 2.0  # step of the crank angle, deg
 
 def running(engine: Engine, system: System) -> Node:
     """Return torque and pressure over one cycle, at equal steps of the crank angle, with units."""
-    gas, curves = take_gas(engine), find_torque_curves(replace(engine, ripple=()))
+    gas = take_gas(engine)
+    curves = find_torque_curves(replace(engine, ripple=()))
     at = np.radians(np.arange(0.0, gas.cycle_deg + _STEP / 2, _STEP))
     total = curves.total.at(at)
     unit = system.moment.fit(float(np.abs(total).max()))

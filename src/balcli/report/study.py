@@ -62,10 +62,12 @@ class Banks(NamedTuple):
         crank, on the same side of the middle plane of the vee; negative if both shafts are above or
         both below the crank, on opposite sides of this plane.
         """
-        forward, backward = self.force.forward[0], self.force.backward[0]
+        forward = self.force.forward[0]
+        backward = self.force.backward[0]
         alike = forward * backward * unit(-2 * self.middle_deg)
         signed = np.where(alike.real > 0, -1, 1) * np.abs(backward)
-        against, longest = np.abs(forward), float(np.abs([forward, backward]).max())
+        against = np.abs(forward)
+        longest = float(np.abs([forward, backward]).max())
         there = against > _NO_RADIUS * longest
         ratio = np.divide(signed, against, where=there, out=np.full(signed.shape, np.nan))
         return signed / longest, against / longest, ratio
@@ -205,7 +207,8 @@ def swing_banks(engine: Engine, order: float) -> Banks:
             banks=counted(len(axes), "bank"),
             others=others if c.linkage is not None else "",
         )
-    middle, side = axes.mean(), np.sign(axes - axes.mean())
+    middle = axes.mean()
+    side = np.sign(axes - axes.mean())
     angles = np.arange(0.0, 180.5, 1.0)
     forces = []
     for angle in angles:

@@ -127,7 +127,8 @@ def try_each(
         found: Those of the files that were found in a folder, not named by the user. If such a file
             is of another kind, it is skipped with a note.
     """
-    results, errors = [], []
+    results = []
+    errors = []
     for path in paths:
         try:
             results.append(work(path))

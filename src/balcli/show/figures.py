@@ -224,7 +224,8 @@ def find_peaks(spectra: Spectra) -> Peaks:
 
 def measure_engine(engine: Engine) -> EngineSize:
     """Return name and size of a single engine (not of an array of variants)."""
-    count, volume = len(engine.numbers), float(engine.displacement_m3)
+    count = len(engine.numbers)
+    volume = float(engine.displacement_m3)
     return EngineSize(engine.name, count, volume, engine.placed or None)
 
 
@@ -351,11 +352,13 @@ def figure_rows(
     """
     unknown = () if result.moments_known else (MOMENT,)
     for cylinder, spectra in ((0, result.spectra), *shares.items()):
-        entries, kinds = write_each(list_orders(spectra)), [kind for kind, _ in spectra.items()]
+        entries = write_each(list_orders(spectra))
+        kinds = [kind for kind, _ in spectra.items()]
         for entry in entries:
             for kind in kinds:
                 if kind not in unknown:
-                    unit, figures = system.unit(kind), entry[kind.key]
+                    unit = system.unit(kind)
+                    figures = entry[kind.key]
                     yield from order_rows(kind.name, entry["order"], figures, unit, cylinder)
     for kind, peak in result.peaks:
         if kind not in unknown:

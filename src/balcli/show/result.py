@@ -141,7 +141,8 @@ def _read_columns(rows: Rows) -> Columns:
     for k, head in enumerate(rows.header):
         name = f"{head} ({k + 1})" if head in values else head  # an engine may be called "order"
         cells = [line[k] for line in lines]
-        numbers, words = list(map(_number, cells)), list(map(_word, cells))
+        numbers = list(map(_number, cells))
+        words = list(map(_word, cells))
         wordy = any(word is not None for word in words)
         if not wordy or any(number is not None for number in numbers):
             values[name] = numbers

@@ -300,7 +300,8 @@ class Ladder:
 
     def _explain(self, out: LeftOut) -> str:
         """Return in words the effect of an omitted step and the way to get it, if there is one."""
-        share, fall = self.measure(out), out.main_bearing_N
+        share = self.measure(out)
+        fall = out.main_bearing_N
         size = f"{abs(share):.2g} % of one cylinder's first order"
         lists_it = Message("{small} {percent}% lists it", percent=math.floor(share))
         if fall is None:
@@ -514,7 +515,8 @@ def _choose_usual(steps: Sequence[Step]) -> tuple[str, ...]:
 
 def _offer_weights(drawn: _Drawn) -> _Offer:
     """Return the step with counterweights in the end planes."""
-    first, scales = drawn.first, drawn.scales
+    first = drawn.first
+    scales = drawn.scales
     senses = [*find_carriers(drawn.engine)]
     due = [sense for sense in senses if not is_small(_size(first, [sense], scales), drawn.small)]
     fitting = drawn.start
@@ -546,7 +548,8 @@ def _offer_weights_at_throws(
         before: Last listed step.
         listed: Steps that are listed, without "as drawn".
     """
-    engine, scales = drawn.engine, drawn.scales
+    engine = drawn.engine
+    scales = drawn.scales
     planes = {*engine.joined_throws_m.tolist()}
     if before.inner_moment_Nm is None or len(planes) < 3:
         return
@@ -758,9 +761,11 @@ def _weigh_file_counterweights(engine: Engine, drawn: Step) -> FileCounterweight
 def _find_roll(drawn: _Drawn) -> LargestRoll | None:
     """Return the largest order of the roll; None if there is no roll."""
     engine = drawn.engine
-    kind, orders = ROLL, merge_orders(find_relevant_orders(engine), [1, 2])
+    kind = ROLL
+    orders = merge_orders(find_relevant_orders(engine), [1, 2])
     if engine.gas is not None:
-        kind, orders = ROLL_TOTAL, merge_orders(orders, list_gas_orders(engine))
+        kind = ROLL_TOTAL
+        orders = merge_orders(orders, list_gas_orders(engine))
     phasors = compute_spectra(engine, orders, (kind.name,))[kind.name]
     sizes = np.where(phasors.orders > 0, phasors.major, 0.0)
     largest = int(find_first_largest(sizes))

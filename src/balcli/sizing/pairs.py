@@ -30,7 +30,8 @@ def find_wanted_roll(residual: Residual, roll: complex | None = None) -> complex
         residual: Residual of the order; its point of reference may differ from the crank axis.
         roll: Roll about this point of reference, as in `Residual.parts`; None: the inertia roll.
     """
-    forward, backward = residual.force(1), residual.force(-1)
+    forward = residual.force(1)
+    backward = residual.force(-1)
     here = residual.reference.place
     moved = here.conjugate() * forward - here * backward.conjugate()
     about_reference = residual.parts[ROLL] if roll is None else roll
@@ -47,7 +48,8 @@ def place_pair(residual: Residual, wanted: complex, against: complex | None = No
         against: Place of the shaft that turns against the crank, m; None: the places nearest to
             the crank axis (least squares).
     """
-    forward, backward = residual.force(1), residual.force(-1)
+    forward = residual.force(1)
+    backward = residual.force(-1)
     if against is None:
         against = -wanted * backward / (abs(forward) ** 2 + abs(backward) ** 2)
     with_crank = (wanted + against * backward.conjugate()) / forward
@@ -66,7 +68,8 @@ def find_distance(residual: Residual, places: Places) -> float | None:
         residual: Residual of the order.
         places: Places of the two shafts.
     """
-    forward, backward = residual.force(1), residual.force(-1)
+    forward = residual.force(1)
+    backward = residual.force(-1)
     if not forward or abs(abs(forward) - abs(backward)) > sum(residual.noise[p] for p in FORCE):
         return None
     line = cmath.sqrt(forward * backward) / abs(forward)
@@ -101,7 +104,8 @@ def place_forces(moment: complex, places: Sequence[float], z_ref: float) -> dict
     if len(places) > 2:
         raise ArgumentError("{position} takes one z, or two")
     if len(places) == 1:
-        (first,), other = places, z_ref
+        (first,) = places
+        other = z_ref
     else:
         first, other = places
     if first == other:

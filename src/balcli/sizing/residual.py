@@ -35,9 +35,14 @@ class ResidualPart(NamedTuple):
     sense: int
 
 
-FORWARD_FORCE, FORWARD_MOMENT = FORWARD = (ResidualPart("force", 1), ResidualPart("moment", 1))
-BACKWARD_FORCE, BACKWARD_MOMENT = BACKWARD = (ResidualPart("force", -1), ResidualPart("moment", -1))
-FORCE, MOMENT = (FORWARD_FORCE, BACKWARD_FORCE), (FORWARD_MOMENT, BACKWARD_MOMENT)
+FORWARD_FORCE = ResidualPart("force", 1)
+FORWARD_MOMENT = ResidualPart("moment", 1)
+BACKWARD_FORCE = ResidualPart("force", -1)
+BACKWARD_MOMENT = ResidualPart("moment", -1)
+FORWARD = (FORWARD_FORCE, FORWARD_MOMENT)
+BACKWARD = (BACKWARD_FORCE, BACKWARD_MOMENT)
+FORCE = (FORWARD_FORCE, BACKWARD_FORCE)
+MOMENT = (FORWARD_MOMENT, BACKWARD_MOMENT)
 ROLL = ResidualPart("roll", 0)
 _SCHEMES = {FORWARD_FORCE: "two-shaft", BACKWARD_FORCE: "single-shaft"}  # schemes that cancel parts
 _SCHEMES |= dict.fromkeys(MOMENT, "couple-shaft")
@@ -148,7 +153,8 @@ def find_size(residual: Residual, parts: Iterable[ResidualPart], scales: Scales)
 
 def find_share(residual: Residual, part: ResidualPart, scales: Scales) -> float:
     """Return the size of a force or moment as a share of one cylinder's first order."""
-    size, scale = residual.size(part), scales.moment if part.kind == "moment" else scales.force
+    size = residual.size(part)
+    scale = scales.moment if part.kind == "moment" else scales.force
     return (size / scale if scale else math.inf) if size else 0.0
 
 
@@ -244,7 +250,9 @@ def _find_lowest(
     engine: Engine, options: SchemeOptions, sought: Sequence[ResidualPart], what: str
 ) -> Residual:
     """Return the residual of the lowest order in which a sought part is not small."""
-    scales, least, found = find_scales(engine), options.read_small(), list[Residual]()
+    scales = find_scales(engine)
+    least = options.read_small()
+    found = list[Residual]()
     for order in range(1, HIGHEST_ORDER_SOUGHT + 1):
         found.append(find_residual(engine, order))
         if not is_small(find_size(found[-1], sought, scales), least):

@@ -152,7 +152,8 @@ def size_compensator(engine: Engine, options: SchemeOptions) -> Remedy:
         raise ArgumentError("{scheme} compensator: give {position} Z, or Z,Z for fore and aft")
     if not engine.places_known:
         raise BalcliError(MOMENTS_UNKNOWN)
-    order, position = options.order or 2, options.position
+    order = options.order or 2
+    position = options.position
     places = position if isinstance(position, tuple) else (position,)
     residual = find_residual(engine, order)
     moment = find_moment_about_y(residual)
@@ -161,7 +162,8 @@ def size_compensator(engine: Engine, options: SchemeOptions) -> Remedy:
     forces = place_forces(-moment, places, residual.reference.z)
     fitting = Fitting.start(engine, "compensator", order)
     fitting = add_compensators(fitting, residual, places, options.read_place())
-    newtons, left = residual.newtons_per_kg_m, find_moment_about_y(fitting.find_residual(order))
+    newtons = residual.newtons_per_kg_m
+    left = find_moment_about_y(fitting.find_residual(order))
     return fitting.remedy.add_details(
         moment_before_Nm=abs(moment) * newtons,
         moment_after_Nm=abs(left) * newtons,
@@ -177,7 +179,8 @@ def size_compensator(engine: Engine, options: SchemeOptions) -> Remedy:
 def size_four_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
     """Fit shafts at +1, -1, +2 and -2 for the forces of orders 1 and 2."""
     fitting = Fitting.start(engine, "four-shaft").balance_rotating()
-    residuals, scales = [fitting.find_residual(order) for order in (1, 2)], find_scales(engine)
+    residuals = [fitting.find_residual(order) for order in (1, 2)]
+    scales = find_scales(engine)
     least = options.read_small()
     forces = [one for one in residuals if not is_small(find_size(one, FORCE, scales), least)]
     if not forces and any(one.size(*FORCE) for one in residuals):
@@ -217,7 +220,9 @@ def _choose_places(residual: Residual, options: SchemeOptions) -> Places:
     A force that turns in only one direction needs one shaft on the crank axis, or two half shafts:
     one at the given position, one opposite to it.
     """
-    at, forward, backward = options.at or (), residual.force(1), residual.force(-1)
+    at = options.at or ()
+    forward = residual.force(1)
+    backward = residual.force(-1)
     if len(at) > 2:
         raise ArgumentError(
             "{at}: a pair of shafts has two places; the first is for the shaft against the crank"

@@ -80,7 +80,8 @@ def _size_on_crank(
     fitting: Fitting, one: Placed, options: SchemeOptions, residual: Residual
 ) -> Fitting:
     """Return the fitting with weights on a crank for the part that turns with this crank."""
-    engine, parts = fitting.engine, list_parts(one.ratio)
+    engine = fitting.engine
+    parts = list_parts(one.ratio)
     planes = find_ends(one.engine) if options.planes is None else read_planes(engine, options)
     slots = [Slot.on_crank(one, z) for z in planes]
     if len(slots) == 1 and engine.places_known:
@@ -120,7 +121,8 @@ def _compromise(fitting: Fitting, slots: list[Slot], residual: Residual) -> Fitt
     In a plane near the point of reference, a weight against the moment would cause a far larger
     force. The moment is therefore divided by at least the longest arm of the engine.
     """
-    engine, parts = fitting.engine, list_parts(slots[0].sense)
+    engine = fitting.engine
+    parts = list_parts(slots[0].sense)
     ends = (abs(z - residual.reference.z) for z in find_length(engine))
     fit = size_unbalances(slots, residual, parts, max(float(engine.cylinders.radius.max()), *ends))
     fitting = fitting.add(
@@ -143,9 +145,11 @@ def size_sliders(engine: Engine, options: SchemeOptions) -> Remedy:
     By default, the sliders are where the larger of the two rotating forces acts.
     """
     residual = choose_residual(engine, options, ("force",))
-    forward, backward = residual.force(1), residual.force(-1)
+    forward = residual.force(1)
+    backward = residual.force(-1)
     stronger = 1 if abs(forward) >= abs(backward) else -1
-    z, place = choose_plane(engine, options, residual, stronger), options.read_place()
+    z = choose_plane(engine, options, residual, stronger)
+    place = options.read_place()
     axis = float(wrap_degrees(measure_direction(cmath.sqrt(forward * backward)), 180))
     directions = (axis, axis + 90 if axis <= 0 else axis - 90)
     slots = [Slot("slider", residual.order, 0, z, place, direction) for direction in directions]

@@ -164,7 +164,8 @@ def search(
     from ...engine import build, parse
     from . import answer, designs
 
-    text, name = read_bytes(path), name_file(path)
+    text = read_bytes(path)
+    name = name_file(path)
     model = parse.parse(text, name)
     with naming_file(name):
         engine = build.build(model)
