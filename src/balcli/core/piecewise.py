@@ -38,6 +38,7 @@ _HALVINGS = 48
 _EVERYWHERE = 16
 _REACH = 16.0  # rad; _NODES nodes suffice if the phase of a harmonic turns no farther on a panel
 _NODES = 32
+_MOST_WAVES = 2**21  # values of a wave at once, so that high harmonics take little memory
 _SAME = 1e-11  # rad; an angle this close to a breakpoint is the breakpoint
 _NEWTON_STEPS = 6
 _NO_SIGN = 1e-9  # values below this share of the largest one have no sign
@@ -123,15 +124,20 @@ class PiecewiseCurve:
         numbers = np.asarray(wanted, int)
         unit = 2 * np.pi / self.period
         top = int(numbers.max(initial=0))
-        angle, weights = quadrature(cut(self.breaks, _REACH / (unit * max(top, 1))), _NODES)
-        shares = (2 * self.within(angle) * weights).reshape(-1)
-
-        def turn(harmonics: NDArray[np.intp]) -> Complex:
-            return np.exp(-1j * np.multiply.outer(unit * harmonics, angle.reshape(-1)))
-
+        nodes, weights = quadrature(cut(self.breaks, _REACH / (unit * max(top, 1))), _NODES)
+        angles = nodes.reshape(-1)
+        shares = (2 * self.within(nodes) * weights).reshape(-1)
         # e^(-i k angle) with k = high * stride + low is a product of two waves of few different k
         stride = math.isqrt(top) + 1
-        every = turn(np.arange(stride)) @ (turn(np.arange(0, top + 1, stride)) * shares).T
+        low = unit * np.arange(stride)
+        high = unit * np.arange(0, top + 1, stride)
+        every = np.zeros((len(low), len(high)), np.complex128)
+        block = max(_MOST_WAVES // stride, 1)
+        for start in range(0, len(angles), block):
+            part = slice(start, start + block)
+            slow = np.exp(-1j * np.multiply.outer(low, angles[part]))
+            fast = np.exp(-1j * np.multiply.outer(high, angles[part]))
+            every += slow @ (fast * shares[part]).T
         return np.where(numbers == 0, self.mean, every[numbers % stride, numbers // stride])
 
     def antiderivative(self, constant: float = 0.0) -> PiecewiseCurve:
