@@ -8,7 +8,7 @@ from support.commands import ask, ask_csv, ask_json, refusal
 from support.engines import GOOD, RADIAL, build_text, changed
 from support.paths import ENGINES
 
-from balcli import BalcliError, load_example, piston
+from balcli import BalcliError, load, load_example, piston, sweep
 from balcli.analysis.piston import TYPE_LIMIT, choose_cylinder
 
 N = 1 << 14
@@ -125,3 +125,85 @@ def test_quantities_are_those_of_the_command(tmp_path):
 def test_the_heading_has_the_true_stroke_of_an_offset_piston():
     assert "81 × 90.3 mm (true stroke 90.59 mm)" in " ".join(ask("analyze", ENGINES / "vr6.toml").split())
     assert "true stroke" not in ask("analyze", ENGINES / "i4.toml")
+
+
+# ------------------------------------------------------------------ members that differ in one number
+TWO = {
+    "crank": {"stroke": 80, "throws": [0, 180], "spacing": 90},
+    "rod": {"length": 200},
+    "piston": {"mass": 1, "bore": 80},
+    "operation": {"speed": 3000},
+}
+
+
+def move_two(**parts):
+    """Motion of both pistons, each of which is a mechanism of its own."""
+    tables = {name: TWO.get(name, {}) | parts.get(name, {}) for name in (*TWO, *parts)}
+    found = piston(load(tables))
+    assert [each.cylinders for each in found.mechanisms] == [(1,), (2,)]
+    return found
+
+
+@pytest.mark.parametrize(("rod", "ratios"), [({"ratio": 0.25}, (0.25, 0.25)), ({"length": 200}, (0.2, 0.3))])
+def test_pistons_of_different_strokes_are_different_mechanisms(rod, ratios):
+    """With equal rod ratios only the size differs: all is longer and faster in proportion."""
+    tables = TWO | {"crank": TWO["crank"] | {"stroke": [80, 120]}, "rod": rod}
+    first, second = piston(load(tables)).mechanisms
+    assert [first.rod_ratio, second.rod_ratio] == pytest.approx(ratios)
+    for each, stroke, ratio in ((first, 0.08, ratios[0]), (second, 0.12, ratios[1])):
+        assert each.stroke_m == pytest.approx(stroke)
+        assert each.mean_speed_m_per_s == pytest.approx(2 * stroke * 50)
+        assert each.swept_volume_m3 == pytest.approx(math.pi / 4 * 0.08**2 * stroke)
+        highest = stroke / 2 * (100 * math.pi) ** 2 * (1 + ratio)
+        assert each.acceleration.max_m_per_s2 == pytest.approx(highest)
+        assert each.two_term.acceleration_max_m_per_s2 == pytest.approx(highest)
+
+
+@pytest.mark.parametrize(("of_first", "of_second"), [(0, 10), (10, 0), (10, -10)])
+def test_pistons_of_different_offsets_are_different_mechanisms(of_first, of_second):
+    """Stroke and dead centres by triangles; a formula of two terms stands only beside a centred piston."""
+    pistons = {"1": {"piston_offset": of_first}, "2": {"piston_offset": of_second}}
+    for each, offset in zip(move_two(cylinder=pistons).mechanisms, (of_first, of_second), strict=True):
+        outer, inner = (math.degrees(math.asin(offset / arm)) for arm in (240, 160))
+        height = math.sqrt(240**2 - offset**2) - math.sqrt(160**2 - offset**2)
+        assert each.stroke_m == pytest.approx(height / 1e3)
+        assert each.outer_dead_center_own_deg == pytest.approx(outer)
+        assert each.inner_dead_center_own_deg == pytest.approx(180 + inner)
+        assert each.inward_stroke_deg == pytest.approx(180 + inner - outer)
+        assert (each.two_term is None) == (offset != 0)
+
+
+STROKES = ["piston.stroke", "piston.1.stroke", "piston.2.stroke"]
+
+
+def test_a_quantity_without_a_number_is_of_piston_1():
+    found = sweep(load(TWO | {"crank": TWO["crank"] | {"stroke": [80, 120]}}), {"rod.length": [200, 300]}, STROKES)
+    assert [list(found[name]) for name in STROKES] == [
+        pytest.approx([0.08, 0.08]),
+        pytest.approx([0.08, 0.08]),
+        pytest.approx([0.12, 0.12]),
+    ]
+
+
+# ------------------------------------------------------------------ both sides of the limits of two terms
+@pytest.mark.parametrize(
+    ("ratio", "exact", "two_term"), [(0.24, 1, 1), (0.249, 1, 1), (0.251, 1, 2), (0.262, 1, 2), (0.266, 2, 2)]
+)
+def test_minima_by_two_terms_begin_at_a_quarter(ratio, exact, two_term):
+    """By two terms the lowest acceleration is -(1 - lam) at 180 deg, or -(lam + 1/(8 lam)) at cos psi = -1/(4 lam)."""
+    text = changed(("length = 160", f"ratio = {ratio}"))
+    found = piston(build_text(text)).mechanisms[0]
+    assert (found.acceleration.type, found.two_term.type) == (exact, two_term)
+    scale = 0.045 * (100 * math.pi) ** 2
+    psi = 180.0 if two_term == 1 else math.degrees(math.acos(-1 / (4 * ratio)))
+    lowest = math.cos(math.radians(psi)) + ratio * math.cos(2 * math.radians(psi))
+    assert found.two_term.acceleration_min_own_deg == pytest.approx(psi)
+    assert found.two_term.acceleration_min_m_per_s2 == pytest.approx(scale * lowest)
+    told = " ".join(ask("piston", "-", stdin=text).split())
+    assert ("two minima above a rod ratio of 0.2638" in told) == (exact != two_term)
+
+
+def test_imperial_speeds_are_in_feet():
+    table = ask("piston", "-", "--units", "imperial", stdin=GOOD)
+    speed = next(line for line in table.splitlines() if line.startswith("mean speed, ft/s"))
+    assert speed.split()[3] == f"{2 * 0.09 * 50 / 0.3048:.4g}"
