@@ -292,6 +292,10 @@ class InputError(BalcliError):
         return type(self)(self.problems, ": ".join(names), self.more)
 
 
+class NotComputedError(BalcliError, AttributeError):
+    """An attribute of a result that was not asked for; the text says how to ask for it."""
+
+
 class OtherKindError(InputError):
     """A file of one kind where another kind is needed."""
 

@@ -2,10 +2,12 @@
 
 import json
 import math
-from dataclasses import dataclass
+import pickle
+from dataclasses import FrozenInstanceError, dataclass
 from typing import Annotated, Literal
 
 import numpy as np
+import pytest
 from jsonschema import Draft202012Validator
 from numpy.typing import NDArray
 
@@ -13,12 +15,14 @@ from balcli.core.peaks import Peak
 from balcli.core.records import (
     HIDDEN,
     INLINE,
+    Asked,
     Axes,
     Figure,
     Polar,
     Reached,
     WrittenAs,
     angle_deg,
+    change_attributes,
     describe_record,
     find_unit,
     list_figures,
@@ -26,6 +30,7 @@ from balcli.core.records import (
     remove_unit,
     to_document,
 )
+from balcli.errors import NotComputedError
 
 Weight = Annotated[complex, Polar("weight", "angle_deg")]
 
@@ -156,3 +161,44 @@ def test_peaks_other_records_pairs_and_further_keys() -> None:
     schema = describe_record(Marked)
     Draft202012Validator(schema).validate(found)
     assert schema["required"] == ["top_N", "top_deg", "rest", "pieces", "pair"]
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Report:
+    """A report.
+
+    Attributes:
+        name: Name of the report.
+        mass_kg: Mass, if it was asked for.
+        weight: Weight, if it was asked for.
+    """
+
+    name: str
+    mass_kg: Asked[float] = Asked("mass=True")
+    weight: Asked[Annotated[complex, Polar("weight", "angle_deg"), INLINE]] = Asked("weight=True")
+
+
+def test_what_was_not_asked_for_is_not_there() -> None:
+    report = Report(name="brief")
+    with pytest.raises(NotComputedError, match=r"^mass_kg was not computed; ask for it with mass=True$"):
+        _ = report.mass_kg
+    assert not hasattr(report, "mass_kg")
+    assert to_document(report) == {"name": "brief"}
+    whole = Report(name="whole", mass_kg=0.0, weight=2j)
+    assert (whole.mass_kg, whole.weight) == (0.0, 2j)  # a mass of 0 is not a missing one
+    assert to_document(whole) == {"name": "whole", "mass_kg": 0.0, "weight": 2.0, "angle_deg": 90.0}
+    schema = describe_record(Report)
+    assert schema["required"] == ["name"]
+    assert schema["properties"]["mass_kg"]["type"] == ["number", "null"]
+    for document in (report, whole):
+        Draft202012Validator(schema).validate(to_document(document))
+
+
+def test_a_copy_with_changes_keeps_what_was_not_computed() -> None:
+    report = Report(name="brief", mass_kg=1.0)
+    changed = change_attributes(report, name="other", weight=1j)
+    assert to_document(changed) == {"name": "other", "mass_kg": 1.0, "weight": 1.0, "angle_deg": 90.0}
+    assert to_document(report) == {"name": "brief", "mass_kg": 1.0}
+    assert not hasattr(pickle.loads(pickle.dumps(report)), "weight")
+    with pytest.raises(FrozenInstanceError):
+        report.mass_kg = 2.0

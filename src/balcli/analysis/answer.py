@@ -9,7 +9,7 @@ from typing import Annotated, Literal
 
 from ..core.cylinders import find_travel
 from ..core.phasors import Array
-from ..core.records import HIDDEN, INLINE, WrittenAs
+from ..core.records import HIDDEN, INLINE, Asked, WrittenAs
 from ..engine.engine import Engine, check_engine, refuse_geared, take_model
 from ..errors import ArgumentError, BalcliError, check_number, check_type, list_words
 from ..file.assumed import Assumed
@@ -86,8 +86,9 @@ _OF_ONE_CRANK = ("inner", "guide", "journals", "masses", "parts")
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Analysis(OrdersAndPeaks, Result):
-    """Free forces and moments of an engine, order by order. Results that were not requested are
-    None.
+    """Free forces and moments of an engine, order by order; without results that were not requested.
+
+    Reading a result that was not requested raises NotComputedError.
 
     Attributes:
         engine: Analyzed engine.
@@ -120,20 +121,20 @@ class Analysis(OrdersAndPeaks, Result):
     state: Annotated[EngineState, INLINE]
     spectra: Annotated[Spectra, WrittenAs(list_orders, "orders")]
     assumed: tuple[Assumed, ...] | None = None
-    verdict: Verdict | None = None
-    peak: Peaks | None = None
-    sizing: Sizing | None = None
-    ladder: Ladder | None = None
-    cylinders: tuple[CylinderShare, ...] | None = None
-    inner: Annotated[InnerLoads | None, WrittenAs(describe_inner)] = None
-    guide: Annotated[GuideMoments | None, WrittenAs(describe_guide)] = None
+    verdict: Asked[Verdict] = Asked('only=["force", "moment"]')
+    peak: Asked[Peaks] = Asked('only=["peak"]')
+    sizing: Asked[Sizing] = Asked('only=["sizing"]')
+    ladder: Asked[Ladder] = Asked('only=["ladder"]')
+    cylinders: Asked[tuple[CylinderShare, ...]] = Asked("by_cylinder=True")
+    inner: Asked[Annotated[InnerLoads, WrittenAs(describe_inner)]] = Asked('only=["inner"]')
+    guide: Asked[Annotated[GuideMoments, WrittenAs(describe_guide)]] = Asked('only=["guide"]')
     travel: tuple[Stroke, ...] | None = None
-    journals: tuple[Journal, ...] | None = None
-    masses: tuple[Masses, ...] | None = None
-    parts: BalanceParts | None = None
-    power_related_unbalance: PowerRelatedUnbalance | None = None
-    why: Symmetry | None = None
-    stars: tuple[Star, ...] | None = None
+    journals: Asked[tuple[Journal, ...]] = Asked('only=["journals"]')
+    masses: Asked[tuple[Masses, ...]] = Asked('only=["masses"]')
+    parts: Asked[BalanceParts] = Asked('only=["parts"]')
+    power_related_unbalance: Asked[PowerRelatedUnbalance] = Asked('only=["pru"]')
+    why: Asked[Symmetry] = Asked("reasons=True")
+    stars: Asked[tuple[Star, ...]] = Asked("reasons=True")
     small: Annotated[float, HIDDEN] = SMALL
 
     @property
@@ -168,7 +169,6 @@ class Analysis(OrdersAndPeaks, Result):
 
 def shorten(analysis: Analysis) -> PeaksAndOrders:
     """Return only the peaks and orders of an analysis; the peaks must have been computed."""
-    assert analysis.peak is not None
     return PeaksAndOrders(analysis.peak, analysis.spectra)
 
 

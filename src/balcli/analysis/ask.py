@@ -82,7 +82,7 @@ def answer(
         if "textbook" in asked.parts:
             refuse_geared(engine)
         result = find(silence_cylinders(engine, asked.misfires, path))
-        if isinstance(result, Analysis) and result.parts is not None:
+        if isinstance(result, Analysis) and hasattr(result, "parts"):
             warn_each(result.parts.doubts, name_file(path))
         return engine.name, path, result
 

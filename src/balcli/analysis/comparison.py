@@ -200,9 +200,9 @@ def list_lines(analyses: Sequence[Analysis], *, every_order: bool = False) -> tu
 
 def _list_orders(one: Analysis) -> Iterator[Array]:
     yield one.orders
-    if one.inner is not None:
+    if hasattr(one, "inner"):
         yield from (along.phasors.orders for _, along in list_loads(one.inner))
-    if one.guide is not None:
+    if hasattr(one, "guide"):
         yield one.guide.h.orders
 
 
@@ -222,24 +222,28 @@ def _list_sizes(
     for kind, phasors in one.spectra.with_moment_if(one.moments_known).items():
         yield from by_order(kind, phasors)
     yield from ((kind, None, value) for kind, value in peaks(one))
-    for kind, along in () if one.inner is None else list_loads(one.inner):
-        yield from by_order(kind, along.phasors)
-        yield kind, None, max(peak.value for peak in along.peaks)
+    if hasattr(one, "inner"):
+        for kind, along in list_loads(one.inner):
+            yield from by_order(kind, along.phasors)
+            yield kind, None, max(peak.value for peak in along.peaks)
     for kind, moment in () if guide is None else zip(GUIDES, (guide.h, guide.x), strict=True):
         if moment is not None:
             yield from by_order(kind, moment)
-    if one.sizing is not None:
+    if hasattr(one, "sizing"):
         yield from ((LEFT[kind], None, value) for kind, value in peaks(one.sizing.after))
 
 
 def _list_guides(analyses: Sequence[Analysis]) -> list[GuideMoments | None]:
-    """Return each engine's guide moments: with gas if all engines have gas, else without."""
+    """Return each engine's guide moments: with gas if all engines have gas, else without. None if
+    they were not asked for.
+    """
+    if not all(hasattr(one, "guide") for one in analyses):
+        return [None] * len(analyses)
     found = [one.guide for one in analyses]
-    known = [guide for guide in found if guide is not None]
-    if len({guide.with_gas for guide in known}) < 2:
-        return found
+    if len({guide.with_gas for guide in found}) < 2:
+        return [*found]
     engines = [one.engine for one in analyses]
-    of_inertia = partial(analyze, orders=known[0].h.orders, only="guide", beside=engines)
+    of_inertia = partial(analyze, orders=found[0].h.orders, only="guide", beside=engines)
     return [of_inertia(replace(engine, gas=None)).guide for engine in engines]
 
 
@@ -298,7 +302,7 @@ def compare(
         speeds_rpm=tuple(float(engine.speed_rpm) for engine in checked),
         assumed=join_assumed(called, [one.assumed for one in analyses]) or None,
         figures=list_lines(analyses, every_order=orders is not None),
-        ladders=tuple(one.ladder for one in analyses if one.ladder is not None) or None,
+        ladders=tuple(one.ladder for one in analyses if hasattr(one, "ladder")) or None,
         compared=tuple(checked),
         whole=all or orders is not None,
     )

@@ -8,6 +8,7 @@ from typing import TypeAlias
 import numpy as np
 
 from ..core.phasors import Array
+from ..engine.engine import CylinderNumber
 from ..errors import MOMENTS_UNKNOWN
 from ..file.fields import join_words
 from ..forces.curves import find_constant_inertia
@@ -87,34 +88,35 @@ def _parts(result: Analysis, system: System, view: View) -> Iterator[Part]:
     else:
         yield from _order_parts_in_brief(result, system, view)
     yield from _tell_uncounted(result)
-    for share in result.cylinders or ():
-        spectra = share.spectra.with_moment_if(result.moments_known)
+    if hasattr(result, "cylinders"):
         about_crank = view.whole or bool(view.parts)
-        yield from cylinder_tables(share.cylinder, spectra, system, about_crank=about_crank)
+        for share in result.cylinders:
+            spectra = share.spectra.with_moment_if(result.moments_known)
+            yield from cylinder_tables(share.cylinder, spectra, system, about_crank=about_crank)
     yield from _further_parts(result, system)
-    if result.ladder is not None:
+    if hasattr(result, "ladder"):
         yield ladder_grid(result.ladder, result.engine, system)
-    if result.sizing is not None:
+    if hasattr(result, "sizing"):
         yield from _sizing_parts(result.sizing, system)
 
 
 def _further_parts(result: Analysis, system: System) -> Iterator[Part]:
     """Yield the parts that only some engines have, or that are computed only on request."""
-    if result.inner is not None:
+    if hasattr(result, "inner"):
         yield from sections.sheet_parts(result.inner, system)
-    if result.guide is not None:
+    if hasattr(result, "guide"):
         yield sections.lay_out_guide(result.guide, system)
-    if result.journals is not None:
+    if hasattr(result, "journals"):
         yield from crank_drive.lay_out_journals(result.journals, result.engine, system)
-    if result.masses is not None:
+    if hasattr(result, "masses"):
         yield crank_drive.lay_out_masses(result.masses, system)
-    if result.power_related_unbalance is not None:
+    if hasattr(result, "power_related_unbalance"):
         yield crank_drive.lay_out_related(result.power_related_unbalance, system)
-    if result.parts is not None:
+    if hasattr(result, "parts"):
         yield from lay_out_parts(result.parts, system)
-    if result.why is not None:
+    if hasattr(result, "why"):
         yield sections.lay_out_symmetry(result.why)
-    if result.stars:
+    if hasattr(result, "stars"):
         yield sections.lay_out_stars(result.stars, system)
 
 
@@ -178,7 +180,7 @@ def _tell_uncounted(result: Analysis) -> Iterator[Text]:
 
 def _judge(result: Analysis, system: System) -> Iterator[Text]:
     """Yield the verdict. If moments are not known, it covers only forces and states this."""
-    if result.verdict is None:
+    if not hasattr(result, "verdict"):
         return
     words = VerdictWords(result.spectra, result.scales, system, result.engine)
     sentences = words.write(result.verdict)
@@ -240,12 +242,14 @@ def rows(
 
 
 def _all_rows(result: Analysis, system: System, named: Collection[str]) -> Iterator[FigureRow]:
-    shares = {share.cylinder: share.spectra for share in result.cylinders or ()}
+    shares: dict[CylinderNumber, Spectra] = {}
+    if hasattr(result, "cylinders"):
+        shares = {share.cylinder: share.spectra for share in result.cylinders}
     yield from figure_rows(result, system, shares)
-    if "ladder" in named and result.ladder is not None:
+    if "ladder" in named and hasattr(result, "ladder"):
         for step, name, value, unit in list_ladder(result.ladder):
             yield FigureRow(0, step, None, name, value, unit)
-    if "sizing" in named and result.sizing is not None:
+    if "sizing" in named and hasattr(result, "sizing"):
         for part, device in number_devices(result.sizing.remedy.devices):
             for figure, value, unit in device_rows(device, system):
                 yield FigureRow(0, part, None, figure, value, unit)
@@ -255,21 +259,28 @@ def _all_rows(result: Analysis, system: System, named: Collection[str]) -> Itera
 def _further_rows(result: Analysis, system: System) -> Iterator[FigureRow]:
     if result.travel is not None:
         yield from sections.list_strokes(result.travel, system)
-    if result.inner is not None:
+    if hasattr(result, "inner"):
         yield from sections.rows(result.inner, system)
-    if result.guide is not None:
+    if hasattr(result, "guide"):
         yield from sections.list_guide(result.guide, system)
-    for journal in result.journals or ():
-        yield from record_rows(0, journal.place, None, journal, "place")
-    for one in result.masses or ():
-        yield from record_rows(one.cylinders[0], "masses", None, one, "cylinders")
-    if result.power_related_unbalance is not None:
+    yield from _record_rows(result)
+    if hasattr(result, "parts"):
+        yield from list_part_rows(result.parts)
+    if hasattr(result, "why"):
+        yield from sections.list_symmetry(result.why)
+
+
+def _record_rows(result: Analysis) -> Iterator[FigureRow]:
+    """Yield the rows of results that are lists of records: one row for each attribute."""
+    if hasattr(result, "journals"):
+        for journal in result.journals:
+            yield from record_rows(0, journal.place, None, journal, "place")
+    if hasattr(result, "masses"):
+        for one in result.masses:
+            yield from record_rows(one.cylinders[0], "masses", None, one, "cylinders")
+    if hasattr(result, "power_related_unbalance"):
         for moment in result.power_related_unbalance.orders:
             yield from record_rows(0, "pru", moment.order, moment, "order")
-    if result.parts is not None:
-        yield from list_part_rows(result.parts)
-    if result.why is not None:
-        yield from sections.list_symmetry(result.why)
 
 
 RENDERER = Renderer(sheet=sheet, rows=rows, columns=columns)

@@ -219,16 +219,15 @@ def find_marine_sheet(
     ask = partial(analyze, only=words, guide_height=guide_height_m)
     speeds = [float(speed) for speed in speeds_rpm] or [float(engine.speed_rpm)]
     found = analyze_alike([engine.at_speed(speed) for speed in speeds], orders, ask)
-    guide = found[0].guide
     listed = [_list_amplitudes(one, torque.name) for one in found]
     return MarineSheet(
         engine=engine.at_speed(speeds[0]),
         includes=name_included(engine.gas is not None),
-        height_m=np.array([]) if guide is None else guide.height_m,
+        height_m=found[0].guide.height_m,
         assumed=found[0].assumed,
         speeds=tuple(map(MarineSpeed, speeds, listed)),
         lines=_list_lines(found, listed),
-        related=found[0].power_related_unbalance,
+        related=found[0].power_related_unbalance if "pru" in words else None,
         every_order=every_order or orders is not None,
     )
 
@@ -256,7 +255,7 @@ def _list_amplitudes(one: Analysis, torque: str) -> tuple[MarineOrder, ...]:
     spectra = one.spectra.with_moment_if(one.moments_known)
     force = spectra["force"]
     moment = spectra["moment"]
-    guides = (None, None) if one.guide is None else (one.guide.h, one.guide.x)
+    guides = (one.guide.h, one.guide.x) if hasattr(one, "guide") else (None, None)
     unknown = np.full(one.orders.shape, np.nan)
     columns = (
         *(np.abs(component) for component in (force.x, force.y, moment.y, moment.x)),
@@ -312,9 +311,9 @@ def _parts(one: NamedResult[SpeedSeries], system: System) -> Iterator[Facts | Gr
         own = [line for line in series.lines if line.kind == kind]
         yield _kind_part(kind, own, speeds, system, whole=view.whole or view.every_order)
     for each in series.analyses:
-        if each.ladder is not None:
+        if hasattr(each, "ladder"):
             yield ladder_grid(each.ladder, each.engine, system)
-    if first.why is not None:
+    if hasattr(first, "why"):
         yield sections.lay_out_symmetry(first.why)
 
 

@@ -22,7 +22,7 @@ from ..analysis.records import BalanceParts, Devices, PeaksAndOrders, describe_d
 from ..core.cylinders import find_travel
 from ..core.mechanisms.linkage import Articulated
 from ..core.phasors import Array, unit
-from ..core.records import HIDDEN, INLINE, Node, WrittenAs
+from ..core.records import HIDDEN, INLINE, Asked, Node, WrittenAs
 from ..core.unbalance import find_permitted_unbalance
 from ..engine.build import build
 from ..engine.engine import CylinderNumber, Engine, check_engine, refuse_geared
@@ -112,7 +112,7 @@ def shorten_with_bearings(analysis: Analysis) -> PeaksAndOrders:
     return replace(shorten(analysis), bearings=find_crank_loads(analysis.engine))
 
 
-@dataclass(frozen=True, kw_only=True, repr=False)
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Balance(Result):
     """A remedy, and the free forces of the engine without and with it.
 
@@ -140,9 +140,9 @@ class Balance(Result):
     assumed: tuple[Assumed, ...] | None = None
     before: Annotated[Analysis, WrittenAs(shorten_with_bearings)]
     after: Annotated[Analysis, WrittenAs(shorten_with_bearings)]
-    permitted: PermittedUnbalance | None = None
-    ladder: Ladder | None = None
-    parts: BalanceParts | None = None
+    permitted: Asked[PermittedUnbalance] = Asked("--grade and --mass of `balcli balance`")
+    ladder: Asked[Ladder] = Asked("a scheme that leaves articulated rods unchanged")
+    parts: Asked[BalanceParts] = Asked("shapes=Shapes(bearings=(-0.13, 0.13))")
     tools: Annotated[Tools, HIDDEN] = field(default_factory=Tools)
     every_order: Annotated[bool, HIDDEN] = False
 

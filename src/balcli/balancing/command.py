@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from ..core.records import change_attributes
 from ..core.unbalance import SLUGS
 from ..errors import BalcliError, note
 from ..file.edit import set_speed
@@ -329,8 +330,9 @@ def balance(
         holes = ("drill", "max_depth", "slug", "width")
         result = find(tools._replace(**dict.fromkeys(holes)))
     permitted = answer.permit_unbalance(result.remedy, grade_mm_s, mass_kg, float(engine.speed_rpm))
-    result = replace(result, permitted=permitted)
-    warn_each(() if result.parts is None else result.parts.doubts, name_file(path))
+    result = change_attributes(result, permitted=permitted)
+    if hasattr(result, "parts"):
+        warn_each(result.parts.doubts, name_file(path))
     if write is not None and misfit is None:
         refuse_leaving_files(text, path, write)
         new = answer.insert_remedy(text, result.remedy, name_file(path))

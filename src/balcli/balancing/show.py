@@ -79,7 +79,7 @@ def sheet(result: Balance, system: System) -> Sheet:
     known = result.before.moments_known
     loads = [find_crank_loads(state.engine) for state in (result.before, result.after)]
     parts: list[Grid | Facts | Text] = [*assumed_facts(result.before.assumed)]
-    if result.ladder is not None:
+    if hasattr(result, "ladder"):
         usual = remedy.scheme == "auto"  # other schemes do not fit a step of the ladder
         parts.append(ladder_grid(result.ladder, engine, system, tell_fitted=usual))
     if change := tell_change(result, system):
@@ -91,7 +91,7 @@ def sheet(result: Balance, system: System) -> Sheet:
         parts += [device_grid(remedy, system), practical_grid(remedy, result.practical, system)]
         if any(figures.holes for figures in result.practical):
             parts.append(holes_grid(remedy, result.practical, result.tools, system))
-        if result.parts is not None:
+        if hasattr(result, "parts"):
             parts += lay_out_parts(result.parts, system)
     elif remedy.beyond:
         parts.append(
@@ -102,7 +102,7 @@ def sheet(result: Balance, system: System) -> Sheet:
     of_ladder = bool(remedy.step) or remedy.steps is not None
     notes = (
         remedy.note and sentence(tell(remedy.note, name_option)),
-        tell_usual(result.ladder) if result.ladder is not None and remedy.steps == () else "",
+        tell_usual(result.ladder) if hasattr(result, "ladder") and remedy.steps == () else "",
         _tell_left(result, system) if of_ladder else "",
         _tell_couple(result, system),
         _tell_bearings(result, system),
@@ -153,7 +153,7 @@ def _tell_couple(result: Balance, system: System) -> str:
     is negligible, or if the devices change it.
     """
     after = result.after
-    if after.verdict is None or after.verdict.couple is None or _changes_couple(result):
+    if not hasattr(after, "verdict") or after.verdict.couple is None or _changes_couple(result):
         return ""
     words = VerdictWords(after.spectra, after.scales, system, after.engine)
     return f"{words.write_couple(after.verdict.couple)} No scheme changes the couple."
@@ -172,7 +172,7 @@ def _tell_bearings(result: Balance, system: System) -> str:
     load, if the scheme is counterweights and fits no counterweight; else return an empty text.
     """
     remedy = result.remedy
-    steps = () if result.ladder is None else result.ladder.steps
+    steps = result.ladder.steps if hasattr(result, "ladder") else ()
     loads = {step.step: step.main_bearing_N for step in steps}
     before = loads.get(AS_DRAWN)
     after = loads.get(WEIGHTS_AT_THROWS)
@@ -190,7 +190,7 @@ def _permitted(result: Balance, system: System) -> Iterator[Grid]:
     compared with the missing unbalance of existing counterweights, or shown as the tolerance of new
     counterweights.
     """
-    if result.permitted is None:
+    if not hasattr(result, "permitted"):
         return
     remedy = result.remedy
     length = system.length
@@ -417,10 +417,11 @@ def _all_rows(result: Balance, system: System) -> Iterator[tuple[object, ...]]:
     steps = (result.remedy.step,) if result.remedy.step else result.remedy.steps
     for name in steps or ():
         yield "step", "", "", "name", name, ""
-    for step, name, value, unit in list_ladder(result.ladder) if result.ladder else ():
-        yield "ladder", step, "", name, value, unit
-    yield from _rows_of("permitted", result.permitted)
-    yield from _rows_of("parts", result.parts)
+    if hasattr(result, "ladder"):
+        for step, name, value, unit in list_ladder(result.ladder):
+            yield "ladder", step, "", name, value, unit
+    yield from _rows_of("permitted", getattr(result, "permitted", None))
+    yield from _rows_of("parts", getattr(result, "parts", None))
     for state, analysis in (("before", result.before), ("after", result.after)):
         for row in figure_rows(analysis, system):
             yield state, row.quantity, row.order, row.figure, row.value, row.unit

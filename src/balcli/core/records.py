@@ -13,7 +13,8 @@ type. Its line in the docstring's `Attributes:` is its description in the JSON S
 
 Rules:
 
-* An attribute with the default None is optional: if it is None, its key is omitted.
+* An attribute with the default None is optional: if it is None, its key is omitted. An attribute
+  `Asked` is optional, too; reading it raises an error if it was not computed.
 * A real number that is not finite becomes null; a negative zero becomes 0.
 * A complex number, which has to be finite, becomes a list of its real and imaginary part; CSV
   omits lists.
@@ -42,11 +43,26 @@ Example::
 import math
 import re
 from collections.abc import Callable, Collection, Iterator, Mapping
+from copy import copy
 from dataclasses import fields, is_dataclass
 from functools import cache
 from inspect import cleandoc
 from types import NoneType, UnionType
-from typing import Annotated, Any, Literal, NamedTuple, Union, get_args, get_origin, get_type_hints
+from typing import (
+    Annotated,
+    Any,
+    Generic,
+    Literal,
+    NamedTuple,
+    TypeVar,
+    Union,
+    get_args,
+    get_origin,
+    get_type_hints,
+    overload,
+)
+
+from ..errors import NotComputedError
 
 Node = dict[str, Any]  # an object of JSON
 
@@ -116,6 +132,48 @@ class Axes(NamedTuple):
     number: int
 
 
+T = TypeVar("T")
+
+
+class Asked(Generic[T]):
+    """An attribute of a record that exists only on request. If it was not computed, reading it
+    raises NotComputedError, `hasattr` is false, and documents omit its key. Type checkers see the
+    attribute as present.
+
+    Args:
+        how: How to ask for it, for the message: `only=["peak"]`.
+
+    Example::
+
+        @dataclass(frozen=True, eq=False)
+        class Report:
+            peak: Asked[float] = Asked('only=["peak"]')
+    """
+
+    def __init__(self, how: str) -> None:
+        self.how = how
+
+    def __set_name__(self, record: type, name: str) -> None:
+        self.name = name
+
+    @overload
+    def __get__(self, record: None, kind: type) -> None: ...
+
+    @overload
+    def __get__(self, record: object, kind: type) -> T: ...
+
+    def __get__(self, record: object | None, kind: type) -> T | None:
+        if record is None:  # the class is asked: this is the default of the attribute
+            return None
+        value: T | None = record.__dict__[self.name]
+        if value is None:
+            raise NotComputedError(f"{self.name} was not computed; ask for it with {self.how}")
+        return value
+
+    def __set__(self, record: object, value: T | None) -> None:
+        record.__dict__[self.name] = value
+
+
 INLINE = "inline"
 HIDDEN = "hidden"
 
@@ -165,6 +223,16 @@ def _find_marks(annotation: object) -> tuple[object, ...]:
     return (*getattr(annotation, "__metadata__", ()), *inner)
 
 
+def change_attributes(record: T, **changes: object) -> T:
+    """Return a copy of a record with other values of some attributes. `dataclasses.replace` would
+    read attributes that were not computed.
+    """
+    changed = copy(record)
+    for name, value in changes.items():
+        object.__setattr__(changed, name, value)  # the record is frozen
+    return changed
+
+
 # ------------------------------------------------------------------ JSON
 def to_document(record: Any) -> Node:
     """Return the JSON object of a record.
@@ -175,7 +243,7 @@ def to_document(record: Any) -> Node:
     """
     document: Node = {}
     for each in _list_attributes(record.__class__):
-        value = getattr(record, each.name)
+        value = getattr(record, each.name, None)
         if value is None and each.optional:
             continue
         written = write_each(value if each.make is None else each.make(value), each.split)
@@ -305,7 +373,7 @@ def _describe(kind: object, each: _Attribute, definitions: Node) -> Node:
     """Return the schema of a type within the annotation of an attribute."""
     origin = get_origin(kind)
     arguments = get_args(kind)
-    if origin is Annotated:
+    if origin in (Annotated, Asked):
         return _describe(arguments[0], each, definitions)
     if origin in (Union, UnionType):
         kinds = [one for one in arguments if not (one is NoneType and each.optional)]

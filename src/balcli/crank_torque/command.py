@@ -133,12 +133,12 @@ def torque(
             fluctuation=allowed,
             loads=loads or (),
         )
-        if found.loads is not None and found.loads.obstacle:
+        if hasattr(found, "loads") and found.loads.obstacle:
             warn(f"{name_file(path or '')}: main bearings: {found.loads.obstacle}")
         if write is not None:
             write_uneven(path or "", source.text, found, write)
     show([found], pages.RENDERER, form, output, units)
-    if found.flywheel is not None and found.flywheel.stall and fluctuation is None:
+    if hasattr(found, "flywheel") and found.flywheel.stall and fluctuation is None:
         exit_on_errors([f"{name_file(path or str(curve))}: {found.flywheel.stall}"])
 
 
@@ -150,8 +150,8 @@ def write_uneven(path: str, source: bytes, result: TorqueAnalysis, target: Path)
         BalcliError: The inertia is unknown or too small, or the target cannot be written.
     """
     refuse_leaving_files(source, path, target)
-    flywheel = result.flywheel
-    if flywheel is None or flywheel.fluctuation is None:
+    flywheel = result.flywheel if hasattr(result, "flywheel") else None
+    if flywheel is None or not hasattr(flywheel, "fluctuation"):
         unknown = (
             "the uneven speed needs an inertia; give inertia in [crank] or [flywheel], such as "
             "inertia = 250000"

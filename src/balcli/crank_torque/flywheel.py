@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Annotated, NamedTuple
+from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
 
 from ..core.phases import RPM
 from ..core.phasors import Complex
 from ..core.piecewise import Function, PiecewiseCurve, resolved
-from ..core.records import HIDDEN
+from ..core.records import HIDDEN, Asked, change_attributes
 from ..core.speed_ripple import (
     RippleLine,
     StallError,
@@ -24,7 +25,11 @@ from ..limits import FLUCTUATION, HIGHEST_RIPPLE_ORDER, MOST_RIPPLES, SMALLEST_F
 _WORTH = 1e-4  # orders of the speed below this share of the largest amplitude are not listed
 
 
-class Flywheel(NamedTuple):
+_WITH_INERTIA = "inertia in [crank] or [flywheel] of the file, with which the crank does not stall"
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Flywheel:
     """Inertia on the shaft and the resulting fluctuation of speed, as far as known.
 
     Attributes:
@@ -42,13 +47,13 @@ class Flywheel(NamedTuple):
         lines: Orders of the uneven speed, without those of negligible amplitude.
     """
 
-    inertia_kg_m2: float | None = None
+    inertia_kg_m2: Asked[float] = Asked("inertia in [crank] or [flywheel] of the file")
     moving_parts_kg_m2: float = 0.0
-    fluctuation: float | None = None
-    fluctuation_small: float | None = None
-    needed_kg_m2: float | None = None
-    speed_max_rpm: float | None = None
-    speed_min_rpm: float | None = None
+    fluctuation: Asked[float] = Asked(_WITH_INERTIA)
+    fluctuation_small: Asked[float] = Asked(_WITH_INERTIA)
+    needed_kg_m2: Asked[float] = Asked("fluctuation=1 / 200")
+    speed_max_rpm: Asked[float] = Asked(_WITH_INERTIA)
+    speed_min_rpm: Asked[float] = Asked(_WITH_INERTIA)
     stall: str | None = None
     speed_max_deg: Annotated[float, HIDDEN] = 0.0
     speed_min_deg: Annotated[float, HIDDEN] = 0.0
@@ -92,14 +97,19 @@ def find_flywheel(
             raise ArgumentError("{fluctuation} needs the mean speed; give it, such as {speed} 300")
         needed = course.mean + needed_inertia(torque, mean_speed, fluctuation, course.at)
     mean = (constant or 0.0) + course.mean
-    found = Flywheel(None if constant is None else mean, course.mean, needed_kg_m2=needed)
+    found = Flywheel(
+        inertia_kg_m2=None if constant is None else mean,
+        moving_parts_kg_m2=course.mean,
+        needed_kg_m2=needed,
+    )
     if constant is None or mean_speed is None:
         return found
     try:
         speed = speed_variation(torque, lambda angle: constant + course.at(angle), mean_speed)
     except StallError as error:
-        return found._replace(stall=str(error))
-    return found._replace(
+        return change_attributes(found, stall=str(error))
+    return change_attributes(
+        found,
         fluctuation=speed.fluctuation,
         fluctuation_small=small_fluctuation(surplus, mean, mean_speed),
         speed_max_rpm=speed.highest.value / RPM,

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import NamedTuple
 
 import numpy as np
 
 from ..core.piecewise import Vectors, find_panels
+from ..core.records import Asked
 from ..engine.engine import Engine
 from ..forces.crankshaft import (
     ROUNDING,
@@ -48,7 +48,8 @@ class CycleLoad:
     pressure_Pa: float | None = None
 
 
-class CycleLoads(NamedTuple):
+@dataclass(frozen=True, kw_only=True, eq=False)
+class CycleLoads:
     """Requested loads of pins and bearings.
 
     Attributes:
@@ -60,9 +61,9 @@ class CycleLoads(NamedTuple):
             loads of pins were requested as well; otherwise an error states the reason.
     """
 
-    pin: tuple[CycleLoad, ...] | None = None
+    pin: Asked[tuple[CycleLoad, ...]] = Asked('loads=["pin"]')
     knuckle: tuple[CycleLoad, ...] | None = None
-    main: tuple[CycleLoad, ...] | None = None
+    main: Asked[tuple[CycleLoad, ...]] = Asked('loads=["main"]')
     obstacle: str | None = None
 
 

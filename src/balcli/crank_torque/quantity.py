@@ -50,10 +50,12 @@ def evaluate_engine(engine: Engine, quantities: Sequence[TargetQuantity]) -> lis
         found |= {"torque.mean": curves.gas.mean, "torque.max": highest.value}
         found["torque.min"] = lowest.value
     if any(q.name == "fluctuation" for q in quantities):
-        flywheel = torque(engine, [1]).flywheel
-        if flywheel is None or flywheel.fluctuation is None:
-            raise BalcliError(NO_INERTIA if flywheel is None else flywheel.stall or NO_INERTIA)
-        found["fluctuation"] = flywheel.fluctuation
+        computed = torque(engine, [1])
+        if not hasattr(computed, "flywheel"):
+            raise BalcliError(NO_INERTIA)
+        if not hasattr(computed.flywheel, "fluctuation"):
+            raise BalcliError(computed.flywheel.stall or NO_INERTIA)
+        found["fluctuation"] = computed.flywheel.fluctuation
     return [found[q.name] for q in quantities]
 
 

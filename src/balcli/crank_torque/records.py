@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Annotated, Literal, NamedTuple
 
 from ..core.piecewise import PiecewiseCurve
-from ..core.records import HIDDEN, INLINE
+from ..core.records import HIDDEN, INLINE, Asked
 from ..core.speed_ripple import Surplus
 from ..engine.engine import CylinderNumber, Engine
 from ..file.assumed import Assumed
@@ -128,8 +128,10 @@ class TorqueAnalysis(Result):
     torque: Extremes
     orders: tuple[TorqueOrder, ...]
     energy: Energy
-    flywheel: Flywheel | None = None
-    loads: CycleLoads | None = None
+    flywheel: Asked[Flywheel] = Asked(
+        "fluctuation=1 / 200, or with inertia in [crank] or [flywheel] of the file"
+    )
+    loads: Asked[CycleLoads] = Asked('loads=["pin", "main"]')
     name: Annotated[str, HIDDEN]
     curve: Annotated[PiecewiseCurve, HIDDEN]
     engine: Annotated[Engine | None, HIDDEN] = None

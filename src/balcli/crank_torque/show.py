@@ -93,11 +93,12 @@ def sheet(result: TorqueAnalysis, system: System) -> Sheet:
     title = f"{result.name or NAMELESS}: torque{' on the crank' if result.engine else ''}"
     parts: list[Grid | Facts | Text] = [Facts(tuple(_list_work(result, system)))]
     parts.append(_describe_course(result, system))
-    if result.flywheel is not None:
+    if hasattr(result, "flywheel"):
         parts.append(Facts(tuple(_list_flywheel(result, result.flywheel, system)), "Flywheel"))
     elif result.engine is not None:
         parts.append(Text("Flywheel", (_NO_INERTIA,)))
-    parts += [] if result.loads is None else _make_load_tables(result.loads, system)
+    if hasattr(result, "loads"):
+        parts += _make_load_tables(result.loads, system)
     parts.append(_make_order_table(result, system))
     return Sheet(title, tuple(parts))
 
@@ -161,20 +162,22 @@ def _list_flywheel(
     result: TorqueAnalysis, wheel: Flywheel, system: System
 ) -> Iterator[tuple[str, str]]:
     unit, moving = system.inertia, wheel.moving_parts_kg_m2
-    if wheel.inertia_kg_m2 is not None:
+    if hasattr(wheel, "inertia_kg_m2"):
         parts = f", including {number(unit.of(moving))} of moving parts" if moving else ""
         yield "inertia", _size(wheel.inertia_kg_m2, unit) + parts
-    if (share := wheel.fluctuation) is not None:
-        small = number(100 * (wheel.fluctuation_small or 0.0))
+    if hasattr(wheel, "fluctuation"):
+        share = wheel.fluctuation
+        small = number(100 * wheel.fluctuation_small)
         one_in = f"1/{number(1 / share)}" if share else "0"
         exact = number(100 * share)
         yield "fluctuation", f"{exact} % ({one_in}); {small} % by the rule for small fluctuations"
-        low, high = wheel.speed_min_rpm or 0.0, wheel.speed_max_rpm or 0.0
-        ends = ((low, wheel.speed_min_deg), (high, wheel.speed_max_deg))
+        lowest = (wheel.speed_min_rpm, wheel.speed_min_deg)
+        ends = (lowest, (wheel.speed_max_rpm, wheel.speed_max_deg))
         yield "speed", " to ".join(f"{number(rpm, 6)} rpm at {tenths(at)} deg" for rpm, at in ends)
     if wheel.stall:
         yield "speed", wheel.stall
-    if (needed := wheel.needed_kg_m2) is not None:
+    if hasattr(wheel, "needed_kg_m2"):
+        needed = wheel.needed_kg_m2
         told, engine = f"{_size(needed, unit)} in total", result.engine
         if engine is not None and moving:
             others = (find_constant_inertia(engine) or 0.0) - float(engine.flywheel_inertia or 0.0)
@@ -192,9 +195,9 @@ def _make_load_tables(loads: CycleLoads, system: System) -> Iterator[Grid | Text
         "distance outside the end throws. The shaft is treated as cut in each bearing."
     )
     for title, word, each, note in (
-        ("Crank pins", "cylinder", loads.pin or (), ""),
+        ("Crank pins", "cylinder", getattr(loads, "pin", ()), ""),
         ("Knuckle pins", "cylinder", loads.knuckle or (), ""),
-        ("Main bearings", "bearing", loads.main or (), cut),
+        ("Main bearings", "bearing", getattr(loads, "main", ()), cut),
     ):
         unit = system.force.fit(max((load.max_N for load in each), default=0.0))
         columns = [

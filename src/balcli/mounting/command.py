@@ -78,7 +78,7 @@ def mounts(
         result = answer.report_mounts(
             model, engine, rpm, asked, scheme, beside, name, tell, options, ranged=ranged
         )
-    if result.response is None and any((speeds, orders, scheme, misfire)):
+    if not hasattr(result, "response") and any((speeds, orders, scheme, misfire)):
         warn(
             f"{name}: has no engine, so --speeds, --orders, --misfire and --scheme have no effect; "
             "add [crank], [rod] and [piston], or name an engine file after this one"

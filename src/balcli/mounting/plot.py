@@ -42,7 +42,7 @@ _SWING = 0.22  # drawn travel of the corner that moves most, as a share of the b
 
 def make_mounts(result: MountReport, system: System) -> Figure:
     """Return the picture of an engine on its mounts."""
-    response = result.response
+    response = result.response if hasattr(result, "response") else None
     with open_figure(11.0, 3.2 if response is None else 8.6) as fig:
         put_title(fig, f"{fit_name(result.name or NAMELESS)}: on its mounts")
         lower: FigureBase = fig

@@ -13,7 +13,7 @@ from typing import Annotated, Literal, NamedTuple
 import numpy as np
 
 from ..core.phases import RPM
-from ..core.records import HIDDEN, Axes
+from ..core.records import HIDDEN, Asked, Axes
 from ..core.vibration import Complex, Real
 from ..engine.engine import CylinderNumber
 from ..file.assumed import Assumed
@@ -280,9 +280,9 @@ class MountReport(Result):
     elastic_centre_mm: Real
     static: AtRest
     stiffness_N_per_m: Annotated[Real, Axes(2)]
-    response: BodyResponse | None = None
-    fitted: Fitted | None = None
-    others: tuple[Other, ...] | None = None
+    response: Asked[BodyResponse] = Asked("[crank], [rod] and [piston] in the file")
+    fitted: Asked[Fitted] = Asked('scheme="counterweights"')
+    others: Asked[tuple[Other, ...]] = Asked('others={"V8": engine}')
     mounted: Annotated[MountedBody, HIDDEN]
 
     @property
@@ -294,13 +294,17 @@ class MountReport(Result):
     @property
     def beside(self) -> tuple[Other, ...]:
         """Responses to compare with the engine's own: with the scheme, and to other engines."""
-        fitted = self.fitted and Other(self.fitted.scheme, self.fitted.response)
-        return (*([fitted] if fitted else []), *(self.others or ()))
+        found: list[Other] = []
+        if hasattr(self, "fitted"):
+            found.append(Other(self.fitted.scheme, self.fitted.response))
+        if hasattr(self, "others"):
+            found += self.others
+        return tuple(found)
 
     @property
     def responses(self) -> tuple[BodyResponse, ...]:
         """All responses; the engine's own is the first."""
-        own = [] if self.response is None else [self.response]
+        own = [self.response] if hasattr(self, "response") else []
         return (*own, *(other.response for other in self.beside))
 
     @property
@@ -308,7 +312,7 @@ class MountReport(Result):
         """Warnings of speeds for which the file gives no gas, and of the mount that travels most
         if its travel exceeds TRAVEL_MOST.
         """
-        if self.response is None:
+        if not hasattr(self, "response"):
             return ()
         law = self.response.loads.law
         of_gas = tuple(law.list_doubts(self.response.speeds_rpm)) if law else ()

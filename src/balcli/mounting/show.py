@@ -76,17 +76,18 @@ def list_kinds(system: System) -> tuple[Kind, Kind]:
 def sheet(result: MountReport, system: System) -> Sheet:
     """Return the sheet: the answer (forces on the frame), modes, rest, and tables over speed."""
     parts: list[Grid | Facts | Text] = [*assumed_facts(result.assumed)]
-    response, (force, motion) = result.response, list_kinds(system)
-    if response is not None:
-        kinds = (force, motion) if response.points else (force,)
-        parts.append(Text("Forces on the frame", tuple(_answer(result, response, kinds))))
+    force, motion = list_kinds(system)
+    if hasattr(result, "response"):
+        kinds = (force, motion) if result.response.points else (force,)
+        parts.append(Text("Forces on the frame", tuple(_answer(result, result.response, kinds))))
         parts += [_grid_worst(result, kind) for kind in kinds]
     parts += [_grid_modes(result), _tell_body(result, motion.unit)]
     parts.append(_grid_rest(result, system, motion.unit))
-    if response is not None:
+    if hasattr(result, "response"):
         if any(mode.meets for mode in result.modes):
-            parts += [_grid_meetings(result)]
-        parts += [_grid_speeds(result, response, force), _grid_passed(response, system)]
+            parts.append(_grid_meetings(result))
+        parts.append(_grid_speeds(result, result.response, force))
+        parts.append(_grid_passed(result.response, system))
     return Sheet(f"{result.name or NAMELESS}: on its mounts", tuple(parts))
 
 
@@ -205,8 +206,9 @@ def _grid_rest(result: MountReport, system: System, length: ShownUnit) -> Grid:
         travels = [number(length.of(mount.travel_mm[k]), 3) for mount in mounts]
         columns.append(Column(f"travel {axis}, {length.name}", travels))
     leaning = ""
-    if result.response and result.response.loads.mean and not result.mounted.carries_load:
-        mean = number(system.moment.of(abs(result.response.loads.mean)), 4)
+    torque = result.response.loads.mean if hasattr(result, "response") else 0.0
+    if torque and not result.mounted.carries_load:
+        mean = number(system.moment.of(abs(torque)), 4)
         leaning = f" and the reaction to the load's mean torque of {mean} {system.moment.name}"
     note = f"Forces of the body on its mounts under its weight{leaning}, with static stiffness."
     return Grid("At rest", columns, note)
@@ -292,14 +294,22 @@ def _list_lines(result: MountReport, system: System) -> Iterator[tuple[object, .
         for axis, own, travel in zip("xyz", mount.force_N, mount.travel_mm, strict=True):
             yield *head, f"force {axis}", clean(force.unit.of(own)), force.unit.name
             yield *head, f"travel {axis}", clean(motion.unit.of(travel)), motion.unit.name
-    labels = ["", *["with scheme "] * (result.fitted is not None)]
-    labels += [f"{name_cell(other.name)}: " for other in result.others or ()]
-    for label, response in zip(labels, result.responses, strict=False):
+    for label, response in zip(_list_labels(result), result.responses, strict=False):
         for key, numbers in silent_entries(response.loads.silent).items():
             yield f"{label}engine", "", None, None, key, " ".join(map(str, numbers)), ""
         yield from _list_imep(response, label)
         for kind in (force, motion):
             yield from _list_curves(response, kind, label)
+
+
+def _list_labels(result: MountReport) -> list[str]:
+    """Return the beginning of the names of rows for each of the responses."""
+    labels = [""]
+    if hasattr(result, "fitted"):
+        labels.append("with scheme ")
+    if hasattr(result, "others"):
+        labels += [f"{name_cell(other.name)}: " for other in result.others]
+    return labels
 
 
 def _list_imep(response: BodyResponse, label: str) -> Iterator[tuple[object, ...]]:

@@ -337,12 +337,11 @@ def _list_variants(result: Analysis, balanced: Balance) -> dict[str, Analysis]:
     the scheme is not a step.
     """
     remedy = balanced.remedy
-    ladder = balanced.ladder
     shown = {"as in the file": result}
-    if ladder is not None:
-        shown = analyze_steps(balanced.before.engine, ladder, result.orders)
-    rows = () if ladder is None else ladder.steps
-    is_row = any(step.remedy.devices == remedy.devices for step in rows)
+    is_row = False
+    if hasattr(balanced, "ladder"):
+        shown = analyze_steps(balanced.before.engine, balanced.ladder, result.orders)
+        is_row = any(step.remedy.devices == remedy.devices for step in balanced.ladder.steps)
     if remedy.reasons and not is_row:
         shown[f"scheme {remedy.scheme}"] = balanced.after
     return shown
@@ -395,9 +394,9 @@ def rocking(result: MountReport) -> Node | None:
     speed and order: cosine coefficients, then sine coefficients, each of three displacements (mm)
     and three rotations (rad). None for mounts without an engine.
     """
-    response = result.response
-    if response is None:
+    if not hasattr(result, "response"):
         return None
+    response = result.response
     body = result.mounted.body
     count = len(response.speeds_rpm)
     rows = np.linspace(0, count - 1, min(count, _SPEEDS)).round().astype(int)

@@ -145,7 +145,7 @@ def _plot_engine(
 
 
 def _plot_torsion(result: TorsionAnalysis, what: str) -> Figure:
-    known = ("all", *(OF_TORSION if result.response is not None else OF_TORSION[:2]))
+    known = ("all", *(OF_TORSION if hasattr(result, "response") else OF_TORSION[:2]))
     return make_torsion(result, check_page(what, known))
 
 

@@ -193,7 +193,7 @@ class OrdersAndPeaks:
     """A result with orders and peaks: an analysis, or the sum of two engines."""
 
     spectra: Spectra
-    peak: Peaks | None
+    peak: Peaks  # of an analysis only on request
 
     @property
     def moments_known(self) -> bool:
@@ -203,7 +203,7 @@ class OrdersAndPeaks:
     @property
     def peaks(self) -> list[tuple[Kind, Peak]]:
         """Each kind whose peak was computed, with its peak."""
-        return [] if self.peak is None else list(zip((FORCE, MOMENT), self.peak, strict=True))
+        return list(zip((FORCE, MOMENT), self.peak, strict=True)) if hasattr(self, "peak") else []
 
 
 class FigureRow(NamedTuple):

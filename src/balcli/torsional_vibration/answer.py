@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 
 from ..core.phases import RPM
 from ..core.phasors import Array
-from ..core.records import HIDDEN
+from ..core.records import HIDDEN, Asked, change_attributes
 from ..core.vibration import Real
 from ..engine.engine import CylinderNumber, Engine, take_model
 from ..engine.load import build_tables
@@ -135,6 +135,10 @@ class HolzerTable:
     end: Annotated[int, HIDDEN]
 
 
+_LIMITED = "speeds_rpm=[1500, 2000], and a limit in the file"
+_EXCITED = "[gas] in the engine file, or [[excitation]] in the chain file"
+
+
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class TorsionAnalysis(Result):
     """Torsional vibration of a chain of inertias and shafts.
@@ -168,12 +172,12 @@ class TorsionAnalysis(Result):
     nodes: tuple[ChainNode, ...]
     shafts: tuple[ChainJoint, ...]
     modes: tuple[NaturalMode, ...]
-    orders: tuple[float, ...] | None = None
-    criticals: tuple[Critical, ...] | None = None
+    orders: Asked[tuple[float, ...]] = Asked(_EXCITED)
+    criticals: Asked[tuple[Critical, ...]] = Asked(_EXCITED)
     holzer: tuple[HolzerTable, ...] | None = None
-    response: TorsionResponse | None = None
-    damper: SizedDamper | None = None
-    barred_rpm: tuple[tuple[float, float], ...] | None = None
+    response: Asked[TorsionResponse] = Asked("speeds_rpm=[1500, 2000]")
+    damper: Asked[SizedDamper] = Asked('damper="viscous"')
+    barred_rpm: Asked[tuple[tuple[float, float], ...]] = Asked(_LIMITED)
     system: Annotated[TorsionalSystem, HIDDEN]
 
     @property
@@ -181,7 +185,7 @@ class TorsionAnalysis(Result):
         """Warnings of shafts whose inertia is left out, of speeds for which the file describes no
         gas, of swings that are too large for the linear model, and of a stress that breaks a shaft.
         """
-        if self.response is None:
+        if not hasattr(self, "response"):
             return self.system.doubts
         excitation, found = self.system.excitation, _find_doubts(self.response)
         law = excitation and excitation.gas and excitation.gas.law
@@ -251,10 +255,10 @@ def answer_question(
     sized = size_damper(source, question.damper, question.speeds_rpm, tell)
     fitted = source.system({sized.node: sized.damper})
     found = _analyze_system(fitted, question)  # one more response: no progress is reported
-    for each in (found.response and found.response.dampers) or ():
+    for each in found.response.dampers or ():
         if each.node == sized.node:
             sized = replace(sized, heat_W=each.worst.heat_W, heat_rpm=each.worst.speed_rpm)
-    return replace(found, damper=sized)
+    return change_attributes(found, damper=sized)
 
 
 def _analyze_system(

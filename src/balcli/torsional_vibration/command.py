@@ -87,7 +87,7 @@ def torsion(
     warn_each(source.doubts, name_file(path))
     with reporting("work") as tell:
         result = answer.answer_question(source, asked, tell)
-    sized = result.damper
+    sized = result.damper if hasattr(result, "damper") else None
     doubts = (sized and sized.doubts) or ()
     warn_each(doubts, "--damper")
     if doubts and damper_inertia is not None:

@@ -37,6 +37,7 @@ from .answer import (
     require_speeds,
 )
 from .load import load_source
+from .modes import Critical
 from .motion import compute_curves
 from .quantity import choose_torsion_speeds
 from .response import TorsionResponse
@@ -129,7 +130,7 @@ def _choose_parts(
         yield lambda ax: _draw_modes(ax, result)
     if what in ("all", "campbell"):
         yield lambda ax: _draw_campbell(ax, result)
-    if result.response is None or what in ("modes", "campbell"):
+    if not hasattr(result, "response") or what in ("modes", "campbell"):
         return
     curves = _compute_curves(result, result.response)
     if what in ("all", "response") and result.shafts:
@@ -162,9 +163,10 @@ def _draw_modes(ax: Axes, result: TorsionAnalysis) -> None:
 
 def _find_span(result: TorsionAnalysis, first: float) -> float:
     """Return the highest speed of a Campbell diagram, rpm, given the frequency of mode 1, Hz."""
-    if result.response is not None:
+    if hasattr(result, "response"):
         return float(result.response.speeds_rpm[-1])
-    worth = [each.speed_rpm for each in result.criticals or () if each.work_share > 0.02]
+    criticals: tuple[Critical, ...] = getattr(result, "criticals", ())
+    worth = [each.speed_rpm for each in criticals if each.work_share > 0.02]
     return 1.1 * min(max(worth, default=60 * first), 120 * first)
 
 
@@ -172,8 +174,9 @@ def _draw_campbell(ax: Axes, result: TorsionAnalysis) -> None:
     """Draw natural frequencies over speed, a ray for each order, a dot for each critical."""
     first = result.modes[0].frequency_Hz if result.modes else 1000 / 60
     top = _find_span(result, first)
-    met = [c for c in result.criticals or () if c.work_share > _WORTH and c.speed_rpm <= top]
-    every = np.array(sorted({c.order for c in met}) or result.orders or ())
+    criticals: tuple[Critical, ...] = getattr(result, "criticals", ())
+    met = [c for c in criticals if c.work_share > _WORTH and c.speed_rpm <= top]
+    every = np.array(sorted({c.order for c in met}) or getattr(result, "orders", []))
     work = [max((c.work for c in met if c.order == order), default=0.0) for order in every]
     orders = every[_find_largest(np.array(work))].tolist()
     dots = [(c.speed_rpm, c.order * c.speed_rpm / 60, c.work) for c in met if c.order in orders]
@@ -209,7 +212,7 @@ def _count_left_out(count: int) -> str:
 
 
 def _shade_barred(ax: Axes, result: TorsionAnalysis) -> None:
-    for low, high in result.barred_rpm or ():
+    for low, high in getattr(result, "barred_rpm", ()):
         ax.axvspan(low, high, color=RED, alpha=0.12, linewidth=0)
 
 

@@ -161,13 +161,13 @@ def sheet(result: TorsionAnalysis, system: System) -> Sheet:
     silent = tuple(list_silent(result.system.silent))
     parts: list[Grid | Facts | Text] = [Facts(silent)] if silent else []
     parts += assumed_facts(result.assumed)
-    if result.damper is not None:
+    if hasattr(result, "damper"):
         parts.append(_show_damper(result.damper, system))
     parts += [_show_modes(result), _show_shapes(result, system)]
-    if result.modes and result.orders:
+    if result.modes and hasattr(result, "criticals"):
         parts.append(_show_criticals(result))
     parts += [_show_holzer(result, table, system) for table in result.holzer or ()]
-    if result.response is not None:
+    if hasattr(result, "response"):
         parts.append(_show_response(result, result.response, system))
         if limits := tuple(_judge_limits(result, system)):
             parts.append(Facts(limits, "Limits"))
@@ -241,9 +241,9 @@ def _count_in_json(left: int, what: str) -> str:
 
 
 def _show_criticals(result: TorsionAnalysis) -> Grid | Text:
-    span = "" if result.response is None else f", {_name_span(result.response.speeds_rpm)}"
+    span = f", {_name_span(result.response.speeds_rpm)}" if hasattr(result, "response") else ""
     title, scope = f"Critical speeds{span}", _name_scope(result)
-    criticals = result.criticals or ()
+    criticals = result.criticals
     if not criticals:
         return Text(title, (f"None: no order meets a mode that it drives. {scope}",))
     shown = [each for each in criticals if each.work_share >= _LEAST_SHARE][:_MOST_CRITICALS]
@@ -261,9 +261,9 @@ def _show_criticals(result: TorsionAnalysis) -> Grid | Text:
 
 def _name_scope(result: TorsionAnalysis) -> str:
     """Return a note on the orders, speeds, dampers and torques behind the critical speeds."""
-    rated, note = result.system.rated_rpm, f"Included: {_list_orders(result.orders or ())}."
+    rated, note = result.system.rated_rpm, f"Included: {_list_orders(result.orders)}."
     note += _name_left_out(result.system, ", which shift the critical speeds.")
-    if result.response is not None:
+    if hasattr(result, "response"):
         return note
     note += f" Up to {number(BEYOND * rated)} rpm, {BEYOND:g} × the file's speed." if rated else ""
     return note + _name_gas(result)
@@ -396,7 +396,7 @@ def _judge_limits(result: TorsionAnalysis, units: System) -> Iterator[tuple[str,
         limits.append(f"±{number(math.degrees(system.angle_limit))} deg at {system.free_end}")
     if limits:
         yield "limit", " and ".join(limits)
-    if result.barred_rpm is not None:
+    if hasattr(result, "barred_rpm"):
         spans = ", ".join(map(_name_span, result.barred_rpm))
         yield "barred speeds", spans or "none in this range"
     if bare:
