@@ -1,12 +1,14 @@
 """The public engine: its methods are the functions of the library, named like the commands."""
 
 import pickle
+import re
 
 import pytest
 
 import balcli
 from balcli.api import Engine
 from balcli.cli import COMMANDS
+from balcli.core.records import Asked
 
 # Commands that compute nothing for users of Python, or whose function has no engine.
 WITHOUT_FUNCTION = {"layouts", "report", "numbers", "new", "engines", "schema", "check", "bench"}
@@ -45,3 +47,41 @@ def test_engines_that_come_from_an_engine_have_the_methods(make):
     engine = make()
     assert isinstance(engine, balcli.Engine)
     assert engine.analyze([1]).engine is engine
+
+
+EXAMPLES = {"analyze": "i4_wiebe", "balance": "i4", "torque": "v8_wiebe", "torsion": "i6_diesel", "mounts": "i4_mounts"}
+RESULTS = {
+    "analyze": balcli.Analysis,
+    "balance": balcli.Balance,
+    "torque": balcli.TorqueAnalysis,
+    "torsion": balcli.TorsionAnalysis,
+    "mounts": balcli.MountReport,
+}
+ASKED = [
+    (function, name, attribute.how)
+    for function, kind in RESULTS.items()
+    for name, attribute in vars(kind).items()
+    if isinstance(attribute, Asked)
+]
+
+
+@pytest.mark.parametrize(("function", "name", "how"), ASKED)
+def test_what_an_error_says_is_the_way_to_ask(function, name, how):
+    """If an argument of the function decides, and not the file."""
+    engine = balcli.load_example(EXAMPLES[function])
+    if "=" not in how:
+        assert any(word in how for word in ("file", "scheme", "balcli"))
+        return
+    arguments = re.split(", (?:or|and) ", how)[0]
+    result = eval(f"engine.{function}({arguments})", {"engine": engine, "Shapes": balcli.Shapes})
+    assert hasattr(result, name)
+
+
+def test_what_was_not_asked_for_says_how_to_ask():
+    found = balcli.load_example("i4").analyze(only=["force"])
+    with pytest.raises(balcli.NotComputedError, match=r'^peak was not computed; ask for it with only=\["peak"\]$'):
+        _ = found.peak
+    with pytest.raises(balcli.NotComputedError, match=r'^moment was not computed; ask for it with only=\["moment"\]$'):
+        _ = found.spectra["moment"]
+    with pytest.raises(KeyError, match="torque of wheels; there are force, moment, "):
+        _ = found.spectra["torque of wheels"]

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from .books.recomputed import Table
     from .crank_torque.answer import torque
     from .crank_torque.records import TorqueAnalysis
-    from .errors import BalcliError, InputError
+    from .errors import BalcliError, InputError, NotComputedError
     from .field_balancing.answer import FieldBalance, field
     from .locomotives.answer import LocomotiveBalance, locomotive
     from .mounting.answer import mounts
@@ -52,6 +52,7 @@ __all__ = [
     "InputError",
     "LocomotiveBalance",
     "MountReport",
+    "NotComputedError",
     "Pistons",
     "Result",
     "Scatter",

@@ -25,7 +25,7 @@ _EXPORTS = {
     "balancing.answer": "Balance balance",
     "books.answer": "tables",
     "books.recomputed": "Table",
-    "errors": "BalcliError InputError",
+    "errors": "BalcliError InputError NotComputedError",
     "field_balancing.answer": "FieldBalance field",
     "locomotives.answer": "LocomotiveBalance locomotive",
     "mounting.answer": "mounts",

@@ -5,6 +5,7 @@ from dataclasses import fields
 import pytest
 from support.engines import engine
 
+from balcli.errors import NotComputedError
 from balcli.forces.kinds import EVERY_KIND, FORCE, TORQUE
 from balcli.forces.spectrum import Spectra, compute_spectra
 
@@ -26,5 +27,5 @@ def test_only_what_was_asked_for_is_there():
     assert found.vectors() == [(FORCE, found.force)]
     assert found.scalars() == [(TORQUE, found.torque)]
     assert found.only(["torque"]).items() == [(TORQUE, found.torque)]
-    with pytest.raises(KeyError, match="roll"):
+    with pytest.raises(NotComputedError, match="roll was not computed"):
         found["roll"]

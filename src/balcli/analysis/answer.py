@@ -86,7 +86,7 @@ _OF_ONE_CRANK = ("inner", "guide", "journals", "masses", "parts")
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Analysis(OrdersAndPeaks, Result):
-    """Free forces and moments of an engine, order by order; without results that were not requested.
+    """Free forces and moments of an engine, order by order, without unrequested results.
 
     Reading a result that was not requested raises NotComputedError.
 
@@ -125,7 +125,7 @@ class Analysis(OrdersAndPeaks, Result):
     peak: Asked[Peaks] = Asked('only=["peak"]')
     sizing: Asked[Sizing] = Asked('only=["sizing"]')
     ladder: Asked[Ladder] = Asked('only=["ladder"]')
-    cylinders: Asked[tuple[CylinderShare, ...]] = Asked("by_cylinder=True")
+    cylinders: Asked[tuple[CylinderShare, ...]] = Asked('by="cylinder"')
     inner: Asked[Annotated[InnerLoads, WrittenAs(describe_inner)]] = Asked('only=["inner"]')
     guide: Asked[Annotated[GuideMoments, WrittenAs(describe_guide)]] = Asked('only=["guide"]')
     travel: tuple[Stroke, ...] | None = None
@@ -133,8 +133,8 @@ class Analysis(OrdersAndPeaks, Result):
     masses: Asked[tuple[Masses, ...]] = Asked('only=["masses"]')
     parts: Asked[BalanceParts] = Asked('only=["parts"]')
     power_related_unbalance: Asked[PowerRelatedUnbalance] = Asked('only=["pru"]')
-    why: Asked[Symmetry] = Asked("reasons=True")
-    stars: Asked[tuple[Star, ...]] = Asked("reasons=True")
+    why: Asked[Symmetry] = Asked("why=True")
+    stars: Asked[tuple[Star, ...]] = Asked("why=True")
     small: Annotated[float, HIDDEN] = SMALL
 
     @property

@@ -34,7 +34,7 @@ from ..core.phases import ANGLE, SUM, Phases, SeparatePhases
 from ..core.phasors import EPS, Array, Complex, Figure, Phasors, join_orders, join_places, unit
 from ..engine.engine import Engine, Placed
 from ..engine.figures import place_in_plane
-from ..errors import NO_GAS, BalcliError, check_number, list_values, wrong_type
+from ..errors import NO_GAS, BalcliError, NotComputedError, check_number, list_values, wrong_type
 from ..file.fields import shorten
 from ..limits import (
     HIGHEST_GAS_ORDER_UNASKED,
@@ -42,7 +42,7 @@ from ..limits import (
     HIGHEST_ORDER_UNASKED,
     MOST_LOADS_APART,
 )
-from .kinds import EVERY_KIND, GAS_KINDS, KINDS, Kind
+from .kinds import EVERY_KIND, GAS, GAS_KINDS, KINDS, Kind
 
 if TYPE_CHECKING:
     from ..engine.gas import CylinderGas, EngineGas, GasLaw
@@ -54,7 +54,10 @@ _AT_ONCE = 1 << 18
 
 @dataclass(frozen=True, eq=False)
 class Spectra:
-    """Phasors by order of each kind (`kinds.EVERY_KIND`); None for kinds that were not computed.
+    """Phasors by order of each kind (`kinds.EVERY_KIND`).
+
+    `spectra["moment"]` returns the phasors of a kind, or raises an error that says how to ask for
+    them. The attributes are None for kinds that were not computed.
 
     Attributes:
         orders: Orders, ascending, shape (orders,).
@@ -77,10 +80,22 @@ class Spectra:
     roll_total: Phasors | None = None
 
     def __getitem__(self, kind: str) -> Phasors:
-        """Return the phasors of the kind with this name; KeyError if they were not computed."""
-        phasors: Phasors | None = getattr(self, EVERY_KIND[kind].name)
+        """Return the phasors of a kind.
+
+        Args:
+            kind: Name of the kind: force, moment, couple, torque, roll, gas, torque_total or
+                roll_total.
+
+        Raises:
+            NotComputedError: The phasors of this kind were not asked for.
+            KeyError: There is no such kind.
+        """
+        if kind not in EVERY_KIND:
+            raise KeyError(f"{kind}; there are {', '.join(EVERY_KIND)}")
+        phasors: Phasors | None = getattr(self, kind)
         if phasors is None:
-            raise KeyError(kind)
+            word = GAS.name if kind in GAS_KINDS else kind
+            raise NotComputedError(f'{kind} was not computed; ask for it with only=["{word}"]')
         return phasors
 
     def items(self) -> list[tuple[Kind, Phasors]]:

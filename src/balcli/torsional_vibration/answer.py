@@ -135,7 +135,7 @@ class HolzerTable:
     end: Annotated[int, HIDDEN]
 
 
-_LIMITED = "speeds_rpm=[1500, 2000], and a limit in the file"
+_LIMITED = "speeds=[1500, 2000], and a limit in the file"
 _EXCITED = "[gas] in the engine file, or [[excitation]] in the chain file"
 
 
@@ -175,8 +175,8 @@ class TorsionAnalysis(Result):
     orders: Asked[tuple[float, ...]] = Asked(_EXCITED)
     criticals: Asked[tuple[Critical, ...]] = Asked(_EXCITED)
     holzer: tuple[HolzerTable, ...] | None = None
-    response: Asked[TorsionResponse] = Asked("speeds_rpm=[1500, 2000]")
-    damper: Asked[SizedDamper] = Asked('damper="viscous"')
+    response: Asked[TorsionResponse] = Asked("speeds=[1500, 2000]")
+    damper: Asked[SizedDamper] = Asked('damper="viscous", speeds=[1500, 2000]')
     barred_rpm: Asked[tuple[tuple[float, float], ...]] = Asked(_LIMITED)
     system: Annotated[TorsionalSystem, HIDDEN]
 
