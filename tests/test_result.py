@@ -120,6 +120,33 @@ def test_a_notebook_shows_what_the_command_prints(name):
     assert [word for word in words if word.rstrip(":") not in page] == []
 
 
+@pytest.mark.parametrize("name", [name for name in ANSWERS if name not in ("Curves", "Swept", "FieldBalance")])
+def test_a_text_is_what_the_command_prints(name):
+    assert ANSWERS[name][0]().text() == print_answer(name, "table").rstrip("\n")
+
+
+def test_a_text_has_a_width_and_units():
+    found = load("i4").analyze(only=["force"], orders=[1, 2, 4])
+    assert "lbf" in found.text(units="imperial")
+    assert "lbf" not in found.text()
+    series = balcli.curves(load("i4"), 90)
+    assert [series.text(width).count("crank_deg") for width in (None, 100, 60)] == [1, 1, 2]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "error", "message"),
+    [
+        ({"width": 0}, balcli.BalcliError, "width: 0; give a whole number from 1"),
+        ({"width": "80"}, TypeError, "width: '80' (str): give a whole number, such as 80"),
+        ({"units": "metric"}, balcli.BalcliError, "units 'metric': choose from si, imperial"),
+        ({"units": 1}, TypeError, 'units: 1 (int): give "si" or "imperial"'),
+    ],
+)
+def test_a_text_refuses_what_is_no_width_or_unit(arguments, error, message):
+    with pytest.raises(error, match=f"^{re.escape(message)}$"):
+        load("i4").analyze().text(**arguments)
+
+
 def test_a_notebook_shows_the_ends_of_what_is_long():
     found = balcli.curves(load("i3"))
     shown = re.findall(r"<tr><td>([\d.]+)</td>", found._repr_html_())

@@ -1,5 +1,5 @@
-"""Define the base class of all results, with a summary, HTML for notebooks, and export as dict,
-rows, DataFrame or Parquet file.
+"""Define the base class of all results, with a summary, text, HTML for notebooks, and export as
+dict, rows, DataFrame or Parquet file.
 
 The renderer of each kind of result is in the package of its chapter and is imported when it is
 first needed (`names.RENDERERS`).
@@ -9,19 +9,21 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import TYPE_CHECKING
+from types import NoneType
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
 from ..core.records import Node
-from ..errors import BalcliError
+from ..errors import ArgumentError, BalcliError, check_type
 from ..files import replacing
 from ..names import RENDERERS, import_name
 from ..version import __version__
 from .formats import Columnar, Columns, Renderer, Rows, Values, stamp
 from .notebook import html_text, outline
 from .sheet import Sheet
-from .units import SI
+from .table import write_text
+from .units import SI, SYSTEMS, System
 
 if TYPE_CHECKING:
     import pandas
@@ -47,10 +49,31 @@ class Result:
 
     def _repr_html_(self) -> str:
         """Return the sheet of the result as HTML, for a notebook."""
-        renderer = find_renderer(self)
-        if isinstance(renderer, Renderer):
-            return html_text(renderer.sheet(self, SI), self.doubts)
-        return html_text(Sheet(repr(self)[1:-1], (outline(list_columns(self)),)), self.doubts)
+        return html_text(_make_sheet(self, SI), self.doubts)
+
+    def text(self, width: int | None = None, units: Literal["si", "imperial"] = "si") -> str:
+        """Return the tables that the command prints. Long series, such as those of `curves` and
+        `sweep`, have only their first and last rows.
+
+        Args:
+            width: Number of characters in a line, such as 80: a wider table is divided into
+                several; None: no table is divided.
+            units: "si" or "imperial"; series are always in SI units.
+
+        Raises:
+            BalcliError: The width is less than 1, or there is no such system of units.
+            TypeError: An argument has the wrong type.
+        """
+        check_type("width", width, (int, np.integer, NoneType), "give a whole number, such as 80")
+        check_type("units", units, str, 'give "si" or "imperial"')
+        if width is not None and width < 1:
+            raise ArgumentError("{width}: {value}; give a whole number from 1", value=width)
+        if units not in SYSTEMS:
+            choices = ", ".join(SYSTEMS)
+            raise ArgumentError(
+                "{units} {value!r}: choose from {choices}", value=units, choices=choices
+            )
+        return write_text([_make_sheet(self, SYSTEMS[units])], width)
 
     def to_dict(self) -> Node:
         """Return the command's JSON document (docs/json.md) as a dict; keys contain SI units."""
@@ -102,6 +125,14 @@ class Result:
         table = pyarrow.table(arrays, schema=pyarrow.schema(fields, metadata=about))
         with replacing(Path(path)) as place:
             parquet.write_table(table, place)
+
+
+def _make_sheet(result: Result, system: System) -> Sheet:
+    """Return the sheet of a result; if its renderer has no sheet, the ends of its columns."""
+    renderer = find_renderer(result)
+    if isinstance(renderer, Renderer):
+        return renderer.sheet(result, system)
+    return Sheet(repr(result)[1:-1], (outline(list_columns(result)),))
 
 
 def find_renderer(result: Result) -> Columnar[Result]:
