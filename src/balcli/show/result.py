@@ -52,8 +52,8 @@ class Result:
         return html_text(_make_sheet(self, SI), self.doubts)
 
     def text(self, width: int | None = None, units: Literal["si", "imperial"] = "si") -> str:
-        """Return the tables that the command prints. Long series, such as those of `curves` and
-        `sweep`, have only their first and last rows.
+        """Return the tables that the command prints, as far as they were asked for. Long series,
+        such as those of `curves` and `sweep`, have only their first and last rows.
 
         Args:
             width: Number of characters in a line, such as 80: a wider table is divided into
@@ -73,7 +73,7 @@ class Result:
             raise ArgumentError(
                 "{units} {value!r}: choose from {choices}", value=units, choices=choices
             )
-        return write_text([_make_sheet(self, SYSTEMS[units])], width)
+        return write_text([_make_sheet(self, SYSTEMS[units])], width).rstrip("\n")
 
     def to_dict(self) -> Node:
         """Return the command's JSON document (docs/json.md) as a dict; keys contain SI units."""
