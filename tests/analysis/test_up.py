@@ -7,7 +7,6 @@ from support.commands import ask, ask_csv, ask_json, refusal, run_here
 from support.engines import build_text
 from support.paths import write
 
-from balcli import load
 from balcli.analysis.answer import analyze
 from balcli.analysis.curves import columns, curves
 from balcli.analysis.verdict import judge
