@@ -116,6 +116,49 @@ def test_weights_of_readings():
     assert totals(text + "reading_weights = [1, 2]\n" + runs)[0] == pytest.approx(-17 / 5, rel=1e-13)
 
 
+# ------------------------------------------------------------------ trial weights at another radius
+AT_150 = """
+planes = ["fan"]
+weights = "with"
+radius = [250]
+grade = 6.3
+mass = 100
+speed = 3000
+[[run]]
+readings = ["8.5 @ 45"]
+[[run]]
+readings = ["6.2 @ 95"]
+weights = { fan = "10 @ 0" }
+radius = { fan = 150 }
+"""
+
+
+def test_a_trial_weight_counts_at_its_radius():
+    """By hand: the trial of 10 g at 150 mm is 6 g at 250 mm; the correction is -8.5 @ 45 / alpha, in angles against those
+    of the readings.
+    """
+    alpha = (6.2 * np.exp(1j * np.radians(95)) - 8.5 * np.exp(1j * np.radians(45))) / 6
+    wanted = np.conj(-8.5 * np.exp(1j * np.radians(45)) / alpha)
+    result = balance(AT_150)
+    assert result.corrections[0].weight == pytest.approx(wanted, rel=1e-13)
+    assert result.corrections[0].unbalance_g_mm == pytest.approx(250 * abs(wanted), rel=1e-13)
+    assert result.permitted.planes[0].present_g_mm == pytest.approx(250 * abs(wanted), rel=1e-13)
+    same = balance(AT_150.replace("radius = { fan = 150 }", "").replace("10 @ 0", "6 @ 0"))
+    assert same.corrections[0].weight == pytest.approx(wanted, rel=1e-13)
+
+
+@pytest.mark.parametrize("keep", [False, True])
+def test_a_trial_weight_that_stays_keeps_its_radius(keep):
+    alpha, excess = random_rotor(5, 3, 2)
+    text = head(2, "radius = [200, 300]") + run(alpha @ excess)
+    on = np.array([0.4 * 150 / 200, 0])
+    kept = f"keep_trial = {str(keep).lower()}\n"
+    text += run(alpha @ (excess + on), [("p1", 0.4)], kept + "radius = { p1 = 150 }")
+    on = on * keep + np.array([0, 0.3j * 350 / 300])
+    text += run(alpha @ (excess + on), [("p2", 0.3j)], "radius = { p2 = 350 }")
+    assert agree(totals(text), -excess, alpha)
+
+
 # ------------------------------------------------------------------ the shop
 def test_drilled_holes_remove_what_weights_would_add():
     """The steel of all holes, from the rim inwards, has the unbalance of the correction."""

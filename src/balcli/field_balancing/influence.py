@@ -43,7 +43,8 @@ class Series(NamedTuple):
         speed_rpm: Speed; None if the file gives none.
         numbers: Index of each run in the file.
         readings: Readings, shape (runs, sensors).
-        weights: Weights on the rotor in each run, shape (runs, planes).
+        weights: Weights on the rotor in each run, at the radius of their plane, shape (runs,
+            planes).
         given: Influence coefficients in the file, shape (sensors, planes); None: they are fitted.
     """
 
@@ -101,7 +102,7 @@ def collect_series(file: RunsFile) -> list[Series]:
         kept = np.zeros(len(file.planes), dtype=complex)
         states = []
         for run in (file.run[k] for k in numbers):
-            states.append(kept + [run.weights.get(plane, 0j) for plane in file.planes])
+            states.append(kept + file.list_weights(run))
             kept = states[-1] if run.keep_trial else kept
         readings = np.array([file.run[k].readings for k in numbers], dtype=complex)
         found.append(Series(speed, numbers, readings, file.turn(np.array(states)), given))

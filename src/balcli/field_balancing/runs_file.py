@@ -20,7 +20,16 @@ from pydantic_core import ErrorDetails
 
 from ..core.records import Node
 from ..errors import Problem
-from ..file.fields import Label, Number, OneOf, counted, printable, shorten, suggest_nearest
+from ..file.fields import (
+    Label,
+    Number,
+    OneOf,
+    counted,
+    join_words,
+    printable,
+    shorten,
+    suggest_nearest,
+)
 from ..file.messages import RUNS, describe_finding, refuse_other_kind
 from ..file.read import TableReader
 from ..file.table import FileTable, Name, Size, Speed, Switch
@@ -34,6 +43,7 @@ if TYPE_CHECKING:
 
 _GRADE = re.compile(rf"\s*[Gg]\s*({BARE_FIGURE})\s*", re.ASCII)
 _POLAR = re.compile(rf"\s*({BARE_FIGURE})\s*@\s*({BARE_FIGURE})\s*(?:deg|°)?\s*", re.ASCII)
+_AT_RADIUS = re.compile(rf"\bat\s+({BARE_FIGURE})\s*([a-z]*)", re.ASCII)  # "10 g at 150 mm @ 0"
 _FARTHEST_DEG = 1e6
 FREE = "free"  # value of `places` for a plane that takes weights at any angle
 _AMOUNTS = Dimension("g", "a unit of mass or of unbalance", ("g", "oz", "g mm"))
@@ -172,6 +182,9 @@ class Run(FileTable):
     weights: dict[str, Weight] = Field(default_factory=dict)
     """Weights put on for this run: amount @ angle in degrees, by plane; left out: no weights.
     Example: { front = '1.15 @ 0' }"""
+    radius: dict[str, Size] = Field(default_factory=dict)
+    """Radius of the weights of this run, by plane; left out: the radius of the plane.
+    Example: { front = 150 }"""
     keep_trial: Switch = False
     """Whether these weights stay on in the later runs at this speed. Example: true"""
     speed: Speed | None = None
@@ -244,6 +257,18 @@ class RunsFile(FileTable):
         phases, angles = self.senses
         return weights if phases == angles else weights.conjugate()
 
+    def list_weights(self, run: Run) -> list[complex]:
+        """Return the weights that a run puts on, by plane, as amounts at the radius of the plane: a
+        weight w at another radius r counts as w r / R.
+        """
+        counted_weights = []
+        for k, plane in enumerate(self.planes):
+            weight = run.weights.get(plane, 0j)
+            if self.radius is not None and plane in run.radius:
+                weight = weight * (run.radius[plane] / self.radius[k])
+            counted_weights.append(weight)
+        return counted_weights
+
     def name_run(self, k: int) -> str:
         """Return the name of the run with the index k, or its number."""
         return self.run[k].name or f"run {k + 1}"
@@ -303,7 +328,23 @@ def _describe(path: str, finding: ErrorDetails, table: type[FileTable]) -> Probl
         value = shorten(finding["input"])
         text = f"{value} is one value; give one for each plane, such as {last} = [{value}, {value}]"
         return Problem(last, text)
-    return describe_finding(path, finding, table)
+    problem = describe_finding(path, finding, table)
+    radius = _find_radius(finding["input"]) if finding["loc"][0] == "weights" else ""
+    if not radius:
+        return problem
+    key = f"radius = {{ {last} = {radius} }} in this run"
+    return Problem(problem.path, f"{problem.message}; the radius has a key of its own: {key}")
+
+
+def _find_radius(weight: object) -> str:
+    """Return the radius in a weight such as "10 g at 150 mm @ 0", as a file has it; empty if there
+    is none.
+    """
+    match = _AT_RADIUS.search(weight) if isinstance(weight, str) else None
+    if match is None:
+        return ""
+    size, unit = match.groups()
+    return size if unit in ("", "mm") else f'"{size} {unit}"'
 
 
 def _find_misfits(file: RunsFile) -> Iterator[Problem]:
@@ -362,6 +403,20 @@ def _check_run(file: RunsFile, k: int, run: Run, sensors: int) -> Iterator[Probl
     if with_speed and run.speed is None:
         hint = f"run.{with_speed[0]} gives its speed, so every run must"
         yield Problem.of_missing(f"run.{k}.speed", hint)
-    for name in [name for name in run.weights if name not in file.planes]:
-        hint = suggest_nearest(name, file.planes, f"there are {', '.join(file.planes)}")
-        yield Problem(f"run.{k}.weights.{printable(name)}", f"is not a plane; {hint[:200]}")
+    for key in ("weights", "radius"):
+        for name in [name for name in getattr(run, key) if name not in file.planes]:
+            hint = suggest_nearest(name, file.planes, f"there are {', '.join(file.planes)}")
+            yield Problem(f"run.{k}.{key}.{printable(name)}", f"is not a plane; {hint[:200]}")
+    if run.radius and not file.weighs_masses:
+        yield Problem(
+            f"run.{k}.radius",
+            f"has no meaning for unbalances (weight_unit is {file.weight_unit}); leave it out, or "
+            "give weights as masses",
+        )
+    elif run.radius and file.radius is None:
+        sizes = join_words([f"{size:g} mm" for size in run.radius.values()])
+        yield Problem(
+            f"run.{k}.radius",
+            f"is {sizes}, but the radius of the corrections is unknown; give it in every plane, "
+            f"such as radius = {[200] * len(file.planes)} above the runs",
+        )

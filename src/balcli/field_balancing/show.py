@@ -134,6 +134,8 @@ def _show_g_mm(value: float | None, system: System) -> str:
 
 def _explain_corrections(result: FieldBalance) -> Iterator[str]:
     yield "Weights to add to the rotor as found, with all trial weights off."
+    if result.file.radius is not None and result.file.weighs_masses:
+        yield "Trial weights count at the radius of their plane unless a run gives its own."
     if result.trimmed:
         yield f"Add now: in addition to the weights of '{result.trimmed}'."
     yield (
