@@ -36,6 +36,14 @@ def test_harmonics_so_high_that_a_panel_holds_many_waves_of_them():
     assert np.abs(found[1::2]).max() < 5e-14
 
 
+def test_a_harmonic_alone_is_that_of_the_whole_row():
+    """Few harmonics are added up directly, many as products of two waves; blocks of angles add up."""
+    curve = polyline([0, 1, 4, TURN], [1, 3, -2, 1])
+    row = curve.harmonics(np.arange(4001))
+    for wanted in ([0, 1, 2], [3999, 4000], [63]):
+        assert curve.harmonics(wanted) == pytest.approx(row[wanted], rel=1e-11, abs=1e-13)
+
+
 def test_values_mean_and_integral():
     curve, angle = resolved(smooth, [0, 1, TURN]), np.linspace(-20, 20, 501).reshape(3, 167)
     np.testing.assert_allclose(curve.at(angle), smooth(angle), rtol=1e-13)

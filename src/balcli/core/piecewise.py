@@ -13,14 +13,14 @@ panels. A sum of forces is then a sum of samples, so that each force is computed
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.polynomial import legendre
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from .peaks import Peak
 from .phasors import Array, Complex
@@ -129,12 +129,12 @@ class PiecewiseCurve:
         shares = (2 * self.within(nodes) * weights).reshape(-1)
         # e^(-i k angle) with k = high * stride + low is a product of two waves of few different k
         stride = math.isqrt(top) + 1
+        if numbers.size <= stride:
+            return np.where(numbers == 0, self.mean, _add_waves(unit * numbers, angles, shares))
         low = unit * np.arange(stride)
         high = unit * np.arange(0, top + 1, stride)
         every = np.zeros((len(low), len(high)), np.complex128)
-        block = max(_MOST_WAVES // stride, 1)
-        for start in range(0, len(angles), block):
-            part = slice(start, start + block)
+        for part in _blocks(len(angles), len(low)):
             slow = np.exp(-1j * np.multiply.outer(low, angles[part]))
             fast = np.exp(-1j * np.multiply.outer(high, angles[part]))
             every += slow @ (fast * shares[part]).T
@@ -196,6 +196,21 @@ class PiecewiseCurve:
         middle, half = _find_middles(self.breaks)
         angle = middle[first] + half[first] * x[first]
         return Extreme(float(angle), sign * top if abs(top) > noise else 0.0)
+
+
+def _blocks(angles: int, waves: int) -> Iterator[slice]:
+    """Yield the parts of a row of angles at which this many waves take little memory."""
+    size = max(_MOST_WAVES // max(waves, 1), 1)
+    for start in range(0, angles, size):
+        yield slice(start, start + size)
+
+
+def _add_waves(numbers: Array, angles: Array, shares: Array) -> Complex:
+    """Return the sum over the angles of `share * e^(-i number angle)` for each number."""
+    total = np.zeros(numbers.shape, np.complex128)
+    for part in _blocks(len(angles), numbers.size):
+        total += np.exp(-1j * np.multiply.outer(numbers, angles[part])) @ shares[part]
+    return total
 
 
 def join(curves: Sequence[PiecewiseCurve]) -> PiecewiseCurve:
