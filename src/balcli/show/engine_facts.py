@@ -37,12 +37,15 @@ def speed_facts(engine: Engine, *, steady: bool = False) -> Facts:
 
 def name_cylinders(numbers: Sequence[int]) -> str:
     """Return a text for cylinders, such as "cylinders 1 and 4"."""
-    return f"cylinder{'s' * (len(numbers) > 1)} {join_words([*map(str, numbers)])}"
+    noun = "cylinders" if len(numbers) > 1 else "cylinder"
+    return f"{noun} {join_words([*map(str, numbers)])}"
 
 
 def tell_pivot(engine: Engine) -> str:
     """Return the name of the axis or point about which couple and roll are taken."""
-    return "the point of reference" if any(engine.reference_m[:2]) else "the crank axis"
+    if any(engine.reference_m[:2]):
+        return "the point of reference"
+    return "the crank axis"
 
 
 _TURNING = '"with the crank" means with the cylinders, which carry the counterweights'
@@ -59,50 +62,72 @@ def engine_facts(
         whole: Whether all facts are returned.
         speeds_rpm: Ascending speeds of the figures, if there are several.
     """
-    single = not engine.placed
-    reference = tell_reference(engine.reference_m, system, known=engine.places_known)
-    pairs = (
-        *(_list_mechanism(engine, system) if single else _list_placed(engine, system)),
-        *list_silent(engine.silent),
-        ("speed", _speeds(engine, speeds_rpm) if len(speeds_rpm) > 1 else tell_speed(engine)),
-        ("masses", _masses(engine, system, whole=whole) if single else ""),
-        ("devices", _tell_devices(engine)),
-        ("orders", _tell_orders(engine) if whole and single else ""),
-        ("reference", reference if whole or any(engine.reference_m) or not single else ""),
-        ("assumed", _tell_inferred(engine)),
-        ("source", engine.source if whole else ""),
-    )
+    pairs = _list_facts(engine, system, whole, speeds_rpm)
     return Facts(tuple((name, value) for name, value in pairs if value))
+
+
+def _list_facts(
+    engine: Engine, system: System, whole: bool, speeds_rpm: Sequence[float]
+) -> Iterator[tuple[str, str]]:
+    """Yield names and values of all facts; values without meaning for the engine are empty."""
+    single = not engine.placed
+    if single:
+        yield from _list_mechanism(engine, system)
+    else:
+        yield from _list_placed(engine, system)
+    yield from list_silent(engine.silent)
+    yield "speed", _speeds(engine, speeds_rpm) if len(speeds_rpm) > 1 else tell_speed(engine)
+    if single:
+        yield "masses", _masses(engine, system, whole=whole)
+    yield "devices", _tell_devices(engine)
+    if single and whole:
+        yield "orders", _tell_orders(engine)
+    if whole or any(engine.reference_m) or not single:
+        yield "reference", tell_reference(engine.reference_m, system, known=engine.places_known)
+    yield "assumed", _tell_inferred(engine)
+    if whole:
+        yield "source", engine.source
 
 
 def _list_mechanism(engine: Engine, system: System) -> Iterator[tuple[str, str]]:
     """Yield cylinders, crank and firing of a single engine."""
     yield "cylinders", f"{engine.cylinders.count}{_banks(engine)}{_bore(engine, system)}"
     plan = None if engine.model is None else plan_cylinders(engine.model)
-    yield "numbering", write_rows(list_numbers(plan)) if plan is not None and plan.in_rows else ""
+    if plan is not None and plan.in_rows:
+        yield "numbering", write_rows(list_numbers(plan))
     yield "crank", _crank(engine, system)
     yield "throws", _throws(engine)
-    yield "turning", _TURNING if engine.rotary else ""
+    if engine.rotary:
+        yield "turning", _TURNING
     yield "firing" if engine.fires_deg else "cycle", _firing(engine)
 
 
 def _list_placed(engine: Engine, system: System) -> Iterator[tuple[str, str]]:
     """Yield the cylinders of several engines together, then a line for each engine."""
-    volume = "" if math.isnan(engine.displacement_m3) else f", {_volume(engine, system)}"
-    yield "cylinders", f"{len(engine.numbers)} on {len(engine.placed)} cranks{volume}"
-    yield from ((one.name, _tell_placed(one, system)) for one in engine.placed)
+    text = f"{len(engine.numbers)} on {len(engine.placed)} cranks"
+    if not math.isnan(engine.displacement_m3):
+        text += f", {_volume(engine, system)}"
+    yield "cylinders", text
+    for placed in engine.placed:
+        yield placed.name, _tell_placed(placed, system)
 
 
 def _tell_orders(engine: Engine) -> str:
     """Return the highest order that is shown by default; empty if no order is higher."""
-    higher = find_relevant_orders(engine)[-1] > HIGHEST_ORDER_UNASKED
-    return f"to {HIGHEST_ORDER_UNASKED}; for higher ones use --orders" if higher else ""
+    if find_relevant_orders(engine)[-1] <= HIGHEST_ORDER_UNASKED:
+        return ""
+    return f"to {HIGHEST_ORDER_UNASKED}; for higher ones use --orders"
 
 
 def _tell_devices(engine: Engine) -> str:
     """Return how many devices are included; empty if there are none."""
-    count = len(engine.devices) + sum(len(one.engine.devices) for one in engine.placed)
-    return f"{count} from the file{'s' * bool(engine.placed)} included" if count else ""
+    count = len(engine.devices)
+    for placed in engine.placed:
+        count += len(placed.engine.devices)
+    if not count:
+        return ""
+    files = "the files" if engine.placed else "the file"
+    return f"{count} from {files} included"
 
 
 def tell_reference(point: Iterable[Figure], system: System, *, known: bool) -> str:
@@ -112,16 +137,18 @@ def tell_reference(point: Iterable[Figure], system: System, *, known: bool) -> s
     return f"moments about {tell_place(point, system)}"
 
 
-def _tell_placed(one: Placed, system: System) -> str:
+def _tell_placed(placed: Placed, system: System) -> str:
     """Return an engine's file, where it stands and how it turns."""
-    words = {
-        f"at {tell_place(one.at_m, system)}": True,
-        f"turned by {given(float(one.turn_deg))} deg": one.turn_deg,
-        f"leads by {given(float(one.phase_deg))} deg": one.phase_deg,
-        "turns against the first": one.ratio < 0,
-        "drives the load": one.load,
-    }
-    return ", ".join([one.file, *(word for word, counts in words.items() if counts)])
+    words = [placed.file, f"at {tell_place(placed.at_m, system)}"]
+    if placed.turn_deg:
+        words.append(f"turned by {given(float(placed.turn_deg))} deg")
+    if placed.phase_deg:
+        words.append(f"leads by {given(float(placed.phase_deg))} deg")
+    if placed.ratio < 0:
+        words.append("turns against the first")
+    if placed.load:
+        words.append("drives the load")
+    return ", ".join(words)
 
 
 def tell_place(point: Iterable[Figure], system: System) -> str:
@@ -145,17 +172,21 @@ def tell_speed(engine: Engine, *, steady: bool = False) -> str:
         engine: Engine at this speed.
         steady: Whether the figures ignore an uneven speed.
     """
-    counts = "uneven; all figures take this into account"
-    counts = "steady; the uneven speed of the file is not used" if steady else counts
-    uneven = f", {counts}" if engine.ripple else ""
-    return f"{given(float(engine.speed_rpm))} rpm{uneven}"
+    speed = f"{given(float(engine.speed_rpm))} rpm"
+    if not engine.ripple:
+        return speed
+    if steady:
+        return f"{speed}, steady; the uneven speed of the file is not used"
+    return f"{speed}, uneven; all figures take this into account"
 
 
 def _speeds(engine: Engine, speeds_rpm: Sequence[float]) -> str:
-    first, last = (given(float(speed)) for speed in (speeds_rpm[0], speeds_rpm[-1]))
-    same = engine.gas is not None and engine.gas.law is None
-    gas = "; gas as in the file at every speed" if same else ""
-    return f"{first} to {last} rpm, {len(speeds_rpm)} speeds{gas}"
+    first = given(float(speeds_rpm[0]))
+    last = given(float(speeds_rpm[-1]))
+    text = f"{first} to {last} rpm, {len(speeds_rpm)} speeds"
+    if engine.gas is not None and engine.gas.law is None:
+        text += "; gas as in the file at every speed"
+    return text
 
 
 def _throws(engine: Engine) -> str:
@@ -171,11 +202,15 @@ def _throws(engine: Engine) -> str:
     if (len(pins) == 1 and not lead) or engine.rotary:
         return ""
     angles = [f"{round(round(pins[throw][0], 6), 1) % 360:g}" for throw in sorted(pins)]
-    shown = ", ".join(angles[:THROWS_SHOWN])
-    more = ", …" * (len(pins) > THROWS_SHOWN)
-    start = "" if angles[0] == "0" else " from cylinder 1's pin"
-    splay = f", split pins: the next bank's pin at {lead:+g} deg" if lead else ""
-    return f"{shown}{more} deg{start}{splay}"
+    text = ", ".join(angles[:THROWS_SHOWN])
+    if len(pins) > THROWS_SHOWN:
+        text += ", …"
+    text += " deg"
+    if angles[0] != "0":
+        text += " from cylinder 1's pin"
+    if lead:
+        text += f", split pins: the next bank's pin at {lead:+g} deg"
+    return text
 
 
 def _banks(engine: Engine) -> str:
@@ -185,7 +220,9 @@ def _banks(engine: Engine) -> str:
     if len(axes) == 1:
         return " in line"
     shown = ", ".join(f"{axis:.4g}" for axis in axes[:AXES_SHOWN])
-    return f", banks at {shown}{' …' if len(axes) > AXES_SHOWN else ''} deg"
+    if len(axes) > AXES_SHOWN:
+        shown += " …"
+    return f", banks at {shown} deg"
 
 
 def _bore(engine: Engine, system: System) -> str:
@@ -200,7 +237,8 @@ def _bore(engine: Engine, system: System) -> str:
     if len(engine.cylinders.radius) == 1:
         nominal = number(unit.of(2 * float(engine.cylinders.radius[0])))
         true = number(unit.of(float(find_travel(engine.cylinders).stroke[first])))
-        stroke += f" (true stroke {true} {unit.name})" * (true != nominal)
+        if true != nominal:
+            stroke += f" (true stroke {true} {unit.name})"
     return f", bore × stroke {bore} × {stroke}, {_volume(engine, system)}"
 
 
@@ -217,8 +255,9 @@ def _crank(engine: Engine, system: System) -> str:
     first = engine.numbers.index(1)
     radius = float(c.radius_of_each[first])
     lam = float(c.lam[first if len(c.lam) > 1 else 0])
-    strokes = f"stroke {_list_strokes(engine, system)}, " if len(c.radius) > 1 else ""
-    r = f"{strokes}r = {number(unit.of(radius))} {unit.name}"
+    r = f"r = {number(unit.of(radius))} {unit.name}"
+    if len(c.radius) > 1:
+        r = f"stroke {_list_strokes(engine, system)}, {r}"
     if c.harmonic:
         return f"{r}, motion harmonic{_unequal(engine)}"
     ratio = given(lam, count_lambda_digits(lam, get_digits(4)))
@@ -246,11 +285,13 @@ def _masses(engine: Engine, system: System, *, whole: bool) -> str:
         return number(unit.of(float(kg)))
 
     text = f"reciprocating {shown(weighed.reciprocating)} {unit.name} per cylinder"
-    text += " (piston, rod's small end)" * whole
+    if whole:
+        text += " (piston, rod's small end)"
     if not engine.rotary:  # in a rotary engine the pins stand still
-        shells = ", shells and oil" if weighed.rod_bearing or weighed.oil else ""
         text += f", rotating {shown(weighed.rotating + weighed.share)} {unit.name} per rod"
-        text += f" (big end{shells}, share of the throw)" * whole
+        if whole:
+            shells = ", shells and oil" if weighed.rod_bearing or weighed.oil else ""
+            text += f" (big end{shells}, share of the throw)"
         on_pin = next(rows for rows in engine.rows_by_pin if row in rows)
         if len(on_pin) > 1 and engine.cylinders.linkage is None:
             sharing = [engine.weighed[k] for k in on_pin]
@@ -267,19 +308,20 @@ def _firing(engine: Engine) -> str:
     """Return the firing order, the intervals between firings, and the strokes of a cycle; without a
     firing order, only the strokes, and only if the file gives them or has gas.
     """
+    strokes = tell_strokes(engine)
     if not engine.fires_deg:
-        said = engine.model is not None and "strokes" in engine.model.layout.model_fields_set
-        return tell_strokes(engine) if said or engine.gas is not None else ""  # not assumed
+        written = engine.model is not None and "strokes" in engine.model.layout.model_fields_set
+        return strokes if written or engine.gas is not None else ""  # not assumed
     instants = [*engine.fires_deg.values(), 180.0 * engine.strokes]
     gaps = [b - a for a, b in pairwise(instants)]
-    intervals = f"every {gaps[0]:.4g}"
-    even = ""
-    splay = engine.splay_for_even_firing
+    intervals = f"every {gaps[0]:.4g} deg"
     if max(gaps) - min(gaps) >= EVEN_DEG:
-        intervals = f"after {', '.join(f'{gap:.4g}' for gap in gaps)}"
-        even = "" if splay is None else f" (crank.splay = {splay:g} makes them equal)"
+        intervals = f"after {', '.join(f'{gap:.4g}' for gap in gaps)} deg"
+        splay = engine.splay_for_even_firing
+        if splay is not None:
+            intervals += f" (crank.splay = {splay:g} makes them equal)"
     order = "-".join(map(str, engine.fires_deg))
-    return f"{order}, {intervals} deg{even}, {tell_strokes(engine)}"
+    return f"{order}, {intervals}, {strokes}"
 
 
 def tell_strokes(engine: Engine) -> str:

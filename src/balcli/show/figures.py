@@ -203,7 +203,9 @@ class OrdersAndPeaks:
     @property
     def peaks(self) -> list[tuple[Kind, Peak]]:
         """Each kind whose peak was computed, with its peak."""
-        return list(zip((FORCE, MOMENT), self.peak, strict=True)) if hasattr(self, "peak") else []
+        if not hasattr(self, "peak"):
+            return []
+        return list(zip((FORCE, MOMENT), self.peak, strict=True))
 
 
 class FigureRow(NamedTuple):
@@ -245,8 +247,8 @@ def describe_state(engine: Engine) -> EngineState:
 
 def silent_entries(silent: SilentCylinders) -> dict[str, tuple[CylinderNumber, ...]]:
     """Return the cylinders without gas, and those that compress but burn nothing, by number."""
-    each = {"no_gas_in": silent.without_gas, "no_burning_in": silent.without_burning}
-    return {key: numbers for key, numbers in each.items() if numbers}
+    entries = {"no_gas_in": silent.without_gas, "no_burning_in": silent.without_burning}
+    return {key: numbers for key, numbers in entries.items() if numbers}
 
 
 def clean(value: Figure) -> float | None:
@@ -259,15 +261,16 @@ def clean(value: Figure) -> float | None:
 def list_orders(spectra: Spectra) -> list[OrderFigures]:
     """Return one record for each order, with the computed kinds of force and moment."""
     free: dict[Kind, type[Vector]] = {FORCE: FreeForce, MOMENT: FreeMoment}
-    columns: Node = {
-        kind.key: list_vectors(phasors, free[kind], spectra.up_deg)
-        for kind, phasors in spectra.vectors()
-    }
-    columns |= {kind.key: list_harmonics(phasors) for kind, phasors in spectra.scalars()}
-    return [
-        OrderFigures(order=order, **{key: column[k] for key, column in columns.items()})
-        for k, order in enumerate(map(order_number, spectra.orders))
-    ]
+    columns: Node = {}
+    for kind, phasors in spectra.vectors():
+        columns[kind.key] = list_vectors(phasors, free[kind], spectra.up_deg)
+    for kind, phasors in spectra.scalars():
+        columns[kind.key] = list_harmonics(phasors)
+    orders = []
+    for k, order in enumerate(map(order_number, spectra.orders)):
+        figures = {key: column[k] for key, column in columns.items()}
+        orders.append(OrderFigures(order=order, **figures))
+    return orders
 
 
 def list_vectors(
@@ -277,9 +280,11 @@ def list_vectors(
     if `up_deg` is given.
     """
     p = phasors
-    columns = (column.tolist() for column in (p.forward, p.backward, p.major, p.minor, p.axis_deg))
-    upright = () if up_deg is None else _list_components(p.turn(-up_deg))
-    return list(map(record, *columns, *_list_components(p), p.balanced.tolist(), *upright))
+    columns = [column.tolist() for column in (p.forward, p.backward, p.major, p.minor, p.axis_deg)]
+    columns += [*_list_components(p), p.balanced.tolist()]
+    if up_deg is not None:
+        columns += _list_components(p.turn(-up_deg))
+    return list(map(record, *columns))
 
 
 def _list_components(phasors: Phasors) -> Iterator[list[Component]]:
@@ -352,14 +357,12 @@ def figure_rows(
     """
     unknown = () if result.moments_known else (MOMENT,)
     for cylinder, spectra in ((0, result.spectra), *shares.items()):
-        entries = write_each(list_orders(spectra))
-        kinds = [kind for kind, _ in spectra.items()]
-        for entry in entries:
+        kinds = [kind for kind, _ in spectra.items() if kind not in unknown]
+        for entry in write_each(list_orders(spectra)):
             for kind in kinds:
-                if kind not in unknown:
-                    unit = system.unit(kind)
-                    figures = entry[kind.key]
-                    yield from order_rows(kind.name, entry["order"], figures, unit, cylinder)
+                unit = system.unit(kind)
+                figures = entry[kind.key]
+                yield from order_rows(kind.name, entry["order"], figures, unit, cylinder)
     for kind, peak in result.peaks:
         if kind not in unknown:
             yield from peak_rows(kind.name, peak, system.unit(kind))

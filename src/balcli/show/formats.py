@@ -54,7 +54,9 @@ class Rows(NamedTuple):
 
 def csv_text(results: Sequence[Rows]) -> str:
     """Return the lines of all results under the header of the first; None becomes an empty cell."""
-    lines = [results[0].header, *(line for rows in results for line in rows.lines)]
+    lines: list[Sequence[object]] = [results[0].header]
+    for rows in results:
+        lines += rows.lines
     return "".join(",".join(map(_cell, line)) + "\n" for line in lines)
 
 
@@ -72,7 +74,9 @@ def _cell(value: object) -> str:
     if isinstance(value, bool):
         return str(value).lower()
     text = str(value)
-    return '"' + text.replace('"', '""') + '"' if _PARTED.search(text) else text
+    if _PARTED.search(text):
+        return '"' + text.replace('"', '""') + '"'
+    return text
 
 
 def json_text(document: object) -> str:
@@ -113,9 +117,9 @@ class Units(StrEnum):
 Shown = TypeVar("Shown")
 
 
-def write_named(one: NamedResult[Shown]) -> Node:
+def write_named(named: NamedResult[Shown]) -> Node:
     """Return the JSON document of a named result; the document has the engine's name already."""
-    return to_document(one.result)
+    return to_document(named.result)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -177,5 +181,7 @@ def lay_out(sheets: list[Sheet], form: Format, *, seen: bool) -> str:
     """
     if form is Format.MARKDOWN:
         return markdown(sheets)
-    styled = seen and not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb"
-    return write_text(sheets, get_terminal_size().columns if seen else None, styled=styled)
+    if not seen:
+        return write_text(sheets)
+    styled = not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb"
+    return write_text(sheets, get_terminal_size().columns, styled=styled)

@@ -46,19 +46,28 @@ def html_text(sheet: Sheet, doubts: tuple[str, ...] = ()) -> str:
         sheet: Sheet to write.
         doubts: Doubts about the result, in words.
     """
-    doubtful = (Text("Doubtful", doubts),) if doubts else ()
-    blocks = "".join(map(_block, (*sheet.parts, *doubtful)))
-    return f"<div>\n<h4>{escape(sheet.title)}</h4>\n{blocks}</div>"
+    blocks = [_block(part) for part in sheet.parts]
+    if doubts:
+        blocks.append(_block(Text("Doubtful", doubts)))
+    return f"<div>\n<h4>{escape(sheet.title)}</h4>\n{''.join(blocks)}</div>"
 
 
 def _block(part: Grid | Facts | Text) -> str:
     text = f"<p><b>{escape(part.title)}</b></p>\n" if part.title else ""
-    if isinstance(part, Text):
-        return text + "".join(f"<p>{escape(paragraph)}</p>\n" for paragraph in part.paragraphs)
-    if isinstance(part, Facts):
-        pairs = (_cell("th", name, "left") + _cell("td", fact, "left") for name, fact in part.pairs)
-        return f"{text}<table>\n{''.join(map(_row, pairs))}</table>\n"
-    return text + _write_table(part)
+    match part:
+        case Text():
+            return text + "".join(f"<p>{escape(line)}</p>\n" for line in part.paragraphs)
+        case Facts():
+            return text + _write_facts(part)
+        case Grid():
+            return text + _write_table(part)
+
+
+def _write_facts(facts: Facts) -> str:
+    rows = ""
+    for name, value in facts.pairs:
+        rows += _row(_cell("th", name, "left") + _cell("td", value, "left"))
+    return f"<table>\n{rows}</table>\n"
 
 
 def _write_table(grid: Grid) -> str:
@@ -83,4 +92,7 @@ def _row(cells: str) -> str:
 
 def _cell(tag: str, text: str, side: str, marked: bool = False) -> str:
     style = f' style="text-align: {side}"' if side else ""
-    return f"<{tag}{style}>{f'<b>{escape(text)}</b>' if marked else escape(text)}</{tag}>"
+    content = escape(text)
+    if marked:
+        content = f"<b>{content}</b>"
+    return f"<{tag}{style}>{content}</{tag}>"

@@ -7,7 +7,7 @@ clockwise. If the file gives `frame.up`, that direction is up in the pictures.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -37,9 +37,11 @@ def set_up_plane(ax: Axes, largest: float, names: Sequence[str] = (), unit: str 
         names: Names of the upward and rightward components, for the axes; empty: no labels.
         unit: Unit of the axes.
     """
-    up, right = (f"{name}, {unit}" for name in names) if names else ("", "")
     limit = 1.25 * (largest or 1.0)
-    ax.set(xlim=(-limit, limit), ylim=(-limit, limit), aspect="equal", xlabel=right, ylabel=up)
+    ax.set(xlim=(-limit, limit), ylim=(-limit, limit), aspect="equal")
+    if names:
+        up, right = names
+        ax.set(xlabel=f"{right}, {unit}", ylabel=f"{up}, {unit}")
     ax.locator_params(nbins=5)
     ax.axhline(0, color=SOFT, linewidth=0.7, zorder=1)
     ax.axvline(0, color=SOFT, linewidth=0.7, zorder=1)
@@ -67,12 +69,15 @@ def draw_path(ax: Axes, path: Complex, crank_deg: Array, step: float, limit: flo
     written: list[complex] = []
     for mark, place, out in zip(marks[::2], at[::2], normal[::2], strict=True):
         spot = place + 0.085 * limit * out / (abs(out) or 1)
-        if all(
-            abs(spot.real - other.real) > 0.07 * limit or abs(spot.imag - other.imag) > 0.16 * limit
-            for other in written
-        ):
+        if not any(_would_overlap(spot, other, limit) for other in written):
             ax.text(spot.imag, spot.real, f"{mark:g}°", zorder=1.5, **_CENTERED)
             written.append(spot)
+
+
+def _would_overlap(place: complex, other: complex, limit: float) -> bool:
+    """Return whether crank angles written at two places would overlap."""
+    apart = place - other
+    return abs(apart.real) <= 0.07 * limit and abs(apart.imag) <= 0.16 * limit
 
 
 def draw_locus(
@@ -157,12 +162,12 @@ def draw_loci(
     """Draw the paths of the tips of several vectors, by name, over a revolution. Line widths
     differ, so that equal vectors remain visible.
     """
-    largest = [float(find_largest(curve)) for curve in curves.values()]
-    s = unit.fit(max(largest))
-    sizes = (size_text(size, unit, 4) if size else NOTHING for size in largest)
-    labels = [f"{name}: {size}" for name, size in zip(curves, sizes, strict=True)]
-    every = (values_over_period(curve) / s.size for curve in curves.values())
-    paths = dict(zip(labels, every, strict=True))
+    largest = {name: float(find_largest(curve)) for name, curve in curves.items()}
+    s = unit.fit(max(largest.values()))
+    paths = {}
+    for name, curve in curves.items():
+        size = size_text(largest[name], unit, 4) if largest[name] else NOTHING
+        paths[f"{name}: {size}"] = values_over_period(curve) / s.size
     draw_paths(ax, paths, names, s.name, taper=0.7)
     ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.1))
 
@@ -243,26 +248,45 @@ def draw_star(ax: Axes, star: Star, turn_deg: float) -> None:
         turn_deg: Angle by which the picture is turned.
     """
     rays = _list_rays(star, "force", turn_deg)
-    largest = max(abs(vector) for vector, _, _ in rays)
+    largest = max(abs(ray.vector) for ray in rays)
     ax.set(title=f"order {order_name(star.order)}, {_WAYS[star.turns]}")
     _set_up_square(ax, 0j, 1.4)
     ax.plot([0], [0], "o", color=INK, markersize=4)
-    for vector, _, bank in rays:
-        _draw_arrow(ax, 0j, vector / largest, **_look(bank, len(star.banks)))
-    _write_numbers(ax, ((v / largest, 2 * _GAP * v / abs(v), name) for v, name, _ in rays))
+    numbers = []
+    for ray in rays:
+        tip = ray.vector / largest
+        _draw_arrow(ax, 0j, tip, **_look(ray.bank, len(star.banks)))
+        numbers.append(_Number(tip, 2 * _GAP * ray.vector / abs(ray.vector), ray.cylinder))
+    _write_numbers(ax, numbers)
 
 
-def _list_rays(star: Star, quantity: str, turn_deg: float) -> list[tuple[complex, str, int]]:
-    """Return the turned vectors that are not 0, with the numbers of their cylinders and banks, bank
-    by bank and by direction within a bank.
-    """
+class _Ray(NamedTuple):
+    """A drawn vector of a star, its cylinder, and the number of its bank."""
+
+    vector: complex
+    cylinder: str
+    bank: int
+
+
+class _Number(NamedTuple):
+    """The number of a cylinder, its place in a picture, and its shift from this place."""
+
+    place: complex
+    shift: complex
+    text: str
+
+
+def _list_rays(star: Star, quantity: str, turn_deg: float) -> list[_Ray]:
+    """Return the turned vectors that are not 0, bank by bank and by direction within a bank."""
     turn = complex(unit_vector(turn_deg))
-    return [
-        (turn * getattr(ray, quantity), str(ray.cylinder), bank)
-        for bank, own in enumerate(star.banks)
-        for ray in sorted(own.cylinders, key=lambda ray: find_direction(getattr(ray, quantity)))
-        if getattr(ray, quantity)
-    ]
+    rays = []
+    for bank, own in enumerate(star.banks):
+        by_direction = sorted(own.cylinders, key=lambda ray: find_direction(getattr(ray, quantity)))
+        for ray in by_direction:
+            vector = getattr(ray, quantity)
+            if vector:
+                rays.append(_Ray(turn * vector, str(ray.cylinder), bank))
+    return rays
 
 
 def draw_polygon(ax: Axes, star: Star, quantity: str, turn_deg: float, unit: ShownUnit) -> None:
@@ -277,7 +301,7 @@ def draw_polygon(ax: Axes, star: Star, quantity: str, turn_deg: float, unit: Sho
         unit: Unit of the vectors.
     """
     rays = _list_rays(star, quantity, turn_deg)
-    corners = np.cumsum([0j, *(vector for vector, _, _ in rays)])
+    corners = np.cumsum([0j, *(ray.vector for ray in rays)])
     spans = np.ptp(corners.real), np.ptp(corners.imag)
     limit = 0.62 * float(max(spans)) or 1.0
     middle = complex(corners.real.min(), corners.imag.min()) + complex(*spans) / 2
@@ -286,21 +310,22 @@ def draw_polygon(ax: Axes, star: Star, quantity: str, turn_deg: float, unit: Sho
     _set_up_square(ax, middle, limit)
     shift = 0j
     last = 0j
-    places = []
-    for (vector, name, bank), start in zip(rays, corners, strict=False):
-        way = vector / abs(vector)
+    numbers = []
+    for ray, start in zip(rays, corners, strict=False):
+        way = ray.vector / abs(ray.vector)
         if abs(way + last) < _SAME:  # the vector runs back along the one before it
             shift += 1j * last * _GAP * limit
         last = way
         place = complex(start) + shift
-        _draw_arrow(ax, place, place + vector, **_look(bank, len(star.banks)))
-        places.append((place + vector / 2, -1j * way * _GAP * limit, name))
-    _write_numbers(ax, places)
+        _draw_arrow(ax, place, place + ray.vector, **_look(ray.bank, len(star.banks)))
+        numbers.append(_Number(place + ray.vector / 2, -1j * way * _GAP * limit, ray.cylinder))
+    _write_numbers(ax, numbers)
     if total:
-        straight = all(abs((vector / total).imag) < _SAME for vector, _, _ in rays)
-        across = straight * 1j * _GAP * limit * total / abs(total)
+        beside = 0j  # a sum along a straight line of vectors is drawn beside them
+        if all(abs((ray.vector / total).imag) < _SAME for ray in rays):
+            beside = 1j * _GAP * limit * total / abs(total)
         look: Look = {"color": INK, "linewidth": 1.6, "linestyle": (0, (4, 2))}
-        _draw_arrow(ax, across, across + total, mutation_scale=11, **look)
+        _draw_arrow(ax, beside, beside + total, mutation_scale=11, **look)
     else:
         ax.plot([0], [0], "o", color=INK, markersize=4)
 
@@ -320,15 +345,27 @@ def _set_up_square(ax: Axes, middle: complex, limit: float) -> None:
     ax.set_axis_off()
 
 
-def _write_numbers(ax: Axes, numbers: Iterable[tuple[complex, complex, str]]) -> None:
-    """Write each number (place, shift and text) at its place plus its shift; where
-    numbers would overlap, they stand side by side.
+def _write_numbers(ax: Axes, numbers: Iterable[_Number]) -> None:
+    """Write each number at its place plus its shift; where numbers would overlap, they stand side
+    by side.
     """
-    found: dict[complex, tuple[complex, list[str]]] = {}
-    for place, out, name in numbers:
-        near = (one for one, (way, _) in found.items() if abs(one + way - place - out) < abs(out))
-        found.setdefault(next(near, place), (out, []))[1].append(name)
-    for place, (out, names) in found.items():
-        wide = abs(out.imag) / abs(out)  # share of the shift along the text
-        spot = place + out * (1 + 0.5 * wide * (len(names) - 1))
-        ax.text(spot.imag, spot.real, ", ".join(names), **_CENTERED)
+    groups: list[list[_Number]] = []
+    for shown in numbers:
+        for group in groups:
+            if _overlap(group[0], shown):
+                group.append(shown)
+                break
+        else:
+            groups.append([shown])
+    for group in groups:
+        place, shift, _ = group[0]
+        wide = abs(shift.imag) / abs(shift)  # share of the shift along the text
+        spot = place + shift * (1 + 0.5 * wide * (len(group) - 1))
+        text = ", ".join(shown.text for shown in group)
+        ax.text(spot.imag, spot.real, text, **_CENTERED)
+
+
+def _overlap(first: _Number, other: _Number) -> bool:
+    """Return whether two numbers would overlap."""
+    apart = first.place + first.shift - other.place - other.shift
+    return abs(apart) < abs(other.shift)

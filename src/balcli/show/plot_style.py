@@ -158,8 +158,11 @@ def fit_name(name: str, most: int = 90) -> str:
         name: Any text.
         most: Largest number of letters.
     """
-    text = " ".join("".join(c if c.isprintable() else " " for c in name).split())
-    return text if len(text) <= most else text[: most - 1].rstrip() + "…"
+    printable = [letter if letter.isprintable() else " " for letter in name]
+    text = " ".join("".join(printable).split())
+    if len(text) <= most:
+        return text
+    return text[: most - 1].rstrip() + "…"
 
 
 def put_title(fig: Figure, text: str) -> None:
@@ -171,7 +174,9 @@ def put_title(fig: Figure, text: str) -> None:
     """
     wide = any(east_asian_width(letter) in "WF" for letter in text)
     letters = int(fig.get_figwidth() / (_WIDE_LETTER if wide else _LETTER))
-    lines = [part for line in text.splitlines() for part in wrap(line, letters)]
+    lines = []
+    for line in text.splitlines():
+        lines += wrap(line, letters)
     fig.suptitle("\n".join(lines), x=0.01, ha="left")
 
 

@@ -83,10 +83,11 @@ class Result:
         """Return one dict for each row, for a DataFrame of any library. All have the same keys;
         missing values are None.
         """
-        found = list_columns(self).values
-        lists = [v.tolist() if isinstance(v, np.ndarray) else v for v in found.values()]
-        lines = zip(*lists, strict=True)
-        return [dict(zip(found, map(_none_for_nan, line), strict=True)) for line in lines]
+        lists = {}
+        for name, values in list_columns(self).values.items():
+            lists[name] = values.tolist() if isinstance(values, np.ndarray) else values
+        lines = zip(*lists.values(), strict=True)
+        return [dict(zip(lists, map(_none_for_nan, line), strict=True)) for line in lines]
 
     def to_pandas(self) -> pandas.DataFrame:
         """Return the rows as a DataFrame. `attrs["units"]` has the units of columns, unless they
@@ -99,9 +100,9 @@ class Result:
             import pandas
         except ImportError:
             raise BalcliError("to_pandas() needs pandas: pip install pandas") from None
-        found = list_columns(self)
-        frame = pandas.DataFrame(dict(found.values))
-        frame.attrs["units"] = dict(found.units)
+        columns = list_columns(self)
+        frame = pandas.DataFrame(dict(columns.values))
+        frame.attrs["units"] = dict(columns.units)
         return frame
 
     def to_parquet(self, path: str | Path) -> None:
@@ -115,12 +116,14 @@ class Result:
             from pyarrow import parquet
         except ImportError:
             raise BalcliError("to_parquet() needs pyarrow: pip install balcli[scale]") from None
-        found = list_columns(self)
-        arrays = [pyarrow.array(column, from_pandas=True) for column in found.values.values()]
-        fields = [
-            pyarrow.field(name, array.type, metadata={"unit": found.units.get(name, "")})
-            for name, array in zip(found.values, arrays, strict=True)
-        ]
+        columns = list_columns(self)
+        arrays = []
+        fields = []
+        for name, values in columns.values.items():
+            array = pyarrow.array(values, from_pandas=True)
+            arrays.append(array)
+            unit = {"unit": columns.units.get(name, "")}
+            fields.append(pyarrow.field(name, array.type, metadata=unit))
         about = {"balcli.version": __version__, "balcli.result": type(self).__name__}
         table = pyarrow.table(arrays, schema=pyarrow.schema(fields, metadata=about))
         with replacing(Path(path)) as place:
@@ -148,10 +151,11 @@ def list_columns(result: Result) -> Columns:
     """Return the columns of a result: those of its renderer, or those of its CSV."""
     renderer = find_renderer(result)
     if renderer.columns is None and isinstance(renderer, Renderer):
-        found = _read_columns(renderer.rows(result, SI))
+        columns = _read_columns(renderer.rows(result, SI))
     elif renderer.columns is not None:
-        found = renderer.columns(result)
-    return found._replace(values={k: _fill_gaps(column) for k, column in found.values.items()})
+        columns = renderer.columns(result)
+    filled = {name: _fill_gaps(values) for name, values in columns.values.items()}
+    return columns._replace(values=filled)
 
 
 def _fill_gaps(column: Values) -> Values:
@@ -160,7 +164,9 @@ def _fill_gaps(column: Values) -> Values:
     """
     if isinstance(column, np.ndarray) or None not in column:
         return column
-    return column if any(isinstance(value, str) for value in column) else np.array(column, float)
+    if any(isinstance(value, str) for value in column):
+        return column
+    return np.array(column, float)
 
 
 def _read_columns(rows: Rows) -> Columns:
@@ -184,11 +190,15 @@ def _read_columns(rows: Rows) -> Columns:
 
 def _number(cell: object) -> float | None:
     """Return a cell as a number; None if it is not a number."""
-    return float(cell) if isinstance(cell, (int, float)) and not isinstance(cell, bool) else None
+    if isinstance(cell, (int, float)) and not isinstance(cell, bool):
+        return float(cell)
+    return None
 
 
 def _word(cell: object) -> str | None:
     """Return a cell as text; None for a number and an empty cell."""
     if isinstance(cell, bool):
         return str(cell).lower()
-    return cell if isinstance(cell, str) and cell else None
+    if isinstance(cell, str) and cell:
+        return cell
+    return None

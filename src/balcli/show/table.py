@@ -40,15 +40,19 @@ def write_text(sheets: Sequence[Sheet], width: int | None = None, *, styled: boo
         width: Width of the terminal; None: no terminal shows the text, and no table is divided.
         styled: Whether escape sequences make titles bold and notes dim.
     """
-    lines = (line for sheet in sheets for line in _lines(sheet, width))
-    return "\n".join(
-        "".join(_paint(text, style * styled) for text, style in line).rstrip() for line in lines
-    )
+    written = []
+    for sheet in sheets:
+        for line in _lines(sheet, width):
+            pieces = [_paint(text, style if styled else _PLAIN) for text, style in line]
+            written.append("".join(pieces).rstrip())
+    return "\n".join(written)
 
 
 def _paint(text: str, style: str) -> str:
     text = legible(text)
-    return f"\x1b[{style}m{text}\x1b[0m" if style and text.strip() else text
+    if style and text.strip():
+        return f"\x1b[{style}m{text}\x1b[0m"
+    return text
 
 
 def _lines(sheet: Sheet, terminal: int | None) -> Iterator[list[Piece]]:
@@ -62,14 +66,19 @@ def _lines(sheet: Sheet, terminal: int | None) -> Iterator[list[Piece]]:
             case Grid():
                 for grid in _divide(part, width) if terminal else (part,):
                     yield from _grid_lines(grid, width)
-                for note in part.note.split("\n"):
-                    yield from ([(line, _DIM)] for line in fold(note, width) if line)
+                yield from _prose_lines(filter(None, part.note.split("\n")), width, _DIM)
             case Facts():
                 yield from _fact_lines(part, width)
             case Text():
-                for paragraph in part.paragraphs:
-                    yield from ([(line, _PLAIN)] for line in fold(paragraph, width))
+                yield from _prose_lines(part.paragraphs, width, _PLAIN)
     yield []
+
+
+def _prose_lines(paragraphs: Iterable[str], width: int, style: str) -> Iterator[list[Piece]]:
+    """Yield the lines of paragraphs; that of an empty paragraph is empty."""
+    for paragraph in paragraphs:
+        for line in fold(paragraph, width):
+            yield [(line, style)]
 
 
 def _divide(grid: Grid, width: int) -> Iterator[Grid]:
@@ -140,7 +149,8 @@ def _measure_heads(column: Column) -> _Width:
 
 
 def _longest_word(texts: Iterable[str]) -> int:
-    return max((count_places(word) for text in texts for word in text.split()), default=1)
+    words = chain.from_iterable(text.split() for text in texts)
+    return max(map(count_places, words), default=1)
 
 
 def _share_out(width: int, least: Sequence[int], natural: Sequence[int], gap: int) -> list[int]:
@@ -156,7 +166,8 @@ def _share_out(width: int, least: Sequence[int], natural: Sequence[int], gap: in
     widths = list(least)
     for _ in range(width - sum(widths) - gap * (len(widths) - 1)):
         lacking = [wanted - got for wanted, got in zip(natural, widths, strict=True)]
-        widths[lacking.index(max(lacking))] += max(lacking) > 0
+        if max(lacking) > 0:
+            widths[lacking.index(max(lacking))] += 1
     return widths
 
 
@@ -246,11 +257,13 @@ def _part(part: Grid | Facts | Text) -> str:
         case Grid():
             blocks = ["\n".join(_list_rows(part)), escape(part.note)]
         case Facts():
-            blocks = ["\n".join(f"- {escape(name)}: {escape(value)}" for name, value in part.pairs)]
+            lines = [f"- {escape(name)}: {escape(value)}" for name, value in part.pairs]
+            blocks = ["\n".join(lines)]
         case Text():
             blocks = list(map(escape, part.paragraphs))
-    head = f"## {escape(part.title)}" if part.title else ""
-    return "\n\n".join(filter(None, (head, *blocks)))
+    if part.title:
+        blocks.insert(0, f"## {escape(part.title)}")
+    return "\n\n".join(filter(None, blocks))
 
 
 def _list_rows(grid: Grid) -> Iterator[str]:

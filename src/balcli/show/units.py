@@ -87,8 +87,10 @@ class System(NamedTuple):
         """Return this system's unit in place of the SI unit with this name; other units (rpm, deg)
         are kept.
         """
-        pairs = zip(SI, self, strict=True)
-        return next((ours for si, ours in pairs if si.name == name), ShownUnit(name, 1))
+        for of_si, ours in zip(SI, self, strict=True):
+            if of_si.name == name:
+                return ours
+        return ShownUnit(name, 1)
 
 
 SI = System(
@@ -133,8 +135,10 @@ def unit_of_name(name: str) -> ShownUnit:
     """Return the unit with this name. Units of force, moment and stress have larger units for large
     values.
     """
-    scaled = (SI.force, SI.moment, SI.stress)
-    return next((unit for unit in scaled if unit.name == name), ShownUnit(name, 1))
+    for unit in (SI.force, SI.moment, SI.stress):
+        if unit.name == name:
+            return unit
+    return ShownUnit(name, 1)
 
 
 def name_with_unit(name: str, unit: str) -> str:
