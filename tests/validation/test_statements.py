@@ -86,6 +86,37 @@ def two_vectors():
     return form(G / 2), form(pi / 2), banks(G, A)
 
 
+def roll_of_forces(g, turns, beta_1, beta_2, b_1=1.0, b_2=1.0):
+    """Roll moment of the two vectors at b e^(i beta), for K = 1; the vectors from samples of the banks' force."""
+    samples = banks(g, A_TURN)
+    against, with_crank = ((samples * exp(way * A_TURN)).mean() for way in (2j, -2j))
+    moments = [
+        b * exp(-E * beta) * vector * exp(way * turns)
+        for b, beta, vector, way in ((b_1, beta_1, against, -2j), (b_2, beta_2, with_crank, 2j))
+    ]
+    return sum(moments).imag
+
+
+@check("liu, (2.1)")
+def roll_of_two_shafts():
+    """At gamma = 40 deg, of the weights of the shafts, which are opposite to the vectors."""
+    g, beta_1, beta_2 = 2 * pi / 9, 0.4, 1.1
+    f_1, f_2 = cos(g / 2), cos(1.5 * g)
+
+    def form(f_1, f_2):
+        sines = f_1 * sin(beta_1) - f_2 * sin(beta_2)
+        return sines * sin(2 * A) - (f_1 * cos(beta_1) + f_2 * cos(beta_2)) * cos(2 * A)
+
+    return form(f_1, -abs(f_2)), form(f_1, f_2), -roll_of_forces(g, A, beta_1, beta_2)
+
+
+@check("liu, (4.2) and (5.3), angles of the shafts")
+def angles_of_shafts():
+    """At 90 deg, where the radii are equal: no roll moment."""
+    equal, opposite = (roll_of_forces(pi / 2, A, 0.7, beta_2) for beta_2 in (0.7, -0.7))
+    return equal, opposite, 0 * A
+
+
 @check("liu, (4.2)")
 def ratio_of_radii():
     """Sizes of b_2/b_1: moments |F| b of both vectors are equal, F from samples of the force of both banks."""
@@ -218,6 +249,32 @@ def sideways_speed():
     """Of the middle of the rod, r = R, omega = 1."""
     rod = R / LAM
     return 0.5 * rod * R * cos(A), 0.5 * rod * LAM * cos(A), derivative(lambda a: 0.5 * rod * LAM * sin(a), A)
+
+
+@check("kvasnikov, before (11), X_0 with m S_b/l")
+def force_of_order_2():
+    """Of a mass at the piston pin; the reference is a mean over a turn."""
+    theta = np.arange(0, 2 * pi, pi / 180)
+    a_2 = closed_form.piston([2], np.array([LAM]))[0, 0]
+    measured = 2 * (slidercrank.acceleration(theta, LAM) * cos(2 * theta)).mean()
+    return MR / R * a_2, MR * OMEGA**2 * a_2, MR * OMEGA**2 * measured
+
+
+@check("kvasnikov, before (14), mass at the crank pin")
+def mass_at_the_pin():
+    """A counterweight of the same unbalance stands at twice the radius."""
+    m_b = MR / R
+    return MR / (2 * R), m_b, abs(second(lambda t: MR * exp(E * t), 0.0)) / R
+
+
+@check("kvasnikov, before (18), mass that falls with S_b")
+def mass_that_falls():
+    """A rod of mass 2 and length 3 whose S_b falls from 1 to 0.9; moments about the crank pin B."""
+
+    def at_piston_and_pin(s_b):
+        return np.linalg.solve([[1, 1], [3, 0]], [2, 2 * s_b])
+
+    return 2 * (2.1 - 2) / 3, 2 * (0.9 - 1) / 3, (at_piston_and_pin(0.9) - at_piston_and_pin(1.0))[0]
 
 
 @check("kvasnikov, after Table II")
@@ -372,6 +429,9 @@ CHECKS |= {
     # In units of lambda m_h r omega^2.
     "liu, section 3": lambda: (2 * 4 * cos(pi / 6), 2 * 2 * cos(pi / 6), 4 * abs(banks(pi / 3, A)).max()),
     "liu, before (6.13), extreme of Zx": lambda: (-0.963, -0.962, round(cos(np.radians(164.2)), 3)),
+    # What follows 0.384, in millionths.
+    "liu, before (6.13), Zy with more digits": lambda: (935, 835, round(1e6 * (0.962218 - 0.577383 - 0.384), 6)),
+    "liu, before section 7, 3 sqrt 6": lambda: (7.34, 7.35, round(3 * sqrt(6), 2)),
     "liu, after (6.21), gamma = 0": lambda: (4 * cos(2 * A) ** 2, 20 * cos(2 * A) ** 2, hessian(z_y, 0.0, A)),
     "liu, after (6.21), gamma = pi": lambda: (4 * cos(2 * A) ** 2, -4 * sin(2 * A) ** 2, hessian(z_y, pi, A)),
     # Printed: the general formula without its first term.
