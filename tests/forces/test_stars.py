@@ -119,8 +119,8 @@ def test_in_the_answer():
     assert [star.order for star in analyze(five, why=True).stars] == [1, 1, 2, 2]
     (ahead, _) = to_document(analyze(five, [2], "force", why=True))["stars"]
     assert set(ahead) == {"order", "turns", "force_N", "force_deg", "banks"}
-    assert analyze(five).stars is None
-    assert analyze(five, only="moment", why=True).stars is None
+    assert not hasattr(analyze(five), "stars")
+    assert not hasattr(analyze(five, only="moment", why=True), "stars")
 
 
 def arrows(ax):
