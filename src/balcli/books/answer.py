@@ -30,7 +30,7 @@ from ..file.model import EngineFile
 from ..forces.symmetry import find_textbook
 from ..limits import HIGHEST_POWER
 from ..shell.arguments import check_count
-from . import schemes, series, tsinghua, worked_examples
+from . import liu_statements, schemes, series, tsinghua, worked_examples
 from .recomputed import (
     Erratum,
     Print,
@@ -97,6 +97,7 @@ TABLES: dict[str, Callable[[Print, Ranges], Table]] = {
     "liu-1": schemes.tabulate_paths,
     "liu-2": schemes.tabulate_vectors,
     "liu-3": schemes.tabulate_sliders,
+    "liu-statements": liu_statements.tabulate_liu_statements,
     "wang-1": schemes.tabulate_optimum,
     "kvasnikov-1": partial(
         series.tabulate_coefficients, exact=closed_form.piston, terms=power_series.piston
