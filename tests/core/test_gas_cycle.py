@@ -10,8 +10,6 @@ from support.pistons import slider_crank_piston
 from balcli.core.cylinder_pressure import GasError, find_highest, press
 from balcli.core.gas_cycle import GOALS, Goal, Process, gas_cycle
 
-pytestmark = pytest.mark.slow
-
 OF_THE_LARGEST = 1e-12  # harmonics
 RELATIVE = 1e-12  # imep
 LENGTHS = 0.045, 0.15, 0.086  # radius, rod, bore

@@ -17,6 +17,7 @@ from support.paths import ROOT
 from balcli import load
 from balcli.engine.engine import Engine
 from balcli.engine.firing.common_pins import list_evenly_spaced
+from balcli.engine.firing.usual import list_tiers
 from balcli.engine.parse import parse_dict
 from balcli.engine.parts import Parts
 from balcli.errors import InputError
@@ -189,12 +190,72 @@ def test_a_long_wait_is_doubted():
     assert load(said).doubts == ()
 
 
+@pytest.mark.parametrize(
+    ("throws", "doubted"),
+    [([0, 180, 180], False), ([0, 180, 178.5], True), ([0, 180, 181.5], False), ([0, 240, 120], True)],
+)
+def test_a_wait_of_a_turn_is_not_long(throws, doubted):
+    """Intervals of 180, 360 and 180 deg; 361.5 deg is above a turn by more than the degree that is forgiven."""
+    assert len(load(tables("1-2-3", None, throws=throws)).doubts) == doubted
+
+
+@pytest.mark.parametrize("throw", [90, 270])
+def test_one_of_two_cylinders_always_waits_for_a_turn_or_more(throw):
+    assert load(tables("1-2", None, throws=[0, throw])).doubts == ()
+
+
+@pytest.mark.parametrize(("strokes", "doubted"), [(4, True), (2, False)])
+def test_only_of_a_four_stroke_is_a_crank_unusual(strokes, doubted):
+    assert len(load(tables("1-2-3-4", None, strokes=strokes)).doubts) == doubted
+
+
+@pytest.mark.parametrize(("splay", "spacing", "doubted"), [(54, 100, True), (53, 100, False), (60, None, False)])
+def test_a_splay_is_doubted_if_its_opposite_leaves_a_small_part(splay, spacing, doubted):
+    """Six pins of a 60-degree six at a splay s leave sqrt(3)/2 sin((60 + s)/2) of moment against the crank, as a share of
+    one cylinder's force times the length: 4.53 % with -54 deg and 5.29 % with -53 deg. Unknown places make no moment.
+    """
+    crank = {"throws": [0, 240, 120], "splay": splay} | ({"spacing": spacing} if spacing else {})
+    doubts = engine(crank=crank, layout={"bank_angle": 60}).doubts
+    assert any(doubt.startswith("crank.splay") for doubt in doubts) == doubted
+    if doubted:
+        assert "72.6 % of one cylinder's first order, and 4.53 % with crank.splay = -54" in doubts[0]
+
+
+@pytest.mark.parametrize(("angle", "fits"), [(88, False), (92, True)])
+def test_half_of_the_even_interval_is_the_least_of_another_numbering(angle, fits):
+    """With both pins at 0 deg, cylinder 2 would fire a bank angle after cylinder 1."""
+    told = read_refusal("1-2-3-4", angle, throws=[0, 0])
+    assert ("the file may mean this engine" in told) == fits
+
+
+def test_with_gas_a_turn_tells_two_engines_apart():
+    """Numbered along the crank, cylinders 2 and 3 of this boxer change places, which are a turn apart. Without gas, the
+    throws alone count. Of equally balanced engines with one rod on each throw, the one numbered along the crank comes
+    first.
+    """
+    boxer = tables("1-2-4-3", 180, **ALTERNATING)
+    assert [list(row) for row in load(boxer).model.layout.numbering] == [[1, 2], [3, 4]]
+    burning = {"gas": {"cycle": "otto", "compression_ratio": 9, "imep": 9}, "piston": {"mass": 1, "bore": 80}}
+    first, second = list_problems(boxer | burning)[0].split("\n    ")[1:-1]
+    assert first.startswith("layout.numbering = [[1, 3], [2, 4]]: throws 0, 0, 180, 180;")
+    assert second.startswith("layout.numbering = [[1, 2], [3, 4]]: throws 0, 0, 180, 180;")
+
+
+@cases("engine/numbering", "usual_numberings")
+def test_usual_numberings_of_each_kind_of_engine(layout, throws, tiers):
+    crank = {"crank": BASE["crank"] | {"throws": throws}}
+    plan = Parts(parse_dict(BASE | crank | {"layout": layout})).plan
+    found = [[[list(row) for row in rows] for rows in tier] for tier in list_tiers(plan, radial="radial" in layout)]
+    assert found[: len(tiers)] == tiers
+
+
 def test_articulated_rods_fire_at_their_true_dead_centres():
     layout = {"radial": 3, "strokes": 2, "firing_order": [1, 2, 3]}
     parts = {"crank": {"stroke": 120}, "rod": {"length": 240}, "piston": {"mass": 1.3}}
     parts |= {"articulation": {"knuckle_radius": 70, "rod": {"length": 170}}, "layout": layout}
     assert [*engine(**parts).fires_deg.values()] == pytest.approx([0, 125.4068, 234.5932], abs=1e-4)
     engine(**parts | {"layout": layout | {"firing_intervals": [125.4068, 109.1864, 125.4068]}})
+    engine(**parts | {"layout": layout | {"firing_intervals": [120, 120, 120]}})  # nominal dead centres
     assert refused(**parts | {"layout": layout | {"firing_intervals": [130, 100, 130]}})
 
 

@@ -16,8 +16,6 @@ from balcli.core.phasors import Phasors
 from balcli.forces.spectrum import compute_spectra, find_relevant_orders
 from balcli.sizing import minimax as circle
 
-pytestmark = pytest.mark.slow
-
 TRUE = 1e-10  # relative to the true optimum
 VECTORS = st.complex_numbers(max_magnitude=1e3, allow_nan=False, allow_infinity=False)
 

@@ -5,15 +5,18 @@ files give the same engine again.
 import json
 import random
 import tomllib
+from functools import cache
 from urllib.parse import quote
 
 import numpy as np
 import pytest
 from docs_site import make_play_page
 from support.browser import live
+from support.cases import slow
 from support.commands import ask, ask_json
 from support.engines import GOOD, RADIAL, build_text, changed
 from support.paths import write
+from support.pictures import without_pictures
 
 from balcli import load_example
 from balcli.analysis.answer import analyze
@@ -29,7 +32,6 @@ from balcli.show.sheet import sentence, size_text
 from balcli.show.units import SI
 from balcli.sizing.ladder import WEIGHTS_AT_THROWS, find_ladder
 
-pytestmark = pytest.mark.slow
 PRESS = "[...document.querySelectorAll('button')].find(b => b.textContent === '{}').click()"
 WAIT = "new Promise(done => setTimeout(done, 100))"
 VECTORS, SCALARS = ("force_N", "moment_Nm"), ("couple_Nm", "inertia_torque_Nm", "roll_Nm")
@@ -43,12 +45,26 @@ def play(tmp_path_factory):
     return write(tmp_path_factory.mktemp("site") / "play.html", make_play_page())
 
 
+@pytest.fixture(scope="module")
+def report(tmp_path_factory):
+    """The file with the page of an engine, without pictures, written once: a function of the engine file's text and
+    name, and of options.
+    """
+
+    @cache
+    def write_page(text: str, name: str, *options: str):
+        folder = tmp_path_factory.mktemp("page")
+        with without_pictures():
+            ask("-q", "report", write(folder / name, text), *options, "-o", folder / "page.html")
+        return folder / "page.html"
+
+    return write_page
+
+
 @pytest.fixture
-def show(browser, tmp_path):
+def show(browser, report):
     def opened(text: str = GOOD, address: str = "", *options: str, name: str = "engine.toml", **how):
-        file = write(tmp_path / name, text)
-        ask("-q", "report", file, *options, "-o", tmp_path / "page.html")
-        browser.open(tmp_path / "page.html", **how)
+        browser.open(report(text, name, *options), **how)
         browser.run(f"change.open = true, {WAIT}")
         if address:
             go(browser, address)
@@ -298,6 +314,7 @@ def test_the_page_fits_its_window(show, width):
 STEPS = "[...document.querySelectorAll('#live-ladder tbody th')].map(cell => cell.textContent)"
 
 
+@pytest.mark.slow
 @live
 def test_steps_have_the_names_that_the_command_takes(browser, play, tmp_path):
     """The command lists one step more, so that its numbers differ from those of a row here."""
@@ -316,7 +333,7 @@ def test_steps_have_the_names_that_the_command_takes(browser, play, tmp_path):
 
 # ------------------------------------------------------------------ the verdict, as data
 @live
-@pytest.mark.parametrize("small", [0, 0.01, SMALL, 0.2])
+@pytest.mark.parametrize("small", [*slow(0, 0.01), SMALL, *slow(0.2)])
 def test_the_page_finds_what_the_command_finds(browser, play, small):
     """On every example, and with a further shaft and counterweight."""
     browser.open(play)

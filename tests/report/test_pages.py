@@ -29,8 +29,6 @@ from balcli.show import plot_style as style
 from balcli.show.plane import draw_locus
 from balcli.show.units import SI
 
-pytestmark = pytest.mark.slow
-
 HOSTILE = '$x_{1}$ </text><script>alert(1)</script> 发动机 №5 & "q" \u0001 _'
 ANALYSES = PAGES[:6]
 MAGIC = {"svg": b"<?xml", "png": b"\x89PNG", "pdf": b"%PDF"}
@@ -150,6 +148,7 @@ def test_threads_that_draw_leave_matplotlib_as_it_was():
     assert dict(matplotlib.rcParams) == before
 
 
+@pytest.mark.slow
 def test_matplotlib_is_imported_for_pictures_only():
     code = (
         "import sys\nimport balcli.report.pages\nfrom balcli.show import plot_style as "

@@ -19,8 +19,6 @@ from balcli.forces.kinds import KINDS
 from balcli.report.page import Answers, page
 from balcli.show.units import IMPERIAL, SI
 
-pytestmark = pytest.mark.slow
-
 HOSTILE = "</script><script>alert('name')</script><img src=x onerror=alert(1)> & \"quoted\" {{ 7 * 7 }} 发动机"
 ROTARY = RADIAL.partition("[articulation]")[0].replace("radial = 7", "radial = 7\nrotary = true")
 

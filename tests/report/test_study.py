@@ -18,8 +18,6 @@ from balcli.show.units import SI
 from balcli.sizing.ladder import find_ladder
 from balcli.sizing.options import SchemeOptions
 
-pytestmark = pytest.mark.slow
-
 VEE = changed(("firing_order = [1, 3, 4, 2]", "bank_angle = 75\nstagger = 20"))
 SINGLE = changed(("throws = [0, 180, 180, 0]", "throws = [0]"), ("firing_order = [1, 3, 4, 2]", ""))
 CROSS = changed(

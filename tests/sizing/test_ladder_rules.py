@@ -11,6 +11,7 @@ from balcli.analysis.answer import analyze
 from balcli.balancing.answer import balance, insert_remedy
 from balcli.forces.crankshaft import find_crank_loads
 from balcli.forces.spectrum import compute_spectra
+from balcli.sizing.fitting import Fitting
 from balcli.sizing.ladder import (
     SHAFT,
     SHAFTS,
@@ -22,6 +23,8 @@ from balcli.sizing.ladder import (
 )
 from balcli.sizing.options import SchemeOptions
 from balcli.sizing.remedy import fit_devices, remove_counterweights
+from balcli.sizing.residual import is_small
+from balcli.sizing.steps import add_at_throws
 
 ECOBOOST = ROOT / "engines" / "car" / "ford_ecoboost_1_0.toml"
 I4 = ROOT / "engines" / "i4.toml"
@@ -58,6 +61,15 @@ def test_shafts_of_order_2_are_fitted_from_12_percent_of_all_cylinders(crank, li
     assert ladder.find_step(SHAFTS).share == pytest.approx(part * limit, rel=1e-3)
     assert ladder.find_step(SHAFTS).limit == pytest.approx(limit)
     assert (SHAFTS in ladder.auto) == fitted
+
+
+@pytest.mark.parametrize(("part", "fitted"), [(0.98, False), (1.02, True)])
+def test_a_single_shaft_of_order_2_has_the_limit_of_two(part, fitted):
+    """In a radial three, nothing of order 2 turns with the crank: the larger of the two directions counts."""
+    ladder = find_ladder(build_text(write_engine("", "radial = 3", lam=find_lambda(2 * part * 0.36 / 3))))
+    step = ladder.find_step("shaft at -2")
+    assert step.share == pytest.approx(part * 0.36, rel=1e-3)
+    assert ("shaft at -2" in ladder.auto) == fitted
 
 
 def find_lambda(second: float) -> float:
@@ -114,6 +126,64 @@ def test_masses_count_at_the_crank_radius_of_cylinder_1():
     assert step.mass_kg == pytest.approx(unbalance / 1e6 / 0.040)
 
 
+def test_cylinder_1_may_be_on_the_second_throw():
+    text = write_engine("stroke = [80, 100]\nthrows = [0, 150]\nspacing = 90\n", "numbering = [[2, 1]]")
+    step = find_ladder(build_text(text.replace("stroke = 80\n", "", 1))).steps[1]
+    unbalance = sum(weight.unbalance for weight in step.remedy.counterweights)
+    assert step.mass_kg == pytest.approx(unbalance / 1e6 / 0.050)
+
+
+@pytest.mark.parametrize(("spacing", "length", "of_crank"), [(79, 0.080, True), (81, 0.081, False)])
+def test_moments_are_compared_over_the_length_of_the_cylinders_or_the_stroke(spacing, length, of_crank):
+    """At least the stroke, 80 mm."""
+    scale = find_ladder(build_text(write_engine(f"throws = [0, 180]\nspacing = {spacing}"))).scale
+    assert scale.length == (pytest.approx(length), of_crank)
+    assert scale.moment_Nm == pytest.approx(scale.force_N * length)
+
+
+@pytest.mark.parametrize(
+    ("size", "least", "small"),
+    [(0.05, 0.05, False), (0.0499, 0.05, True), (0.0501, 0.05, False), (0, 0, True), (1e-9, 0, False)],
+)
+def test_a_part_at_the_limit_is_not_small(size, least, small):
+    assert is_small(size, least) == small
+
+
+def test_a_shaft_with_two_eccentrics_is_one_shaft():
+    """A three has a moment of order 1 and no force: one shaft with an eccentric at each end cancels its backward part."""
+    step = find_ladder(build_text(write_engine("throws = [0, 240, 120]\nspacing = 90"))).find_step(SHAFT)
+    assert len(step.own.shafts) == 2
+    assert step.shafts == 1
+
+
+# ------------------------------------------------------------------ weights at every throw
+@pytest.mark.parametrize(("throws", "offered"), [("[0, 180]", False), ("[0, 240, 120]", True)])
+def test_weights_at_every_throw_need_three_throws(throws, offered):
+    ladder = find_ladder(build_text(write_engine(f"throws = {throws}\nspacing = 90")))
+    names = {step.step for step in (*ladder.steps, *ladder.left_out)}
+    assert (WEIGHTS_AT_THROWS in names) == offered
+
+
+def find_need(engine) -> float:
+    """Unbalance of the counterweight that a throw needs, g mm: revolving and half the reciprocating mass."""
+    c = engine.cylinders
+    return 1e6 * float((c.rotating + c.reciprocating / 2)[0] * c.radius[0])
+
+
+def test_a_throw_that_has_its_weight_gets_no_other():
+    """Weights of the file count at the nearest throw, here a few millimetres beside it."""
+    need = find_need(build_text(write_engine(FOUR)))
+    given = "".join(
+        WEIGHT.format(need, angle).replace("position = 0", f"position = {z}")
+        for angle, z in ((180, -135), (0, -40), (0, 40))
+    )
+    fitting = add_at_throws(Fitting.start(build_text(write_engine(FOUR, rest=given)), ""))
+    sizes = {weight.position: weight.unbalance for weight in fitting.remedy.counterweights}
+    assert sizes.keys() >= {135}
+    assert sizes.pop(135) == pytest.approx(need, rel=0.01)
+    assert max(sizes.values(), default=0) < 0.05 * need
+
+
 # ------------------------------------------------------------------ weights of the file
 WEIGHT = "[[counterweight]]\nunbalance = {}\nangle = {}\nposition = 0\n"
 
@@ -135,6 +205,18 @@ def test_steps_that_take_back_weights_of_the_file(unbalance, angle, takes_back):
     assert step.takes_back == (True if takes_back else None)
     assert (WEIGHTS in ladder.auto) == (not takes_back)
     assert (SHAFT in ladder.auto) == (not takes_back)
+
+
+@pytest.mark.parametrize(("share", "takes_back"), [(0.38, False), (0.42, True)])
+def test_force_and_moment_of_the_weights_of_the_file_count_by_the_length_of_the_engine(share, takes_back):
+    """Of two throws at 0 and 180 deg, a length L apart, only one has a weight: the share k of its need U. The step takes
+    back its force k U, and adds (1 - k/2) U L to its moment k U L/2. It works against the weight if
+    k^2 > (k/2) (1 - k/2), which is k > 0.4.
+    """
+    two = "throws = [0, 180]\nspacing = 90"
+    weight = WEIGHT.format(share * find_need(build_text(write_engine(two))), 180)
+    text = write_engine(two, rest=weight.replace("position = 0", "position = -45"))
+    assert find_ladder(build_text(text)).find_step(WEIGHTS).takes_back == (takes_back or None)
 
 
 def test_weights_that_cancel_each_other_are_not_taken_back():

@@ -15,8 +15,6 @@ from support.paths import write
 
 from balcli.forces.spectrum import compute_spectra
 
-pytestmark = pytest.mark.slow
-
 FOUR = PETROL_FOUR.replace("[rod]", "throw_mass = 0.8\n[rod]") + "[cylinder.2]\nrod_length = 151\n"
 NAMES = "torque.2.amplitude,torque.1.5.cos,gas.0.5.sin,roll_total.3.amplitude,torque_total.4.amplitude"
 

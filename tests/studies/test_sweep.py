@@ -31,8 +31,6 @@ from balcli.studies.sweep import (
 )
 from balcli.studies.sweep_show import sweep_csv, sweep_json
 
-pytestmark = pytest.mark.slow
-
 SAME = 1e-12  # of the largest value of a column
 EVERYTHING = parse_quantities(
     "force.1.major,force.2.minor,moment.1.backward,moment.4.x,"
@@ -158,6 +156,7 @@ def test_threads_end_with_who_asks_for_their_figures(monkeypatch: pytest.MonkeyP
     assert len(boxes) <= 1 + 2 * 2 + 2
 
 
+@pytest.mark.slow
 @pytest.mark.stress
 def test_a_mistake_in_a_later_box_is_told_by_threads_too(monkeypatch: pytest.MonkeyPatch) -> None:
     """A ripple that stops the crank between the corners of the grid."""

@@ -13,8 +13,6 @@ from balcli.shell.progress import Progress
 from balcli.studies.sweep import read_sweep
 from balcli.studies.sweep_write import MANIFEST, write_blocks
 
-pytestmark = pytest.mark.slow
-
 dataset = pytest.importorskip("pyarrow.dataset")
 parquet = pytest.importorskip("pyarrow.parquet")
 

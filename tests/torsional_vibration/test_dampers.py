@@ -7,7 +7,7 @@ import tomllib
 
 import numpy as np
 import pytest
-from support.cases import cases
+from support.cases import cases, slow
 from support.chains import chain_text
 from support.commands import ask_json, ask_torsion, refusal, run_here
 from support.diesel import write_diesel
@@ -17,8 +17,6 @@ from balcli import torsion
 from balcli.file.examples import template
 from balcli.torsional_vibration.motion import compute_curves
 from balcli.torsional_vibration.plot import make_torsion
-
-pytestmark = pytest.mark.slow
 
 CHAIN = template("torsion")  # the file to start from
 RANGE = ("--speeds", "850:1150:0.5")
@@ -89,6 +87,7 @@ def test_no_other_figure_is_better(kind, key):
         assert largest(ask_torsion(other, *options), "stress_Pa") > damper["after_Pa"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", [pytest.param("viscous", marks=pytest.mark.stress), "rubber"])
 def test_no_resonance_hides_between_the_speeds(kind):
     """The largest stress with and without a damper is that of the range, however far apart the speeds are."""
@@ -111,6 +110,7 @@ def test_a_pendulum_is_tuned_to_the_order_that_does_most():
     assert damper["heat_W"] == 0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("stroke", [137, pytest.param(2000, marks=pytest.mark.stress)])
 def test_pendulums_hang_as_far_out_as_the_crank_pins(stroke):
     """Whatever the size of the engine; the file's own stay where they are."""
@@ -286,7 +286,7 @@ TITLES = {
 }
 
 
-@pytest.mark.parametrize("what", ["all", *TITLES])
+@pytest.mark.parametrize("what", [*slow("all"), *TITLES])
 def test_pictures_show_what_is_asked_and_are_the_same_for_the_same_question(tmp_path, what):
     files = [tmp_path / f"{k}.svg" for k in range(2 if what == "all" else 1)]
     options = ("--speeds", "1000:4000:100", "--plot")
@@ -382,6 +382,7 @@ def test_units_of_a_damper_are_those_of_its_size(times, ring, heat):
     assert re.search(rf"turns\s+up\s+to\s+[\d.]+\s+{heat}\s+into\s+heat", told)
 
 
+@pytest.mark.slow
 def test_of_several_stiffnesses_that_are_best_nearby_the_best_of_all_is_taken():
     """The largest stress over the stiffness of this ring has two valleys, the deeper one narrower:
     the other was taken, with 4 % more.
@@ -468,6 +469,7 @@ def test_two_tunings_of_a_throw_hold_it_still_in_both_orders():
         assert [each["worst"]["order"] for each in said["pendulums"]] == [order, order]
 
 
+@pytest.mark.slow
 def test_proposed_pendulums_swing_by_at_most_20_degrees(tmp_path):
     """On the throw with the largest amplitude; written as a table of this throw. On a light
     crankshaft there is no room for so much mass.

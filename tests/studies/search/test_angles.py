@@ -22,8 +22,6 @@ from balcli.studies.search.answer import search_arrangements
 from balcli.studies.search.command import rows
 from balcli.studies.search.designs import BROKEN, Objective, fires_evenly, parse_objective, write_design
 
-pytestmark = pytest.mark.slow
-
 Array = NDArray[np.float64]
 PATHS = {"bank_angle": "layout.bank_angle", "splay": "crank.splay"}
 SPANS = {"bank_angle": (0.0, 180.0), "splay": (-180.0, 180.0)}
@@ -193,6 +191,7 @@ def test_sevenths_of_a_turn_stay_such() -> None:
     assert verdicts == ["symmetry", "symmetry"]
 
 
+@pytest.mark.slow
 def test_bank_angles_at_which_articulated_rods_lock_are_no_candidates() -> None:
     text = engine_text(
         crank="stroke = 120\nthrows = [0, 120, 240]\nspacing = 160",

@@ -18,8 +18,6 @@ from balcli.studies.search import designs as evaluate
 from balcli.studies.search.designs import BROKEN, parse_objective
 from balcli.studies.search.local import Box, Effort, find_local_optima
 
-pytestmark = pytest.mark.slow
-
 GAS = '[gas]\ncycle = "wiebe"\ncompression_ratio = 16\nimep = 15\n'
 SIX = write_diesel(extra=GAS)
 ORDER = "firing_order = [1, 5, 3, 6, 2, 4]"
@@ -61,6 +59,7 @@ def list_torques(text: str, speeds: str) -> tuple[list[float], list[float]]:
     return said["speeds_rpm"], said["shafts"][-1]["half_peak_to_peak_Nm"]
 
 
+@pytest.mark.slow
 def test_firing_orders_by_shaft_torque(tmp_path):
     """All that the crank allows: in a six with mirrored throws, of each pair one and the other."""
     text = SIX.replace("spacing = 120", "spacing = 120\nthrows = [0, 240, 120, 120, 240, 0]")
@@ -159,6 +158,7 @@ def test_every_distinct_optimum_of_several_numbers_once():
     assert sorted(found.tolist()) == [pytest.approx([90, 270], abs=1e-5), pytest.approx([270, 270], abs=1e-5)]
 
 
+@pytest.mark.slow
 def test_four_numbers_together_balance_four_cranks(tmp_path):
     """Masses and angles of the inner two cranks, against the two closed equations of forces and
     moments: sum m exp(i phi) = sum m z exp(i phi) = 0.
@@ -262,6 +262,7 @@ def test_where_no_round_number_is_as_good_the_place_is_as_exact_as_the_function(
     assert find_best(lambda _: math.inf, 0.0, 10.0) == []
 
 
+@pytest.mark.slow
 def test_numbers_are_shown_as_they_are_typed_and_not_written(tmp_path):
     path, out = ENGINES / "i4_wiebe.toml", tmp_path / "new.toml"
     args = ("--over", "gas.imep=8:12", "--minimise", "fluctuation")
@@ -275,6 +276,7 @@ def test_numbers_are_shown_as_they_are_typed_and_not_written(tmp_path):
     assert lines[0] == "gas.imep,objective,fluctuation"
 
 
+@pytest.mark.slow
 def test_on_a_line_on_which_limits_are_kept_only_its_optima_are_results():
     """Even firing keeps bank angle less splay at a multiple of 120 deg: each result is the least of
     its line, by engines at every 5 deg of the bank angle; so is each least value there a result.
@@ -296,6 +298,7 @@ def test_on_a_line_on_which_limits_are_kept_only_its_optima_are_results():
     np.testing.assert_allclose(reached, sorted(least), rtol=1e-6, atol=1e-6)
 
 
+@pytest.mark.slow
 def test_a_line_of_equally_good_points_is_one_result():
     """Pistons 1 and 2 of an in-line four as heavy as each other leave no first-order force."""
     engine = balcli.load_example("i4")
