@@ -6,12 +6,14 @@ import pickle
 import re
 from collections.abc import Iterator
 from copy import copy
+from functools import cache
 from string import Formatter
 from typing import Any
 
 import pytest
 import typer
 from support.paths import ROOT
+from support.trees import list_trees
 from typer.main import get_command
 
 import balcli
@@ -70,8 +72,8 @@ def test_errors_can_be_copied_and_pickled(renew: Any, error: BalcliError) -> Non
 # ------------------------------------------------------------------ all messages of the source
 def _list_trees() -> Iterator[tuple[str, ast.Module]]:
     """The path of every module below `balcli`, and its syntax tree."""
-    for file in sorted(SOURCE.rglob("*.py")):
-        yield str(file.relative_to(SOURCE)), ast.parse(file.read_text("utf-8"))
+    for file, tree in list_trees():
+        yield str(file.relative_to(SOURCE)), tree
 
 
 def _list_kinds(trees: list[tuple[str, ast.Module]]) -> set[str]:
@@ -94,6 +96,7 @@ def _list_texts() -> Iterator[tuple[str, ast.Call]]:
                 yield f"{path}:{node.lineno}", node
 
 
+@cache
 def _list_options(command: str) -> set[str]:
     """All options of a command, as typed."""
     app = typer.Typer()

@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 from support.commands import run_python
 from support.paths import PACKAGE, ROOT
+from support.trees import list_trees
 
 import balcli
 from balcli import names
@@ -131,8 +132,8 @@ def find_layer(module: str) -> int:
 
 def find_users(table: str) -> Iterator[Path]:
     """The modules that import a table of names."""
-    for path in PACKAGE.rglob("*.py"):
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+    for path, tree in list_trees():
+        for node in ast.walk(tree):
             if (
                 isinstance(node, ast.ImportFrom)
                 and node.module == "names"

@@ -170,13 +170,13 @@ def _link(source: str) -> str:
     return f"[above]({source})"
 
 
-def make_document() -> str:
-    """Return the document with the table of today."""
+def make_document(choices: Iterable[Choice]) -> str:
+    """Return the document with a table of these choices."""
     text = DOCUMENT.read_text(encoding="utf-8")
-    table = make_table(list_choices(read_makers()))
+    table = make_table(choices)
     head = re.escape(_write_row(HEADS))
     return re.sub(rf"^{head}\n(?:\|.*\n)*", lambda _: table, text, count=1, flags=re.MULTILINE)
 
 
 if __name__ == "__main__":
-    DOCUMENT.write_text(make_document(), encoding="utf-8")
+    DOCUMENT.write_text(make_document(list_choices(read_makers())), encoding="utf-8")

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from support.cases import cases
+from support.cases import cases, slow
 from support.commands import ask_json, run_here
 from support.diesel import write_diesel
 from support.engines import build_text, list_problems
@@ -92,7 +92,7 @@ def test_a_cycle_is_that_of_the_numbers_at_its_speed(kind, keys):
     assert_follows(FOUR + cycle(kind, **keys) + own, exact)
 
 
-@pytest.mark.parametrize("kind", ["otto", "wiebe", "dual"])
+@pytest.mark.parametrize("kind", ["otto", "wiebe", *slow("dual")])
 def test_the_propeller_law_is_a_square_down_to_no_heat(kind):
     """The least imep is that which a cycle with less is said to have. What takes no dual cycle to its pressure burns
     at the dead centre, as in an otto cycle.

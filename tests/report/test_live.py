@@ -8,25 +8,24 @@ import tomllib
 from functools import cache
 from urllib.parse import quote
 
-import numpy as np
 import pytest
 from docs_site import make_play_page
 from support.browser import live
 from support.cases import slow
 from support.commands import ask, ask_json
 from support.engines import GOOD, RADIAL, build_text, changed
+from support.kernel import WANTED, answer, compute, differences, find_findings
 from support.paths import write
 from support.pictures import without_pictures
 
 from balcli import load_example
-from balcli.analysis.answer import analyze
 from balcli.engine.build import build
 from balcli.errors import MOMENTS_UNKNOWN, InputError
 from balcli.file import examples
 from balcli.file.model import Counterweight, Shaft
 from balcli.file.units import ANGLE, LENGTH, MASS, SPEED, UNBALANCE, convert
 from balcli.limits import SMALL
-from balcli.report.live import describe_engine, explain_still, make_book
+from balcli.report.live import describe_engine, explain_still
 from balcli.report.page import FOLDER
 from balcli.show.sheet import sentence, size_text
 from balcli.show.units import SI
@@ -34,8 +33,6 @@ from balcli.sizing.ladder import WEIGHTS_AT_THROWS, find_ladder
 
 PRESS = "[...document.querySelectorAll('button')].find(b => b.textContent === '{}').click()"
 WAIT = "new Promise(done => setTimeout(done, 100))"
-VECTORS, SCALARS = ("force_N", "moment_Nm"), ("couple_Nm", "inertia_torque_Nm", "roll_Nm")
-WANTED = ("force", "moment", "couple", "torque", "roll", "peak", "ladder")
 WEIGHED = GOOD + "[[counterweight]]\nmass = 2\nradius = 50\nangle = 180\n"
 HOSTILE = '</script><img src=x onerror=alert(1)> & "quoted" {{ 7 * 7 }} 发动机'
 
@@ -83,58 +80,7 @@ def figures(page):
     return json.loads(page.read("figures"))
 
 
-def compute(browser, engines, small=SMALL):
-    """What the kernel makes of engines: pairs of the page's data and numbers."""
-    limits = make_book({}, SI, small=small)["limits"]
-    browser.run(f"window.asked = {json.dumps(engines)}, window.limits = {json.dumps(limits)}, 0")
-    make = "const e = Kernel.assemble(d, n); return Kernel.describe(e, Kernel.findLadder(e, limits), limits);"
-    return json.loads(browser.run(f"JSON.stringify(asked.map(([d, n]) => {{ {make} }}))"))
-
-
-def find_findings(engine, small=SMALL):
-    """What the verdict of the command has on each order."""
-    return analyze(engine, small=small).to_dict()["verdict"]["matter"]
-
-
-def differences(wanted, found):
-    """Figures of orders, peaks and ladder that differ by more than 1e-9 of the largest."""
-    mine = {entry["order"]: entry for entry in found["orders"]}
-    for key in VECTORS + SCALARS:
-        parts = ("forward", "backward") if key in VECTORS else ("cos", "sin")
-        pairs = [
-            (e["order"], part, np.array(e[key][part]), np.array(mine[e["order"]][key][part]))
-            for e in wanted["orders"]
-            if key in e
-            for part in parts
-        ]
-        for e in wanted["orders"]:
-            for word in ("vertical", "horizontal", "yawing", "pitching"):
-                size, other = (each.get(key, {}).get(word, {}).get("amplitude") for each in (e, mine[e["order"]]))
-                if (size is None) != (other is None) or size is not None:
-                    pairs.append((e["order"], word, np.array(size, float), np.array(other, float)))
-        largest = max((np.abs(one).max() for *_, one, _ in pairs), default=0)
-        yield from (
-            (key, order, part, one, other)
-            for order, part, one, other in pairs
-            if abs(one - other).max() > 1e-9 * largest
-        )
-    scale = wanted["ladder"]["scale"]
-    for key in VECTORS:
-        if key in wanted["peak"] and abs(wanted["peak"][key] - found["peak"][key]) > 1e-9 * scale[key]:
-            yield key, wanted["peak"], found["peak"]
-    steps = {step["step"]: step for step in wanted["ladder"]["steps"]}
-    for step in found["ladder"]["steps"]:
-        own = steps.get(step["step"], {})
-        for key in ("peak_force_N", "peak_moment_Nm"):
-            limit = 1e-9 * scale.get(key.removeprefix("peak_"), 1)
-            if "counterweights at every throw" not in steps and abs(own.get(key, 0) - step.get(key, 0)) > limit:
-                yield step, own
-
-
-def answer(engine):
-    return analyze(engine, range(13), WANTED).to_dict()
-
-
+@cache
 def describe(name):
     model = load_example(name).model
     engine = build(model)
@@ -146,11 +92,21 @@ def values(data):
 
 
 # ------------------------------------------------------------------ the kernel
+def list_known(step=1):
+    """Every example that the page computes, or every `step`th: name, file, engine and data of the page."""
+    known = [(name, *describe(name)) for name in examples.names()[::step]]
+    return [each for each in known if each[-1]]
+
+
+STEPS_OF_EXAMPLES = [8, *slow(1)]
+
+
 @live
-def test_the_kernel_agrees_on_every_example(browser, play):
+@pytest.mark.parametrize("step", STEPS_OF_EXAMPLES)
+def test_the_kernel_agrees_on_examples(browser, play, step):
     browser.open(play)
-    known = [(name, *found) for name in examples.names() if (found := describe(name))[2]]
-    assert len(known) > 60
+    known = list_known(step)
+    assert len(known) > 60 / step
     made = compute(browser, [[data, values(data)] for *_, data in known])
     wrong = {
         name: list(differences(answer(engine), found)) for (name, _, engine, _), found in zip(known, made, strict=True)
@@ -314,17 +270,20 @@ def test_the_page_fits_its_window(show, width):
 STEPS = "[...document.querySelectorAll('#live-ladder tbody th')].map(cell => cell.textContent)"
 
 
-@pytest.mark.slow
 @live
-def test_steps_have_the_names_that_the_command_takes(browser, play, tmp_path):
+@pytest.mark.parametrize("step", STEPS_OF_EXAMPLES)
+def test_steps_have_the_names_of_the_command(browser, play, step):
     """The command lists one step more, so that its numbers differ from those of a row here."""
     browser.open(play)
-    for name in examples.names():
-        engine = build(load_example(name).model)
-        if not explain_still(engine):
-            go(browser, f"#engine={name}")
-            listed = [one.step for one in find_ladder(engine).steps if one.step != WEIGHTS_AT_THROWS]
-            assert browser.run(STEPS) == listed, name
+    for name, _, engine, _ in list_known(step):
+        go(browser, f"#engine={name}")
+        listed = [each.step for each in find_ladder(engine).steps if each.step != WEIGHTS_AT_THROWS]
+        assert browser.run(STEPS) == listed, name
+
+
+@live
+def test_the_command_takes_the_names_of_steps(browser, play, tmp_path):
+    browser.open(play)
     file = write(tmp_path / "i3.toml", examples.text("i3"))
     go(browser, "#engine=i3")
     for step in browser.run(STEPS)[1:]:
@@ -333,19 +292,20 @@ def test_steps_have_the_names_that_the_command_takes(browser, play, tmp_path):
 
 # ------------------------------------------------------------------ the verdict, as data
 @live
-@pytest.mark.parametrize("small", [*slow(0, 0.01), SMALL, *slow(0.2)])
-def test_the_page_finds_what_the_command_finds(browser, play, small):
-    """On every example, and with a further shaft and counterweight."""
+@pytest.mark.parametrize("small", [0, 0.01, SMALL, 0.2])
+@pytest.mark.parametrize("step", STEPS_OF_EXAMPLES)
+def test_the_page_finds_what_the_command_finds(browser, play, small, step):
+    """On examples, and with a further shaft and counterweight."""
     browser.open(play)
     more = {"shaft.9.ratio": -1, "shaft.9.unbalance": 20000, "shaft.9.angle": 30, "shaft.9.position": 40}
     more |= {"counterweight.9.unbalance": 7000, "counterweight.9.angle": 170, "counterweight.9.position": -20}
-    known = [(name, *found) for name in examples.names() if (found := describe(name))[2]]
+    known = list_known(step)
     asked = [[data, values(data) | added] for *_, data in known for added in ({}, more)]
     found = [each["verdict"]["matter"] for each in compute(browser, asked, small)]
     wanted = [find_findings(one, small) for _, model, engine, _ in known for one in (engine, with_more(model))]
     wrong = {known[k // 2][0]: (one, two) for k, (one, two) in enumerate(zip(wanted, found, strict=True)) if one != two}
     assert not wrong
-    assert sum(cure["further"] for finding in found for one in finding for cure in one["cures"]) > 50
+    assert sum(cure["further"] for finding in found for one in finding for cure in one["cures"]) > 50 / step
 
 
 def with_more(model):

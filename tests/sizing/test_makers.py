@@ -21,8 +21,8 @@ def document():
     return makers.DOCUMENT.read_text(encoding="utf-8")
 
 
-def test_the_document_has_the_table_of_today(document):
-    assert document == makers.make_document(), "python tools/makers.py writes it anew"
+def test_the_document_has_the_table_of_today(document, choices):
+    assert document == makers.make_document(choices), "python tools/makers.py writes it anew"
     assert document.count(" | fitted | ") > 20
 
 

@@ -1,0 +1,65 @@
+"""What the kernel of the live page computes, in a browser, and what differs from the analysis in Python."""
+
+import json
+
+import numpy as np
+
+from balcli.analysis.answer import analyze
+from balcli.limits import SMALL
+from balcli.report.live import make_book
+from balcli.show.units import SI
+
+VECTORS, SCALARS = ("force_N", "moment_Nm"), ("couple_Nm", "inertia_torque_Nm", "roll_Nm")
+WANTED = ("force", "moment", "couple", "torque", "roll", "peak", "ladder")
+
+
+def compute(browser, engines, small=SMALL):
+    """What the kernel makes of engines: pairs of the page's data and numbers."""
+    limits = make_book({}, SI, small=small)["limits"]
+    browser.run(f"window.asked = {json.dumps(engines)}, window.limits = {json.dumps(limits)}, 0")
+    make = "const e = Kernel.assemble(d, n); return Kernel.describe(e, Kernel.findLadder(e, limits), limits);"
+    return json.loads(browser.run(f"JSON.stringify(asked.map(([d, n]) => {{ {make} }}))"))
+
+
+def find_findings(engine, small=SMALL):
+    """What the verdict of the command has on each order."""
+    return analyze(engine, small=small).to_dict()["verdict"]["matter"]
+
+
+def differences(wanted, found):
+    """Figures of orders, peaks and ladder that differ by more than 1e-9 of the largest."""
+    mine = {entry["order"]: entry for entry in found["orders"]}
+    for key in VECTORS + SCALARS:
+        parts = ("forward", "backward") if key in VECTORS else ("cos", "sin")
+        pairs = [
+            (e["order"], part, np.array(e[key][part]), np.array(mine[e["order"]][key][part]))
+            for e in wanted["orders"]
+            if key in e
+            for part in parts
+        ]
+        for e in wanted["orders"]:
+            for word in ("vertical", "horizontal", "yawing", "pitching"):
+                size, other = (each.get(key, {}).get(word, {}).get("amplitude") for each in (e, mine[e["order"]]))
+                if (size is None) != (other is None) or size is not None:
+                    pairs.append((e["order"], word, np.array(size, float), np.array(other, float)))
+        largest = max((np.abs(one).max() for *_, one, _ in pairs), default=0)
+        yield from (
+            (key, order, part, one, other)
+            for order, part, one, other in pairs
+            if abs(one - other).max() > 1e-9 * largest
+        )
+    scale = wanted["ladder"]["scale"]
+    for key in VECTORS:
+        if key in wanted["peak"] and abs(wanted["peak"][key] - found["peak"][key]) > 1e-9 * scale[key]:
+            yield key, wanted["peak"], found["peak"]
+    steps = {step["step"]: step for step in wanted["ladder"]["steps"]}
+    for step in found["ladder"]["steps"]:
+        own = steps.get(step["step"], {})
+        for key in ("peak_force_N", "peak_moment_Nm"):
+            limit = 1e-9 * scale.get(key.removeprefix("peak_"), 1)
+            if "counterweights at every throw" not in steps and abs(own.get(key, 0) - step.get(key, 0)) > limit:
+                yield step, own
+
+
+def answer(engine):
+    return analyze(engine, range(13), WANTED).to_dict()
