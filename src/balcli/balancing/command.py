@@ -151,14 +151,15 @@ def parse_tools(units: Units, slug: str | None, **lengths: str | None) -> Tools:
     """
     from ..sizing.workshop import Tools
 
-    found = {
-        name: read_length(name, text, units) for name, text in lengths.items() if text is not None
-    }
+    figures = {}
+    for name, text in lengths.items():
+        if text is not None:
+            figures[name] = read_length(name, text, units)
     if slug is not None:
         wanted = f"{', '.join(SLUGS)}, or a density in g/cm3 such as 18.5"
-        known = SLUGS.get(slug.strip().lower())
-        found["slug"] = known or 1e3 * read_number("slug", slug, wanted)
-    return Tools(**found)
+        density = SLUGS.get(slug.strip().lower())
+        figures["slug"] = density or 1e3 * read_number("slug", slug, wanted)
+    return Tools(**figures)
 
 
 def parse_shapes(
@@ -305,9 +306,7 @@ def balance(
     rpm = parse_speed(speed)
     text, model, engine = read_engine(path, rpm, prepare=remove_to_fit)
     open_devices = [name for name, _ in list_to_fit(model)]
-    usual = "factor" if form is Format.CARD else FIT if open_devices else "auto"
-    usual = usual if step is None else "step"
-    scheme = choose_scheme(scheme, options, usual)
+    scheme = choose_scheme(scheme, options, _choose_usual(step, form, open_devices))
     fits = open_devices or target is not None or scheme == FIT
     if fits:
         _check_fit(name_file(path), scheme, options, open_devices)
@@ -342,3 +341,18 @@ def balance(
     show_balance(result, form, output, units)
     if misfit is not None:
         raise misfit
+
+
+def _choose_usual(step: str | None, form: Format, open_devices: list[str]) -> str:
+    """Return the scheme of a call that names none.
+
+    Args:
+        step: Step of the ladder that the call names; None: no step.
+        form: Format of the output.
+        open_devices: Devices of the file whose figures are to be fitted.
+    """
+    if step is not None:
+        return "step"
+    if form is Format.CARD:
+        return "factor"
+    return FIT if open_devices else "auto"

@@ -37,18 +37,21 @@ class _Figure(NamedTuple):
 def details_parts(result: Balance, system: System) -> Iterator[Grid | Facts]:
     """Yield the further figures, tables and notes of a scheme."""
     remedy = result.remedy
-    if details := tuple((_name(each), _show(each, system)) for each in _choose_figures(result)):
-        yield Facts(details, "Details")
-    if compensators := tuple(_tell_compensators(result, system)):
+    details = [(_name(figure), _show(figure, system)) for figure in _choose_figures(result)]
+    if details:
+        yield Facts(tuple(details), "Details")
+    compensators = tuple(_tell_compensators(result, system))
+    if compensators:
         yield Facts(compensators, "Compensators")
     if remedy.needs:
         yield _needs_grid(remedy.needs, system)
     if remedy.card:
         yield from card_grids(remedy.card, system.scales)
     if remedy.sweep:
-        known = result.before.moments_known
-        rows = (row if known else replace(row, peak_moment_Nm=nan) for row in remedy.sweep)
-        yield _sweep_grid(tuple(rows), system)
+        sweep = remedy.sweep
+        if not result.before.moments_known:
+            sweep = tuple(replace(row, peak_moment_Nm=nan) for row in sweep)
+        yield _sweep_grid(sweep, system)
     if optima := remedy.details.get("optima"):
         yield _optima_grid(optima)
 
@@ -56,12 +59,13 @@ def details_parts(result: Balance, system: System) -> Iterator[Grid | Facts]:
 def _tell_compensators(result: Balance, system: System) -> Iterator[tuple[str, str]]:
     """Yield position, force and unbalances of each compensator."""
     remedy = result.remedy
-    for each in remedy.details.get("compensators", ()):
-        pair = [shaft for shaft in remedy.shafts if shaft.position == each["position_mm"]]
+    for compensator in remedy.details.get("compensators", ()):
+        position = compensator["position_mm"]
+        pair = [shaft for shaft in remedy.shafts if shaft.position == position]
         mass = size_text(find_unbalance(pair[0]), system.unbalance)
         angles = " and ".join(f"{shaft.angle:.4f} deg (shaft {shaft.ratio:+d})" for shaft in pair)
-        place = f"{number(system.length.of(each['position_mm'] / 1e3))} {system.length.name}"
-        force = size_text(each["force_N"], system.force)
+        place = f"{number(system.length.of(position / 1e3))} {system.length.name}"
+        force = size_text(compensator["force_N"], system.force)
         yield f"at z = {place}", f"force of {force}; 2 unbalances of {mass} at {angles}"
 
 
@@ -70,46 +74,51 @@ def tell_change(result: Balance, system: System) -> str:
     measured mass or a wanted factor.
     """
     details = result.remedy.details
-    unit = system.unbalance
-    if not (changes := details.get("change")):
+    changes = details.get("change")
+    if not changes:
         return ""
-    sizes = [one["unbalance_kg_m"] for one in changes]
+    sizes = [change["unbalance_kg_m"] for change in changes]
     alike = all(abs(size - sizes[0]) <= 1e-9 * abs(sizes[0]) for size in sizes)
-    everywhere = "each pin" if len(sizes) > 1 else "the pin"
-    what = []
-    for one, size in zip(changes, sizes, strict=True):
-        pin = everywhere if alike else f"pin {one['throw']}"
-        done = f"{one['action']} {size_text(abs(size), unit)} opposite {pin}"
-        what.append(done if size else f"change nothing at {pin}")
+    steps = []
+    for change, size in zip(changes, sizes, strict=True):
+        pin = f"pin {change['throw']}"
+        if alike:
+            pin = "each pin" if len(sizes) > 1 else "the pin"
+        mass = size_text(abs(size), system.unbalance)
+        step = f"{change['action']} {mass} opposite {pin}"
+        steps.append(step if size else f"change nothing at {pin}")
     has = percent(details["measured_factor"])
     wanted = percent(details["wanted_factor"])
-    return f"The crank has the factor {has}; for {wanted}, {', '.join(dict.fromkeys(what))}."
+    return f"The crank has the factor {has}; for {wanted}, {', '.join(dict.fromkeys(steps))}."
 
 
 def tell_best_factors(result: Balance, system: System) -> str:
     """Return a sentence on the best factors and what they minimise; empty if no factor is best."""
     remedy = result.remedy
-    told = []
-    for name, one in remedy.details.get("best", {}).items():
-        key = next(key for key in one if key != "factor")
+    best = []
+    for name, figures in remedy.details.get("best", {}).items():
+        key = next(key for key in figures if key != "factor")
         what = name.replace("_", " ")
-        size = size_text(one[key], system.force if find_unit(key) == "N" else system.moment)
+        size = size_text(figures[key], system.force if find_unit(key) == "N" else system.moment)
         goal = f"peak {what}" if key.startswith("peak") else f"{what} load"
-        told.append((percent(one["factor"]), f"the smallest {goal} ({size})"))
-    if not told:
+        best.append((percent(figures["factor"]), f"the smallest {goal} ({size})"))
+    if not best:
         return ""
     factors = [row.factor for row in remedy.sweep] or [0.0, 1.0]
-    (first, least), *more = told
-    others = "".join(f", and {'also' if factor == first else factor} {x}" for factor, x in more)
-    between = f"Between {percent(min(factors))} and {percent(max(factors))}"
-    return f"{between} the factor {first} leaves {least}{others}."
+    (first, least), *more = best
+    text = f"Between {percent(min(factors))} and {percent(max(factors))}"
+    text += f" the factor {first} leaves {least}"
+    for factor, goal in more:
+        text += f", and {'also' if factor == first else factor} {goal}"
+    return f"{text}."
 
 
 def _list_figures(result: Balance) -> Iterator[_Figure]:
     """Yield the figures of the details one by one; tables are omitted."""
     for key, value in result.remedy.details.items():
         if isinstance(value, dict) and key != "best":
-            yield from (_Figure(key, name, figure) for name, figure in value.items())
+            for name, figure in value.items():
+                yield _Figure(key, name, figure)
         elif key not in ("best", "optima", "change", "compensators"):
             yield _Figure("", key, value)
 
@@ -118,18 +127,19 @@ def _choose_figures(result: Balance) -> Iterator[_Figure]:
     """Yield the figures that tables show; figures that are not known are nan."""
     order = result.remedy.order
     about_crank = {*chain(*_ROLLS)}
-    for each in _list_figures(result):
-        if each.key in _FOR_PROGRAMS:
+    for figure in _list_figures(result):
+        if figure.key in _FOR_PROGRAMS:
             continue
-        moment = find_unit(each.key) == "N·m" and each.key not in about_crank
+        shown = figure
+        moment = find_unit(shown.key) == "N·m" and shown.key not in about_crank
         if moment and not result.before.moments_known:
-            each = each._replace(value=nan)
-        if result.before.engine.gas is not None and each.key in _ROLLS[0]:
-            each = each._replace(key=each.key.replace("roll", "roll_of_inertia"))
-        states = {"left", "before", "after"}.intersection(each.key.split("_"))
-        if states and order and not each.group:
-            each = each._replace(group=f"order {order}")  # the figure is for this order only
-        yield each
+            shown = shown._replace(value=nan)
+        if result.before.engine.gas is not None and shown.key in _ROLLS[0]:
+            shown = shown._replace(key=shown.key.replace("roll", "roll_of_inertia"))
+        states = {"left", "before", "after"}.intersection(shown.key.split("_"))
+        if states and order and not shown.group:
+            shown = shown._replace(group=f"order {order}")  # the figure is for this order only
+        yield shown
 
 
 def _name(figure: _Figure) -> str:
@@ -140,22 +150,37 @@ def _name(figure: _Figure) -> str:
 def _show(figure: _Figure, system: System) -> str:
     """Return a figure with its unit; a dash if it is not known."""
     value = figure.value
-    unit = find_unit(figure.key) or find_unit(figure.group)
     if isinstance(value, str):
         return value
     if value == [] or (isinstance(value, float) and isnan(value)):
         return UNKNOWN
     if isinstance(value, list):
-        words = isinstance(value[0], str)
-        return ", ".join(value) if words else f"{', '.join(map(degrees, value))} deg"
+        return _show_list(value)
+    return _show_number(figure, system)
+
+
+def _show_list(values: list[Any]) -> str:
+    """Return words, or angles in degrees."""
+    if isinstance(values[0], str):
+        return ", ".join(values)
+    return f"{', '.join(map(degrees, values))} deg"
+
+
+def _show_number(figure: _Figure, system: System) -> str:
+    """Return a number with the unit that its key, or that of its group, names."""
+    value = figure.value
+    unit = find_unit(figure.key) or find_unit(figure.group)
     if figure.key.endswith("_g"):
         return f"{number(system.scales.of(value / 1e3))} {system.scales.name}"
     if unit == "deg":
         return f"{value + 0.0:.3f} deg".replace("-0.000", "0.000")
     if not unit:
         return percent(value) if figure.key.startswith("factor") else number(value)
-    shown = system.unbalance if unit == "kg·m" else system.instead_of(unit)
-    return size_text(value / 1e3 if unit == "mm" else value, shown)
+    if unit == "kg·m":
+        return size_text(value, system.unbalance)
+    if unit == "mm":
+        return size_text(value / 1e3, system.instead_of(unit))
+    return size_text(value, system.instead_of(unit))
 
 
 def tell_distances(result: Balance, system: System) -> Iterator[str]:
@@ -178,24 +203,30 @@ def tell_growing_rolls(result: Balance, system: System) -> Iterator[str]:
     remedy = result.remedy
     x, y, _ = result.before.engine.reference_m
     pivot = "the point of reference" if x or y else "the crankshaft"
-    groups = {"": remedy.details} | {k: v for k, v in remedy.details.items() if type(v) is dict}
+    groups = {"": remedy.details}
+    for key, value in remedy.details.items():
+        if type(value) is dict:
+            groups[key] = value
     for group, figures in groups.items():
-        known = [pair for pair in _ROLLS if pair[0] in figures]
-        grown = [_find_growth(figures[before], figures[left]) for before, left in known]
+        grown = []
+        for before, left in _ROLLS:
+            if before in figures:
+                grown.append(_find_growth(figures[before], figures[left]))
         if not grown or grown[-1] <= 0:
             continue
         order = group.replace("_", " ") or f"order {remedy.order}"
+        with_gas = " with gas" if len(grown) > 1 else ""
         why = f"the forces of the devices do not pass through {pivot}"
-        took = "the devices cancel inertia roll that opposes the gas roll at this speed"
-        why = took if grown[0] < 0 else why
-        gas = " with gas" * (len(grown) > 1)
+        if grown[0] < 0:
+            why = "the devices cancel inertia roll that opposes the gas roll at this speed"
         size = size_text(grown[-1], system.moment)
-        yield f"The roll of {order}{gas} grows by {size}: {why}."
+        yield f"The roll of {order}{with_gas} grows by {size}: {why}."
 
 
 def _find_growth(before: float, left: float) -> float:
     """Return by how much the second figure exceeds the first; 0 if that is negligible."""
-    return left - before if abs(left - before) > NEGLIGIBLE * max(before, left) else 0.0
+    growth = left - before
+    return growth if abs(growth) > NEGLIGIBLE * max(before, left) else 0.0
 
 
 # ------------------------------------------------------------------ tables
@@ -211,10 +242,21 @@ def _needs_grid(needs: Sequence[PlaneNeed], system: System) -> Grid:
     places = [number(length.of(need.position_mm / 1e3)) for need in needs]
     columns = [Column(f"z, {length.name}", places, words=True)]
     for name, vectors in series.items():
-        angles = [degrees(measure_direction(v)) if v else UNKNOWN for v in vectors]
         columns.append(Column(name, [number(unit.of(abs(vector))) for vector in vectors]))
-        columns.append(Column("at, deg", angles))
+        columns.append(Column("at, deg", [_show_direction(vector) for vector in vectors]))
     return Grid(f"Present and missing unbalance of each plane, {unit.name}", columns)
+
+
+def _show_direction(unbalance: complex) -> str:
+    return degrees(measure_direction(unbalance)) if unbalance else UNKNOWN
+
+
+class _CardRow(NamedTuple):
+    """Name, terms and sum of masses on a pin."""
+
+    name: str
+    terms: str
+    grams: float
 
 
 def card_grids(card: Sequence[Bobweight], *units: ShownUnit) -> Iterator[Grid]:
@@ -229,44 +271,48 @@ def card_grids(card: Sequence[Bobweight], *units: ShownUnit) -> Iterator[Grid]:
     for bobweight in card:
         alike.setdefault(bobweight.lines, []).append(bobweight)
     for pins in alike.values():
-        names = ", ".join("+".join(map(str, pin.cylinders)) for pin in pins)
         masses = list(_list_masses(pins[0], units[0]))
         columns = [
-            Column("", [name for name, _, _ in masses], words=True),
-            Column("quantity × each", [how for _, how, _ in masses]),
+            Column("", [mass.name for mass in masses], words=True),
+            Column("quantity × each", [mass.terms for mass in masses]),
         ]
         for unit in units:
-            sums = [number(unit.of(grams / 1e3), 5) for _, _, grams in masses]
+            sums = [number(unit.of(mass.grams / 1e3), 5) for mass in masses]
             columns.append(Column(unit.name, sums))
+        names = ", ".join("+".join(map(str, pin.cylinders)) for pin in pins)
+        noun = "pins" if len(pins) > 1 else "pin"
         note = "" if pins[0].throw_g else f"The throw itself {NO_THROW}."
-        yield Grid(f"Bobweight of pin{'s' * (len(pins) > 1)} {names}", columns, note)
+        yield Grid(f"Bobweight of {noun} {names}", columns, note)
 
 
-def _list_masses(pin: Bobweight, unit: ShownUnit) -> Iterator[tuple[str, str, float]]:
-    """Yield name, terms and sum (g) of the masses on a pin."""
-    for rotates, name, total in (
-        (True, "rotating", pin.rotating_g),
-        (False, "reciprocating", pin.reciprocating_g),
-    ):
-        for line in pin.lines:
-            if line.rotates == rotates and line.sum_g:
-                yield line.part, _multiply(line, unit), line.sum_g
-        yield f"{name} sum", "", total
+def _list_masses(pin: Bobweight, unit: ShownUnit) -> Iterator[_CardRow]:
+    """Yield the rows of a pin."""
+    yield from _list_terms(pin, unit, rotates=True)
+    yield _CardRow("rotating sum", "", pin.rotating_g)
+    yield from _list_terms(pin, unit, rotates=False)
+    yield _CardRow("reciprocating sum", "", pin.reciprocating_g)
     whole = number(unit.of(pin.reciprocating_g / 1e3), 5)
     share = f"{whole} × {percent(pin.factor)}"
-    yield "balanced share", share, pin.factor * pin.reciprocating_g
-    yield "bobweight (rotating + share)", "", pin.bobweight_g
+    yield _CardRow("balanced share", share, pin.factor * pin.reciprocating_g)
+    yield _CardRow("bobweight (rotating + share)", "", pin.bobweight_g)
     if pin.throw_g:
-        yield "throw itself, at the crank radius", "", pin.throw_g
-        yield "counterweight opposite", "", pin.bobweight_g + pin.throw_g
+        yield _CardRow("throw itself, at the crank radius", "", pin.throw_g)
+        yield _CardRow("counterweight opposite", "", pin.bobweight_g + pin.throw_g)
+
+
+def _list_terms(pin: Bobweight, unit: ShownUnit, *, rotates: bool) -> Iterator[_CardRow]:
+    """Yield the rotating or the reciprocating parts on a pin."""
+    for line in pin.lines:
+        if line.rotates == rotates and line.sum_g:
+            yield _CardRow(line.part, _multiply(line, unit), line.sum_g)
 
 
 def _multiply(line: CardLine, unit: ShownUnit) -> str:
     """Return the terms of a line's sum: `2 × 775`, or `775 + 780`."""
-    each = [number(unit.of(mass_g / 1e3)) for mass_g in line.each_g]
+    masses = [number(unit.of(mass_g / 1e3)) for mass_g in line.each_g]
     if len(set(line.each_g)) == 1:
-        return f"{len(each)} × {each[0]}"
-    return " + ".join(each)
+        return f"{len(masses)} × {masses[0]}"
+    return " + ".join(masses)
 
 
 def percent(share: float) -> str:

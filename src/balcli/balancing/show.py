@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Sequence
-from itertools import chain
+from collections.abc import Callable, Collection, Iterator, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -76,7 +75,6 @@ def sheet(result: Balance, system: System) -> Sheet:
     """
     remedy = result.remedy
     engine = result.before.engine
-    known = result.before.moments_known
     loads = [find_crank_loads(state.engine) for state in (result.before, result.after)]
     parts: list[Grid | Facts | Text] = [*assumed_facts(result.before.assumed)]
     if hasattr(result, "ladder"):
@@ -84,41 +82,53 @@ def sheet(result: Balance, system: System) -> Sheet:
         parts.append(ladder_grid(result.ladder, engine, system, tell_fitted=usual))
     if change := tell_change(result, system):
         parts.append(Text("", (change,)))
-    if remedy.reasons and not remedy.devices and not remedy.beyond:
-        parts.append(Text("Changes and reasons", remedy.reasons))
-    elif remedy.reasons:
-        parts.append(Text("Fitted devices and reasons", tuple(dict.fromkeys(remedy.reasons))))
-        parts += [device_grid(remedy, system), practical_grid(remedy, result.practical, system)]
-        if any(figures.holes for figures in result.practical):
-            parts.append(holes_grid(remedy, result.practical, result.tools, system))
-        if hasattr(result, "parts"):
-            parts += lay_out_parts(result.parts, system)
-    elif remedy.beyond:
-        parts.append(
-            Text("Fitted devices", ("No engine file can describe these devices: see Details.",))
-        )
-    else:
-        parts.append(Text("Nothing is fitted", ()))
-    of_ladder = bool(remedy.step) or remedy.steps is not None
-    notes = (
-        remedy.note and sentence(tell(remedy.note, name_option)),
-        tell_usual(result.ladder) if hasattr(result, "ladder") and remedy.steps == () else "",
-        _tell_left(result, system) if of_ladder else "",
-        _tell_couple(result, system),
-        _tell_bearings(result, system),
-        tell_best_factors(result, system),
-        *tell_distances(result, system),
-        _TURNING_WEIGHTS if engine.rotary and remedy.counterweights else "",
-        *tell_growing_rolls(result, system),
-    )
-    if any(notes):
-        parts.append(Text("Note", tuple(filter(None, notes))))
-    if not known:
+    parts += _lay_out_devices(result, system)
+    if notes := tuple(filter(None, _list_notes(result, system))):
+        parts.append(Text("Note", notes))
+    if not result.before.moments_known:
         parts.append(Text("Forces only", (sentence(MOMENTS_UNKNOWN),)))
     parts += [*_permitted(result, system), *details_parts(result, system)]
     changes = [*_orders(result, system), *_peaks(result, system), *_crank_loads(loads, system)]
     parts += changes or [Text("Before and after", ("Nothing changes by 1 % or more.",))]
     return Sheet(f"{engine.name or NAMELESS}: {_name_fitted(remedy)}", tuple(parts))
+
+
+def _lay_out_devices(result: Balance, system: System) -> Iterator[Grid | Facts | Text]:
+    """Yield the devices with their reasons, and their figures for the workshop."""
+    remedy = result.remedy
+    if remedy.reasons and not remedy.devices and not remedy.beyond:
+        yield Text("Changes and reasons", remedy.reasons)
+    elif remedy.reasons:
+        yield Text("Fitted devices and reasons", tuple(dict.fromkeys(remedy.reasons)))
+        yield device_grid(remedy, system)
+        yield practical_grid(remedy, result.practical, system)
+        if any(figures.holes for figures in result.practical):
+            yield holes_grid(remedy, result.practical, result.tools, system)
+        if hasattr(result, "parts"):
+            yield from lay_out_parts(result.parts, system)
+    elif remedy.beyond:
+        beyond = "No engine file can describe these devices: see Details."
+        yield Text("Fitted devices", (beyond,))
+    else:
+        yield Text("Nothing is fitted", ())
+
+
+def _list_notes(result: Balance, system: System) -> Iterator[str]:
+    """Yield notes on what the scheme does and leaves; those without meaning are empty."""
+    remedy = result.remedy
+    if remedy.note:
+        yield sentence(tell(remedy.note, name_option))
+    if hasattr(result, "ladder") and remedy.steps == ():
+        yield tell_usual(result.ladder)
+    if remedy.step or remedy.steps is not None:
+        yield _tell_left(result, system)
+    yield _tell_couple(result, system)
+    yield _tell_bearings(result, system)
+    yield tell_best_factors(result, system)
+    yield from tell_distances(result, system)
+    if result.before.engine.rotary and remedy.counterweights:
+        yield _TURNING_WEIGHTS
+    yield from tell_growing_rolls(result, system)
 
 
 def _name_fitted(remedy: Remedy) -> str:
@@ -133,16 +143,16 @@ def _name_fitted(remedy: Remedy) -> str:
 def _tell_left(result: Balance, system: System) -> str:
     """Return words on the forces and moments of orders 1 and 2 that steps of the ladder leave."""
     known = result.after.moments_known
-    left = []
     kinds = (FORCE, MOMENT) if known else (FORCE,)
     spectra = compute_spectra(result.after.engine, [1, 2], [kind.name for kind in kinds])
+    left = []
     for k, order in enumerate((1, 2)):
-        sizes = [(kind, float(spectra[kind.name].major[k])) for kind in kinds]
-        found = [
-            f"{kind.name} {size_text(size, system.unit(kind))}" for kind, size in sizes if size
-        ]
-        if found:
-            left.append(f"order {order}: {', '.join(found)}")
+        sizes = []
+        for kind in kinds:
+            if size := float(spectra[kind.name].major[k]):
+                sizes.append(f"{kind.name} {size_text(size, system.unit(kind))}")
+        if sizes:
+            left.append(f"order {order}: {', '.join(sizes)}")
     if left:
         return f"Leaves {'; '.join(left)}."
     return f"Leaves no {'force or moment' if known else 'force'} of orders 1 and 2."
@@ -195,32 +205,28 @@ def _permitted(result: Balance, system: System) -> Iterator[Grid]:
     remedy = result.remedy
     length = system.length
     mass = system.mass
-    each = result.permitted.each_g_mm / 1e6
+    permitted = result.permitted.each_g_mm / 1e6
+    judge: Callable[[float, float], str]
     if remedy.needs:
         head = f"plane at z, {length.name}"
         what = "missing"
         last = "of permitted"
-        found = [
-            (number(length.of(need.position_mm / 1e3)), abs(need.missing)) for need in remedy.needs
-        ]
+        judge = _compare_with_permitted
+        sizes = [abs(need.missing) for need in remedy.needs]
+        names = [number(length.of(need.position_mm / 1e3)) for need in remedy.needs]
     else:
         head = "counterweight"
         what = "unbalance"
         last = "tolerance"
-        weights = map(find_unbalance, remedy.counterweights)
-        found = [(str(k), unbalance) for k, unbalance in enumerate(weights, 1)]
-    unit = system.unbalance.fit(max(size for _, size in found))
-
-    def judge(size: float) -> str:
-        if remedy.needs:
-            return f"{size / each:.1%}, {'over' if size > each else 'within'}"
-        return f"±{each / size:.2%}" if size else "–"
-
+        judge = _find_tolerance
+        sizes = [find_unbalance(weight) for weight in remedy.counterweights]
+        names = [str(k) for k in range(1, len(sizes) + 1)]
+    unit = system.unbalance.fit(max(sizes))
     columns = [
-        Column(head, [name for name, _ in found], words=True),
-        Column(f"{what}, {unit.name}", [number(unit.of(size)) for _, size in found]),
-        Column(f"permitted, {unit.name}", [number(unit.of(each))] * len(found)),
-        Column(last, [judge(size) for _, size in found]),
+        Column(head, names, words=True),
+        Column(f"{what}, {unit.name}", [number(unit.of(size)) for size in sizes]),
+        Column(f"permitted, {unit.name}", [number(unit.of(permitted))] * len(sizes)),
+        Column(last, [judge(size, permitted) for size in sizes]),
     ]
     yield Grid(
         f"Permitted residual unbalance, ISO 21940-11, G {result.permitted.grade:g}",
@@ -228,6 +234,16 @@ def _permitted(result: Balance, system: System) -> Iterator[Grid]:
         f"A crankshaft of {number(mass.of(result.permitted.mass_kg))} {mass.name} at "
         f"{result.before.engine.speed_rpm:g} rpm; all planes have equal shares.",
     )
+
+
+def _compare_with_permitted(missing: float, permitted: float) -> str:
+    verdict = "over" if missing > permitted else "within"
+    return f"{missing / permitted:.1%}, {verdict}"
+
+
+def _find_tolerance(unbalance: float, permitted: float) -> str:
+    """Return the permitted unbalance as a share of the unbalance of a new counterweight."""
+    return f"±{permitted / unbalance:.2%}" if unbalance else "–"
 
 
 # ------------------------------------------------------------------ before and after
@@ -276,19 +292,18 @@ def _find_changes(before: ArrayLike, after: ArrayLike) -> NDArray[np.bool_]:
     return (change > 0) & (change >= 0.01 * np.maximum(before, after))
 
 
-def _tell_unchanged(told: Collection[str]) -> str:
-    """Return a line that lists the values in `told` as unchanged; empty if there are none."""
-    return f"Unchanged within 1 %: {', '.join(told)}." if told else ""
+def _tell_unchanged(values: Collection[str]) -> str:
+    """Return a line that lists values as unchanged; empty if there are none."""
+    return f"Unchanged within 1 %: {', '.join(values)}." if values else ""
 
 
 def _orders(result: Balance, system: System) -> Iterator[Grid]:
     """Yield a table of the orders whose force, moment or roll changes, or of all given orders."""
     has_gas = result.before.engine.gas is not None
     kinds = (FORCE, MOMENT, ROLL_TOTAL if has_gas else ROLL)
-    states = [
-        one.spectra.with_moment_if(one.moments_known) for one in (result.before, result.after)
-    ]
-    sizes = np.array([[state[kind.name].major for state in states] for kind in kinds])
+    before = result.before.spectra.with_moment_if(result.before.moments_known)
+    after = result.after.spectra.with_moment_if(result.after.moments_known)
+    sizes = np.array([[before[kind.name].major, after[kind.name].major] for kind in kinds])
     scales = dict(result.before.of_one_cylinder)
     if has_gas:  # one cylinder gives no scale for the roll with gas
         scales[ROLL_TOTAL.name] = float(sizes[2].max())
@@ -301,15 +316,15 @@ def _orders(result: Balance, system: System) -> Iterator[Grid]:
     orders = [order_name(order) for order in result.before.orders[shown]]
     columns = [Column("order", orders, words=True)]
     unchanged = []
-    for kind, changes, size, faint, after in zip(kinds, changed, sizes, small, left, strict=True):
-        unit = fit_largest(system.unit(kind), *(state[kind.name] for state in states))
-        if changes.any():
+    for k, kind in enumerate(kinds):
+        unit = fit_largest(system.unit(kind), before[kind.name], after[kind.name])
+        if changed[k].any():
             heads = f"{name_column(kind)}, {unit.name}", "after"
-            for head, values, tiny in zip(heads, size, faint, strict=True):
-                cells = (size_cell(float(values[n]), unit, negligible=tiny[n]) for n in shown)
-                columns.append(Column(head, [*cells]))
-        if same := result.before.orders[after > 0].tolist():
-            most = size_text(float(after.max()), system.unit(kind))
+            for head, values, tiny in zip(heads, sizes[k], small[k], strict=True):
+                cells = [size_cell(float(values[n]), unit, negligible=tiny[n]) for n in shown]
+                columns.append(Column(head, cells))
+        if same := result.before.orders[left[k] > 0].tolist():
+            most = size_text(float(left[k].max()), system.unit(kind))
             unchanged.append(f"{name_column(kind)} of {name_orders(same)} (at most {most})")
     if len(shown):
         title = "Largest value by order, before and after"
@@ -319,19 +334,18 @@ def _orders(result: Balance, system: System) -> Iterator[Grid]:
 def _peaks(result: Balance, system: System) -> Iterator[Grid]:
     """Yield a table of those largest values over a revolution that change."""
     rows = []
-    left = list[str]()
+    unchanged: list[str] = []
     for (kind, before), (_, after) in zip(result.before.peaks, result.after.peaks, strict=True):
         if kind is MOMENT and not result.before.moments_known:
             continue
-        if not result.every_order and not _find_changes(before.value, after.value):
-            size = size_text(after.value, system.unit(kind))
-            left += [f"largest {kind.name} ({size})"] * (after.value > 0)
-            continue
-        unit = system.unit(kind).fit(max(before.value, after.value))
-        rows.append((f"{kind.name}, {unit.name}", *_peak(before, unit), *_peak(after, unit)))
+        if result.every_order or _find_changes(before.value, after.value):
+            unit = system.unit(kind).fit(max(before.value, after.value))
+            rows.append((f"{kind.name}, {unit.name}", *_peak(before, unit), *_peak(after, unit)))
+        elif after.value > 0:
+            unchanged.append(f"largest {kind.name} ({size_text(after.value, system.unit(kind))})")
     uneven = "Devices are sized for steady mean speed; both columns are for the uneven speed."
     if rows:
-        notes = (_tell_unchanged(left), uneven if result.before.engine.ripple else "")
+        notes = (_tell_unchanged(unchanged), uneven if result.before.engine.ripple else "")
         title = "Largest over a revolution, all orders"
         heads = _head_before_and_after("at, deg")
         yield Grid.of_rows(title, heads, rows, " ".join(filter(None, notes)))
@@ -355,14 +369,18 @@ def _crank_loads(states: Sequence[CrankLoads | None], system: System) -> Iterato
         ("largest main bearing load", FORCE, "main_N", "main_mm"),
         ("largest inner moment", MOMENT, "inner_moment_Nm", "inner_mm"),
     ):
-        found = [getattr(state, key, None) for state in states]
-        sizes = [np.nan if size is None else size for size in found]  # nan: not known
+        sizes = []
+        for state in states:
+            size = getattr(state, key, None)
+            sizes.append(np.nan if size is None else size)  # nan: not known
         if not _find_changes(*sizes):
             continue
         unit = system.unit(kind).fit(max(sizes))
-        loads = map(number, map(unit.of, sizes))
-        places = (number(system.length.of(getattr(state, place) / 1e3)) for state in states)
-        rows.append((f"{name}, {unit.name}", *chain(*zip(loads, places, strict=True))))
+        row = [f"{name}, {unit.name}"]
+        for state, size in zip(states, sizes, strict=True):
+            row.append(number(unit.of(size)))
+            row.append(number(system.length.of(getattr(state, place) / 1e3)))
+        rows.append(row)
     if rows:
         heads = _head_before_and_after(f"at z, {system.length.name}")
         note = (
@@ -389,11 +407,12 @@ def columns(result: Balance) -> Columns:
     lines: list[Node] = []
     for device, practical in zip(result.remedy.devices, result.practical, strict=True):
         line: Node = {"device": name_kind(device)}
-        figures = list_figures(to_document(practical), ("unbalance_kg_m",))
-        others = ((remove_unit(name), value, unit) for name, value, unit in figures)
-        for name, value, unit in (*device_rows(device, SI), *others):
+        for name, value, unit in device_rows(device, SI):
             line[name] = value
             units[name] = unit
+        for key, figure, unit in list_figures(to_document(practical), ("unbalance_kg_m",)):
+            line[remove_unit(key)] = figure
+            units[remove_unit(key)] = unit
         lines.append(line)
     values = {name: [line.get(name) for line in lines] for name in units}
     return Columns(values, {name: unit for name, unit in units.items() if unit})

@@ -6,6 +6,7 @@ the engine file already has are subtracted.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from contextlib import suppress
 from itertools import compress
 from typing import NamedTuple
@@ -95,18 +96,14 @@ def size_by_factor(engine: Engine, options: SchemeOptions) -> Remedy:
     factors = _choose_factors(engine, options)
     sweep = tuple(find_factor_peaks(engine, factor, planes) for factor in factors)
     best = min(sweep, key=lambda peaks: peaks.cost).factor
-    fitting, found = _fit_factor(engine, best, planes)
+    fitting, fitted = _fit_factor(engine, best, planes)
     fitting = fitting.add_details(**_describe(engine, options, best))
-    span = (min(factors), max(factors)) if len(sweep) > 1 else (0.0, 1.0)
+    several = len(sweep) > 1
+    span = (min(factors), max(factors)) if several else (0.0, 1.0)
     if bests := _find_best_factors(engine, planes, *span):
         fitting = fitting.add_details(best=bests)
     own = bool(_find_counterweights(engine)[1].any())
-    from_pin = (complex(unit(-float(engine.first_axis_deg))) * found.needs).T.tolist()
-    needs = tuple(
-        PlaneNeed(position_mm=1e3 * z, wanted=wanted, present=present, missing=missing)
-        for z, (wanted, present, missing) in zip(found.z.tolist(), from_pin, strict=True)
-    )
-    note = _note(fitting, best, found.z, own)
+    note = _note(fitting, best, fitted.z, own)
     if not note and options.planes is None and planes is not None:
         note = Message(
             "the weights are in the planes of the file's counterweights; {planes} throws computes "
@@ -115,9 +112,20 @@ def size_by_factor(engine: Engine, options: SchemeOptions) -> Remedy:
     return fitting.remedy._replace(
         note=note,
         card=fill_card(engine, best),
-        needs=needs if own else (),
-        sweep=sweep if len(sweep) > 1 else (),
+        needs=_list_needs(engine, fitted) if own else (),
+        sweep=sweep if several else (),
     )
+
+
+def _list_needs(engine: Engine, planes: _Planes) -> tuple[PlaneNeed, ...]:
+    """Return the unbalance of each plane as a record, with angles from cylinder 1's pin."""
+    from_pin = complex(unit(-float(engine.first_axis_deg))) * planes.needs
+    needs = []
+    for z, (wanted, present, missing) in zip(planes.z.tolist(), from_pin.T.tolist(), strict=True):
+        needs.append(
+            PlaneNeed(position_mm=1e3 * z, wanted=wanted, present=present, missing=missing)
+        )
+    return tuple(needs)
 
 
 def find_best_peaks(engine: Engine, options: SchemeOptions, remedy: Remedy) -> FactorPeaks:
@@ -129,9 +137,23 @@ def find_best_peaks(engine: Engine, options: SchemeOptions, remedy: Remedy) -> F
         remedy: Remedy for several factors.
     """
     planes = _choose_planes(engine, options)
-    best = remedy.details.get("best", {})
-    found = [find_factor_peaks(engine, one["factor"], planes) for one in best.values()]
-    return min(*remedy.sweep, *found, key=lambda peaks: peaks.cost)
+    peaks = list(remedy.sweep)
+    for best in remedy.details.get("best", {}).values():
+        peaks.append(find_factor_peaks(engine, best["factor"], planes))
+    return min(peaks, key=lambda peaks: peaks.cost)
+
+
+class _LinearLoad(NamedTuple):
+    """A load that is linear in the factor: at the lowest factor, and its change up to the highest
+    one.
+    """
+
+    lowest: Phasors
+    change: Phasors
+
+    def find_peak(self, share: float) -> float:
+        """Return the largest value over a revolution at a share of the range of factors."""
+        return float(find_largest((self.lowest + share * self.change).drop_noise()).max())
 
 
 def _find_best_factors(
@@ -144,23 +166,21 @@ def _find_best_factors(
     At each crank angle, a load is linear in the factor; so its peak is a convex function of the
     factor, and has one minimum.
     """
-    first, last = (_list_curves(engine, factor, planes) for factor in (low, high))
+    first = _list_curves(engine, low, planes)
+    last = _list_curves(engine, high, planes)
     best: dict[str, dict[str, float]] = {}
     for key, curve in first.items():
-        change = last[key] - curve
-
-        def judge(share: float, curve: Phasors = curve, change: Phasors = change) -> float:
-            return float(find_largest((curve + share * change).drop_noise()).max())
-
-        share = find_least(judge, 0.0, 1.0, _ROUNDS)
-        tried = [*(one["factor"] for one in best.values()), round(low + share * (high - low), 6)]
-        sizes = [judge((factor - low) / (high - low)) for factor in tried]
-        least = min(sizes)
-        most = max(judge(0.0), judge(1.0))
+        load = _LinearLoad(curve, last[key] - curve)
+        share = find_least(load.find_peak, 0.0, 1.0, _ROUNDS)
+        factors = [chosen["factor"] for chosen in best.values()]
+        factors.append(round(low + share * (high - low), 6))
+        peaks = [load.find_peak((factor - low) / (high - low)) for factor in factors]
+        least = min(peaks)
+        most = max(load.find_peak(0.0), load.find_peak(1.0))
         if most - least > _FLAT * most:
-            flat = (size - least <= _FLAT * most for size in sizes)
+            flat = (peak - least <= _FLAT * most for peak in peaks)
             name = key.removeprefix("peak_").rpartition("_")[0]
-            best[name] = {"factor": next(compress(tried, flat)), key: least}
+            best[name] = {"factor": next(compress(factors, flat)), key: least}
     return best
 
 
@@ -171,10 +191,10 @@ def _list_curves(
     names of their peaks.
     """
     new = fit_devices(*_fit_factor(engine, factor, planes)[0])
-    key, kind = (
-        ("peak_moment_Nm", "moment") if _counts_by_moment(engine) else ("peak_force_N", "force")
-    )
-    curves = {key: find_curve(new, kind)}
+    if _counts_by_moment(engine):
+        curves = {"peak_moment_Nm": find_curve(new, "moment")}
+    else:
+        curves = {"peak_force_N": find_curve(new, "force")}
     bearings = place_bearings(new.joined_throws_m) if new.places_known else None
     if bearings is not None:
         with suppress(BalcliError):  # too many loads
@@ -280,8 +300,8 @@ def find_measured_factor(engine: Engine, measured: float) -> float:
             "{measured} {grams:g} g: a mass on the pin cannot be negative", grams=1e3 * measured
         )
     card = fill_card(engine, 0.0)
-    reciprocating = sum(one.reciprocating_g for one in card)
-    rotating = sum(one.rotating_g for one in card)
+    reciprocating = sum(pin.reciprocating_g for pin in card)
+    rotating = sum(pin.rotating_g for pin in card)
     if not reciprocating:
         raise ArgumentError("{measured}: this engine has no reciprocating mass and so no factor")
     factor = (1e3 * measured * len(card) - rotating) / reciprocating
@@ -318,16 +338,12 @@ def _change_measured(engine: Engine, options: SchemeOptions) -> Remedy:
     masses = np.array([float(w.rotating + w.reciprocating) for w in engine.weighed])
     slots = []
     unbalances = []
-    actions = []
-    for rows, one in zip(engine.rows_by_pin, card, strict=True):
+    changes = []
+    for rows, bobweight in zip(engine.rows_by_pin, card, strict=True):
         pin, z = _locate_pin(engine, rows, masses[rows])
         slots.append(Slot("counterweight", 1, 1, z))
-        unbalances.append(-(measured + one.throw_g / 1e3) * pin)
-        wants = one.bobweight_g / 1e3
-        change = wants - measured
-        change = change * abs(pin) if abs(change) > _UNCHANGED * abs(wants) else 0.0
-        action = "add" if change > 0 else "remove" if change else "nothing"
-        actions.append({"throw": one.throw, "unbalance_kg_m": change, "action": action})
+        unbalances.append(-(measured + bobweight.throw_g / 1e3) * pin)
+        changes.append(_describe_change(bobweight, measured, abs(pin)))
     bare = remove_counterweights(engine)
     start = Fitting.start(bare, "factor").add(slots, unbalances, _MEASURED).remedy
     base = fit_devices(bare, start)
@@ -336,9 +352,27 @@ def _change_measured(engine: Engine, options: SchemeOptions) -> Remedy:
         measured_g=1e3 * measured,
         measured_factor=has,
         wanted_factor=remedy.details["factor"],
-        change=actions,
+        change=changes,
     )
     return remedy._replace(start=base)
+
+
+def _describe_change(bobweight: Bobweight, measured: float, radius: float) -> Node:
+    """Return the unbalance to add opposite a pin (negative: to remove), and what to do.
+
+    Args:
+        bobweight: Wanted bobweight of the pin.
+        measured: Measured mass, kg.
+        radius: Crank radius, m.
+    """
+    wanted = bobweight.bobweight_g / 1e3
+    mass = wanted - measured
+    if abs(mass) <= _UNCHANGED * abs(wanted):
+        mass = 0.0
+    action = "nothing"
+    if mass:
+        action = "add" if mass > 0 else "remove"
+    return {"throw": bobweight.throw, "unbalance_kg_m": mass * radius, "action": action}
 
 
 def _choose_planes(engine: Engine, options: SchemeOptions) -> tuple[float, ...] | None:
@@ -375,7 +409,9 @@ def name_one_cylinder(engine: Engine) -> str:
     are equal, else the mean of all.
     """
     masses = {round(float(weighed.reciprocating), 9) for weighed in engine.weighed}
-    return f"one cylinder's{' mean' if len(masses) > 1 else ''} reciprocating mass"
+    if len(masses) > 1:
+        return "one cylinder's mean reciprocating mass"
+    return "one cylinder's reciprocating mass"
 
 
 # ------------------------------------------------------------------ what is wanted, what is there
@@ -384,20 +420,23 @@ def _fit_factor(
 ) -> tuple[Fitting, _Planes]:
     """Fit the missing weight in each plane."""
     fitting = Fitting.start(engine, "factor", 1)
-    less = "; less the counterweights of the file" * bool(_find_counterweights(engine)[1].any())
     taken = f"weight for all rotating mass and {factor:.6g} of the reciprocating mass"
-    found = _find_needs(engine, factor, planes)
-    slots = [Slot("counterweight", 1, 1, z) for z in found.z.tolist()]
-    missing = found.needs[2].tolist()
+    less = ""
+    if _find_counterweights(engine)[1].any():
+        less = "; less the counterweights of the file"
+    fitted = _find_needs(engine, factor, planes)
+    slots = [Slot("counterweight", 1, 1, z) for z in fitted.z.tolist()]
+    missing = fitted.needs[2].tolist()
     if planes is not None:
         reason = f"In these planes, divided by the lever rule: {taken} of every pin{less}"
-        return fitting.add(slots, missing, reason), found
-    for slot, unbalance, pins in zip(slots, missing, found.sets, strict=True):
+        return fitting.add(slots, missing, reason), fitted
+    for slot, unbalance, pins in zip(slots, missing, fitted.sets, strict=True):
         numbers = [str(number) for pin in pins for number in pin.cylinders]
-        cylinders = f"cylinder{'s' * (len(numbers) > 1)} {', '.join(numbers)}"
+        cylinders = "cylinders" if len(numbers) > 1 else "cylinder"
         where = "Opposite the pin" if len(pins) == 1 else "In the plane"
-        fitting = fitting.add([slot], [unbalance], f"{where} of {cylinders}: {taken}{less}")
-    return fitting, found
+        reason = f"{where} of {cylinders} {', '.join(numbers)}: {taken}{less}"
+        fitting = fitting.add([slot], [unbalance], reason)
+    return fitting, fitted
 
 
 def _find_needs(engine: Engine, factor: float, planes: tuple[float, ...] | None) -> _Planes:
@@ -409,13 +448,15 @@ def _find_needs(engine: Engine, factor: float, planes: tuple[float, ...] | None)
     places, weights = _find_counterweights(engine)
     sets: list[list[_Pin]] = []
     if planes is None:
-        own = {k: pin.z if weights.any() else k for k, pin in enumerate(pins)}
-        sets = [[pins[k] for k in own if own[k] == key] for key in dict.fromkeys(own.values())]
-    z = np.array([members[0].z for members in sets] if planes is None else planes, float)
+        sets = _join_at_same_place(pins) if weights.any() else [[pin] for pin in pins]
+        z = np.array([members[0].z for members in sets], float)
+    else:
+        z = np.array(planes, float)
     if not pins:
         return _Planes(z[:0], np.zeros((3, 0), complex), [])
-    of_pins = np.array([[float(pin in members) for pin in pins] for members in sets])
-    if planes is not None:
+    if planes is None:
+        of_pins = np.array([[float(pin in members) for pin in pins] for members in sets])
+    else:
         of_pins = share_by_lever(np.array([pin.z for pin in pins]), z)
     of_weights = np.zeros((len(z), len(places)))
     if weights.any():
@@ -428,6 +469,14 @@ def _find_needs(engine: Engine, factor: float, planes: tuple[float, ...] | None)
     return _Planes(z, np.where(np.abs(needs) <= LEFT * parts, 0, needs), sets)
 
 
+def _join_at_same_place(pins: Iterable[_Pin]) -> list[list[_Pin]]:
+    """Return lists of pins at the same z."""
+    by_place: dict[float, list[_Pin]] = {}
+    for pin in pins:
+        by_place.setdefault(pin.z, []).append(pin)
+    return list(by_place.values())
+
+
 def _size_each(engine: Engine, options: SchemeOptions) -> Remedy:
     """Fit counterweights to geared engines, to each on its own crank as if it were alone."""
     if options.measured is not None or len(options.factor or ()) > 1:
@@ -435,17 +484,16 @@ def _size_each(engine: Engine, options: SchemeOptions) -> Remedy:
             "geared engines: give one {factor}, no {measured}, or balance each alone"
         )
     remedy = Remedy("factor", 1)
-    cards = list[Bobweight]()
-    needs = list[PlaneNeed]()
-    for one in map(move_along, engine.cranks):
-        own = size_by_factor(one.engine, options)
-        weights = [w.model_copy(update={"engine": one.name}) for w in own.counterweights]
-        for weight, reason in zip(weights, own.reasons, strict=True):
-            remedy = remedy.add_devices([weight], f"{one.name}: {reason}")
-        cards += (
-            pin._replace(cylinders=tuple(f"{one.name}.{number}" for number in pin.cylinders))
-            for pin in own.card
-        )
+    cards: list[Bobweight] = []
+    needs: list[PlaneNeed] = []
+    for crank in map(move_along, engine.cranks):
+        own = size_by_factor(crank.engine, options)
+        for weight, reason in zip(own.counterweights, own.reasons, strict=True):
+            of_crank = weight.model_copy(update={"engine": crank.name})
+            remedy = remedy.add_devices([of_crank], f"{crank.name}: {reason}")
+        for pin in own.card:
+            cylinders = tuple(f"{crank.name}.{number}" for number in pin.cylinders)
+            cards.append(pin._replace(cylinders=cylinders))
         needs += own.needs
     details = {key: own.details[key] for key in ("factor", "definition")}
     return remedy._replace(details=details, card=tuple(cards), needs=tuple(needs))
@@ -468,7 +516,8 @@ def _list_pins(engine: Engine, factor: float) -> list[_Pin]:
     for rows in engine.rows_by_pin:
         if total := float(masses[rows].sum()):
             pin, z = _locate_pin(engine, rows, masses[rows])
-            pins.append(_Pin(tuple(engine.numbers[row] for row in rows), total * pin, z))
+            cylinders = tuple(engine.numbers[row] for row in rows)
+            pins.append(_Pin(cylinders, total * pin, z))
     return pins
 
 

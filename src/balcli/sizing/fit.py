@@ -49,19 +49,19 @@ def list_to_fit(model: EngineFile) -> list[tuple[str, DeviceTable]]:
     """Return the names (`shaft.2`) and tables of devices whose unbalance is "fit", in the order of
     the file.
     """
-    return [
-        (f"{key}.{number}", table)
-        for key in TABLES
-        for number, table in enumerate(getattr(model, key), 1)
-        if table.to_fit
-    ]
+    to_fit = []
+    for key in TABLES:
+        for number, table in enumerate(getattr(model, key), 1):
+            if table.to_fit:
+                to_fit.append((f"{key}.{number}", table))
+    return to_fit
 
 
 def remove_to_fit(model: EngineFile) -> EngineFile:
     """Return the file without the devices whose unbalance is "fit"."""
-    rest = {
-        key: tuple(table for table in getattr(model, key) if not table.to_fit) for key in TABLES
-    }
+    rest = {}
+    for key in TABLES:
+        rest[key] = tuple(table for table in getattr(model, key) if not table.to_fit)
     return model.model_copy(update=rest)
 
 
@@ -82,7 +82,7 @@ def size_fit(engine: Engine, model: EngineFile, targets: Sequence[str] | None = 
     refuse_geared(engine)
     chosen = _check_targets(engine, targets)
     named = list_to_fit(model)
-    found: dict[str, DeviceTable] = {}
+    fitted: dict[str, DeviceTable] = {}
     notes: list[str] = []
     unknowns = rank = 0
     for order in dict.fromkeys(find_order(table) for _, table in named):
@@ -92,22 +92,25 @@ def size_fit(engine: Engine, model: EngineFile, targets: Sequence[str] | None = 
         unknowns = unknowns + len(solution.x)
         rank = rank + solution.rank
         x = np.where(np.abs(solution.x) < _ROUNDING * np.abs(solution.x).max(), 0, solution.x)
-        largest = max(np.abs(each).max() for each in effects)
-        for (name, table), each in zip(tables.items(), effects, strict=True):
-            values, x = np.split(x, [each.shape[1]])
-            found[name] = _fill(table, values)
-            if np.abs(each).max() <= _LOST * largest:
+        largest = max(np.abs(effect).max() for effect in effects)
+        for (name, table), effect in zip(tables.items(), effects, strict=True):
+            values, x = np.split(x, [effect.shape[1]])
+            fitted[name] = _fill(table, values)
+            if np.abs(effect).max() <= _LOST * largest:
                 notes.append(f"{name} has no effect on these targets: its unbalance is 0.")
             elif len(values) == 1 and values[0] < 0:
                 notes.append(f"{name} is on the opposite side: its angle is turned by 180 deg.")
     if undetermined := unknowns - rank:
         are = "unknowns are" if undetermined > 1 else "unknown is"
-        told = f"{undetermined} {are} not determined by these targets"
-        notes.insert(0, f"{told}; the smallest unbalances are used.")
+        notes.insert(
+            0,
+            f"{undetermined} {are} not determined by these targets; the smallest unbalances are "
+            "used.",
+        )
     details = {"target": list(chosen), "unknowns": unknowns, "undetermined": undetermined}
     remedy = Remedy(FIT, note=" ".join(notes), details=details)
-    fitted = [found[name] for name, _ in named]
-    return remedy.add_devices(fitted, _REASON.format(join_words(chosen)))
+    in_order = [fitted[name] for name, _ in named]
+    return remedy.add_devices(in_order, _REASON.format(join_words(chosen)))
 
 
 def _check_targets(engine: Engine, targets: Sequence[str] | None) -> tuple[str, ...]:
@@ -141,7 +144,7 @@ def _set_up(
     if not scales.force:
         raise BalcliError('"fit" needs reciprocating masses, because forces are compared with them')
     parts = []
-    there = []
+    present = []
     weights = []
     for target in targets:
         scale = scales.roll if ROLL in TARGETS[target] else getattr(scales, target)
@@ -151,25 +154,29 @@ def _set_up(
                 phasors = compute_spectra(hold_steady(engine), [order], (target,))[target]
                 value = 2 * complex(phasors.forward[0]) / residual.newtons_per_kg_m
             parts.append(part)
-            there.append(value)
+            present.append(value)
             weights += 2 * [residual.newtons_per_kg_m / scale]
     effects = []
     for table in tables:
         angles = (table.angle,) if "angle" in table.model_fields_set else (0.0, 90.0)
-        turned = [table.model_copy(update={"unbalance": 1e6, "angle": angle}) for angle in angles]
-        devices = [build_fitted(one, engine) for one in turned]
-        of_one = find_effects(devices, parts, residual.reference)
-        effects.append(np.array(weights)[:, None] * of_one)
-    return effects, -np.array(weights) * np.array(there, complex).view(float)
+        devices = []
+        for angle in angles:
+            of_one_kg_m = table.model_copy(update={"unbalance": 1e6, "angle": angle})
+            devices.append(build_fitted(of_one_kg_m, engine))
+        of_device = find_effects(devices, parts, residual.reference)
+        effects.append(np.array(weights)[:, None] * of_device)
+    return effects, -np.array(weights) * np.array(present, complex).view(float)
 
 
 def _fill(table: DeviceTable, values: Array) -> DeviceTable:
     """Return the table with a fitted unbalance (kg m). `values`: the unbalance if its angle is
     given, else its real and imaginary part.
     """
-    angle = measure_direction(complex(*values)) if values.any() else 0.0
-    if len(values) == 1:
+    if len(values) > 1:
+        angle = measure_direction(complex(*values)) if values.any() else 0.0
+        unbalance = float(np.hypot(*values))
+    else:
         opposite = complex(unit(table.angle + 180))
         angle = measure_direction(opposite) if values[0] < 0 else table.angle
-    size = 1e6 * float(np.hypot(*values) if len(values) > 1 else abs(values[0]))
-    return table.model_copy(update={"unbalance": size, "angle": angle})
+        unbalance = float(abs(values[0]))
+    return table.model_copy(update={"unbalance": 1e6 * unbalance, "angle": angle})

@@ -93,12 +93,12 @@ class Slot(NamedTuple):
     carrier: Placed | None = None
 
     @classmethod
-    def on_crank(cls, one: Placed, z: float) -> Slot:
+    def on_crank(cls, crank: Placed, z: float) -> Slot:
         """Return the slot of a counterweight on the crank of a single engine or a geared engine."""
-        if not one.name:
+        if not crank.name:
             return cls("counterweight", 1, 1, z)
-        place = complex(place_in_plane(*one.at_m[:2]))
-        return cls("counterweight", 1, one.ratio, z, place, carrier=one)
+        place = complex(place_in_plane(*crank.at_m[:2]))
+        return cls("counterweight", 1, crank.ratio, z, place, carrier=crank)
 
     def make_device(self, unbalance: complex) -> Device:
         """Return the device of this unbalance (kg m) in this slot, as rotating vectors."""
@@ -115,17 +115,18 @@ class Slot(NamedTuple):
             first_axis_deg: Direction of cylinder 1's crank pin, deg, from which the angle of a
                 counterweight counts.
         """
-        on_crank = self.kind == "counterweight"
-        carrier = self.carrier
-        if carrier is not None:
-            first_axis_deg = float(carrier.engine.first_axis_deg)
-            unbalance = carrier.find_own_unbalance(unbalance)
-        angle = measure_direction(unbalance, first_axis_deg if on_crank else 0.0)
-        values: Node = {"unbalance": abs(unbalance) * 1e6, "angle": angle}
-        x, y, values["position"] = map(as_millimetres, (self.place.real, self.place.imag, self.z))
-        if on_crank:
-            values |= {} if carrier is None else {"engine": carrier.name}
+        x, y, z = map(as_millimetres, (self.place.real, self.place.imag, self.z))
+        values: Node = {"position": z}
+        if self.kind == "counterweight":
+            if self.carrier is not None:
+                first_axis_deg = float(self.carrier.engine.first_axis_deg)
+                unbalance = self.carrier.find_own_unbalance(unbalance)
+                values["engine"] = self.carrier.name
+            values["unbalance"] = abs(unbalance) * 1e6
+            values["angle"] = measure_direction(unbalance, first_axis_deg)
             return Counterweight.model_construct(**values)
+        values["unbalance"] = abs(unbalance) * 1e6
+        values["angle"] = measure_direction(unbalance)
         values["at"] = (x, y)
         if self.kind == "shaft":
             ratio = self.sense * self.order
@@ -259,12 +260,12 @@ class Fitting(NamedTuple):
         masses.
         """
         first_axis_deg = float(self.engine.first_axis_deg)
-        dust = LEFT * sum(_sum_unbalances(one.engine) for one in self.engine.cranks)
-        tables = [
-            slot.make_table(unbalance, first_axis_deg)
-            for slot, unbalance in zip(slots, unbalances, strict=True)
-            if abs(unbalance) > (dust if slot.kind == "counterweight" else 0)
-        ]
+        negligible = LEFT * sum(_sum_unbalances(crank.engine) for crank in self.engine.cranks)
+        tables = []
+        for slot, unbalance in zip(slots, unbalances, strict=True):
+            least = negligible if slot.kind == "counterweight" else 0
+            if abs(unbalance) > least:
+                tables.append(slot.make_table(unbalance, first_axis_deg))
         return self._replace(remedy=self.remedy.add_devices(tables, reason))
 
     def cancel(
@@ -310,15 +311,17 @@ class Fitting(NamedTuple):
         masses = np.array([float(weighed.rotating + weighed.share) for weighed in engine.weighed])
         directions = unit(engine.first_axis_deg + engine.cylinders.pin_deg)
         pins = masses * engine.cylinders.radius * directions
-        own = [one for one in engine.devices if one.kind is DeviceKind.COUNTERWEIGHT]
-        vectors = np.array([*pins, *(one.forward for one in own)])
-        z = np.array([*engine.cylinders.z, *(one.z for one in own)])
+        own = [device for device in engine.devices if device.kind is DeviceKind.COUNTERWEIGHT]
+        vectors = np.array([*pins, *(weight.forward for weight in own)])
+        z = np.array([*engine.cylinders.z, *(weight.z for weight in own)])
         force = complex(vectors.sum())
         moment = complex(vectors @ (z - residual.reference.z))
         if keep_overbalance and (pins.sum().conjugate() * force).real < 0:
             return self
         parts = {**residual.parts, FORWARD_FORCE: force, FORWARD_MOMENT: moment}
-        parts = {p: v if abs(v) > 4 * residual.noise.get(p, 0) else 0j for p, v in parts.items()}
+        for part, vector in parts.items():
+            if abs(vector) <= 4 * residual.noise.get(part, 0):
+                parts[part] = 0j
         turning = residual._replace(parts=parts)
         slots = [Slot("counterweight", 1, 1, z) for z in find_planes(engine, turning, 1)]
         return self.cancel(slots, FORWARD, _ROTATING, turning)
@@ -384,11 +387,17 @@ def explain_shaft(
     why = "nothing on the crankshaft can cancel it"
     if sense * residual.order == 1:
         why = "the scheme counterweights would cancel it without a shaft"
-    kind = "eccentrics in two planes" if residual.force(sense) else "two opposite eccentrics"
-    kind = "one eccentric" if count == 1 else kind
-    both = ", in two halves on opposite sides of the crank so that no roll is added" * halves
-    shaft = f"on a shaft at {sense * residual.order:+d} times crank speed"
-    return f"{what} turning {tell_sense(sense)}: {why}; {kind} {shaft} can{both}{stays}"
+    if count == 1:
+        kind = "one eccentric"
+    elif residual.force(sense):
+        kind = "eccentrics in two planes"
+    else:
+        kind = "two opposite eccentrics"
+    text = f"{what} turning {tell_sense(sense)}: {why}; {kind}"
+    text += f" on a shaft at {sense * residual.order:+d} times crank speed can"
+    if halves:
+        text += ", in two halves on opposite sides of the crank so that no roll is added"
+    return f"{text}{stays}"
 
 
 def tell_moment(residual: Residual, sense: int, z: float, cure: str) -> str:

@@ -31,7 +31,7 @@ def find_ends(engine: Engine) -> tuple[float, float]:
     """Return z of the end planes, m: the first and the last throw. If all throws are in one plane,
     the end planes are half a bore (without a bore: the crank radius) on either side of it.
     """
-    throws = [move_along(one).engine.joined_throws_m for one in engine.cranks]
+    throws = [move_along(crank).engine.joined_throws_m for crank in engine.cranks]
     places = np.concatenate(throws)
     low = float(places.min())
     high = float(places.max())
@@ -46,26 +46,29 @@ def find_carriers(engine: Engine) -> dict[int, Placed]:
     """Return the first of the cranks that turn in each direction (1: as the first crank, -1:
     against it), moved to its position along z.
     """
-    first = {one.ratio: one for one in reversed(engine.cranks)}
+    first = {crank.ratio: crank for crank in reversed(engine.cranks)}
     return {sense: move_along(first[sense]) for sense in sorted(first, reverse=True)}
 
 
-def move_along(one: Placed) -> Placed:
+def move_along(placed: Placed) -> Placed:
     """Return a geared engine with its places along z in the coordinates of all engines together."""
-    own = one.engine
-    z = float(one.at_m[2])
+    own = placed.engine
+    z = float(placed.at_m[2])
     if not z:
-        return one
+        return placed
     cylinders = replace(own.cylinders, z=own.cylinders.z + z)
     devices = tuple(device._replace(z=device.z + z) for device in own.devices)
     moved = replace(own, throws_m=own.throws_m + z, pins_m=own.pins_m + z, devices=devices)
-    return one._replace(engine=replace(moved, cylinders=cylinders))
+    return placed._replace(engine=replace(moved, cylinders=cylinders))
 
 
 def find_length(engine: Engine) -> tuple[float, float]:
     """Return z of the first and the last throw or cylinder, m."""
-    engines = [move_along(one).engine for one in engine.cranks]
-    places = [float(z) for own in engines for z in (*own.throws_m, *np.ravel(own.cylinders.z))]
+    places: list[float] = []
+    for crank in engine.cranks:
+        own = move_along(crank).engine
+        places += map(float, own.throws_m)
+        places += map(float, np.ravel(own.cylinders.z))
     return min(places), max(places)
 
 
@@ -122,8 +125,11 @@ def find_planes(engine: Engine, residual: Residual, sense: int) -> tuple[float, 
     """
     if residual.force(sense):
         z, enough = find_single_plane(engine, residual, sense)
-        return (z,) if enough else find_ends(engine)
-    return find_ends(engine) if residual.moment(sense) else ()
+        if enough:
+            return (z,)
+    elif not residual.moment(sense):
+        return ()
+    return find_ends(engine)
 
 
 def read_planes(engine: Engine, options: SchemeOptions) -> tuple[float, ...]:
@@ -173,9 +179,13 @@ def name_kind(device: DeviceTable) -> str:
 
 def find_order(device: DeviceTable) -> int:
     """Return the number of turns or oscillations of a device per turn of the crank."""
-    if isinstance(device, Counterweight):
-        return 1
-    return abs(device.ratio) if isinstance(device, Shaft) else device.order
+    match device:
+        case Counterweight():
+            return 1
+        case Shaft():
+            return abs(device.ratio)
+        case Slider():
+            return device.order
 
 
 def find_unbalance(device: DeviceTable) -> float:
@@ -187,14 +197,23 @@ def find_free(devices: Sequence[DeviceTable]) -> tuple[bool, ...]:
     """Return whether each device belongs to a shaft that may be anywhere: the eccentrics of the
     shaft together make a moment but no force, and x and y are not given.
     """
-    shafts = [device for device in devices if isinstance(device, Shaft) and not any(device.at)]
+    shafts: dict[int, list[Shaft]] = {}  # by speed ratio
+    for device in devices:
+        if isinstance(device, Shaft) and not any(device.at):
+            shafts.setdefault(device.ratio, []).append(device)
     free: list[Shaft] = []
-    for ratio in {shaft.ratio for shaft in shafts}:
-        same = [shaft for shaft in shafts if shaft.ratio == ratio]
-        vectors = [cmath.rect(find_unbalance(one), math.radians(one.angle)) for one in same]
-        if len(same) > 1 and abs(sum(vectors)) <= _ROUNDING * max(map(abs, vectors)):
-            free += same
-    return tuple(any(device is one for one in free) for device in devices)
+    for eccentrics in shafts.values():
+        if len(eccentrics) > 1 and _cancel(eccentrics):
+            free += eccentrics
+    return tuple(any(device is shaft for shaft in free) for device in devices)
+
+
+def _cancel(eccentrics: Sequence[Shaft]) -> bool:
+    """Return whether the forces of the eccentrics of a shaft cancel each other."""
+    forces = []
+    for eccentric in eccentrics:
+        forces.append(cmath.rect(find_unbalance(eccentric), math.radians(eccentric.angle)))
+    return abs(sum(forces)) <= _ROUNDING * max(map(abs, forces))
 
 
 def measure_direction(vector: complex, origin_deg: float = 0.0) -> float:

@@ -75,9 +75,8 @@ class Remedy(NamedTuple):
         pairs = list(zip(self.devices, self.reasons, strict=True))
         pairs += [(device, reason) for device in added]
         pairs.sort(key=lambda pair: KINDS.index(type(pair[0])))
-        return self._replace(
-            devices=tuple(device for device, _ in pairs), reasons=tuple(why for _, why in pairs)
-        )
+        devices = tuple(device for device, _ in pairs)
+        return self._replace(devices=devices, reasons=tuple(reason for _, reason in pairs))
 
     def add_details(self, group: str = "", /, **figures: object) -> Remedy:
         """Return the remedy with further details.

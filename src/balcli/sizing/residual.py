@@ -5,9 +5,8 @@ rotating vectors, and their sizes compared with one cylinder.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
-from itertools import product
 from typing import Literal, NamedTuple
 
 import numpy as np
@@ -113,10 +112,10 @@ def find_scales(engine: Engine) -> Scales:
     moment and roll among them.
     """
     if engine.placed:
-        each = (find_scales(one.engine) for one in engine.cranks)
-        return Scales(*map(max, zip(*each, strict=True)))
+        of_cranks = [find_scales(crank.engine) for crank in engine.cranks]
+        return Scales(*map(max, zip(*of_cranks, strict=True)))
     radius = np.ravel(engine.cylinders.radius).astype(float)
-    masses = np.array([float(each.reciprocating) for each in engine.weighed])
+    masses = np.array([float(weighed.reciprocating) for weighed in engine.weighed])
     force = float(np.max(masses * radius)) * float(engine.omega) ** 2
     return Scales(force, force * measure_length(engine).metres, force * float(radius.max()))
 
@@ -154,8 +153,10 @@ def find_size(residual: Residual, parts: Iterable[ResidualPart], scales: Scales)
 def find_share(residual: Residual, part: ResidualPart, scales: Scales) -> float:
     """Return the size of a force or moment as a share of one cylinder's first order."""
     size = residual.size(part)
+    if not size:
+        return 0.0
     scale = scales.moment if part.kind == "moment" else scales.force
-    return (size / scale if scale else math.inf) if size else 0.0
+    return size / scale if scale else math.inf
 
 
 def is_small(size: float, least: float) -> bool:
@@ -192,20 +193,20 @@ def find_residual(engine: Engine, order: int) -> Residual:
     """Return the residual of an order for an engine with its devices, at its mean speed. Moments
     that are not known are 0.
     """
-    found = compute_spectra(hold_steady(engine), [order], ("force", "moment", "roll"))
+    spectra = compute_spectra(hold_steady(engine), [order], ("force", "moment", "roll"))
     newtons_per_kg_m = order**2 * float(engine.omega) ** 2
     x, y, z = engine.reference_m
     parts: dict[ResidualPart, complex] = dict.fromkeys((*FORWARD, *BACKWARD, ROLL), 0j)
     noise: dict[ResidualPart, float] = {}
     for part in (*FORWARD, *BACKWARD):
-        phasors = found[part.kind]
+        phasors = spectra[part.kind]
         vector = phasors.forward if part.sense > 0 else phasors.backward
         if part.kind == "force" or engine.places_known:
             per = 1j if part.kind == "moment" else 1
             parts[part] = complex(vector[0]) / per / newtons_per_kg_m
         noise[part] = float(np.broadcast_to(phasors.noise, vector.shape)[0]) / newtons_per_kg_m
-    if found.roll:
-        parts[ROLL] = 2 * complex(found.roll.forward[0]) / newtons_per_kg_m
+    if spectra.roll:
+        parts[ROLL] = 2 * complex(spectra.roll.forward[0]) / newtons_per_kg_m
     return Residual(order, parts, noise, ReferencePoint(complex(x, y), float(z)), newtons_per_kg_m)
 
 
@@ -232,17 +233,22 @@ def choose_residual(
     """
     if "moment" in kinds and not engine.places_known:
         raise BalcliError(MOMENTS_UNKNOWN)
-    what = f"{' or '.join(kinds)}{' turning against the crank' * (tuple(senses) == (-1,))}"
+    what = " or ".join(kinds)
+    if tuple(senses) == (-1,):
+        what += " turning against the crank"
     sought = [ResidualPart(kind, sense) for kind in kinds for sense in senses]
     if options.order is None:
         return _find_lowest(engine, options, sought, what)
     residual = find_residual(engine, options.order)
     if any(residual.parts[part] for part in sought):
         return residual
-    with_crank = residual.size(FORWARD_FORCE) if 1 not in senses else 0.0
+    details = {}
+    with_crank = residual.size(FORWARD_FORCE)
+    if with_crank and 1 not in senses:
+        details["force_with_crank_left_N"] = with_crank
     raise NothingToBalanceError(
         f"order {options.order} has no free {what}: nothing to balance{_tell_rest(residual)}",
-        **({"force_with_crank_left_N": with_crank} if with_crank else {}),
+        **details,
     )
 
 
@@ -252,13 +258,14 @@ def _find_lowest(
     """Return the residual of the lowest order in which a sought part is not small."""
     scales = find_scales(engine)
     least = options.read_small()
-    found = list[Residual]()
+    residuals: list[Residual] = []
     for order in range(1, HIGHEST_ORDER_SOUGHT + 1):
-        found.append(find_residual(engine, order))
-        if not is_small(find_size(found[-1], sought, scales), least):
-            return found[-1]
-    if any(residual.parts[part] for residual in found for part in sought):
-        raise refuse_small(sought, found, scales, least)
+        residual = find_residual(engine, order)
+        if not is_small(find_size(residual, sought, scales), least):
+            return residual
+        residuals.append(residual)
+    if any(residual.parts[part] for residual in residuals for part in sought):
+        raise refuse_small(sought, residuals, scales, least)
     message = Message(
         "there is no free {what} of orders 1 to {highest}: nothing to balance; {order} selects a "
         "higher order",
@@ -268,8 +275,16 @@ def _find_lowest(
     raise NothingToBalanceError(message)
 
 
+class _PartOfOrder(NamedTuple):
+    """A force or moment of one order, and its share of one cylinder's first order."""
+
+    residual: Residual
+    part: ResidualPart
+    share: float
+
+
 def refuse_small(
-    sought: Sequence[ResidualPart], found: Sequence[Residual], scales: Scales, least: float
+    sought: Sequence[ResidualPart], residuals: Sequence[Residual], scales: Scales, least: float
 ) -> OnlySmallError:
     """Return the error for parts that are all small. It states the largest part that the scheme
     could cancel, and which other scheme cancels a large part, preferably a part with the same
@@ -277,35 +292,45 @@ def refuse_small(
 
     Args:
         sought: Parts that the scheme cancels.
-        found: Residuals of all orders.
+        residuals: Residuals of all orders.
         scales: Force, moment and roll of one cylinder.
         least: Share of one cylinder's first order below which a part is small.
     """
-
-    def find_size_of(each: tuple[Residual, ResidualPart]) -> float:
-        return find_share(*each, scales)
-
-    one, part = max(product(found, sought), key=find_size_of)
-    every = product(found, (*FORWARD, *BACKWARD))
-    large = [each for each in every if not is_small(find_size_of(each), least)]
+    small = max(_list_shares(residuals, sought, scales), key=_get_share)
+    every = _list_shares(residuals, (*FORWARD, *BACKWARD), scales)
+    large = [each for each in every if not is_small(each.share, least)]
     advice = ""
     if large:
         senses = {part.sense for part in sought}
-        alike = [each for each in large if each[1].sense in senses]
-        advice = _name_cure(*max(alike or large, key=find_size_of))
+        alike = [each for each in large if each.part.sense in senses]
+        advice = _name_cure(max(alike or large, key=_get_share))
     return OnlySmallError(
         "the largest {kind} turning {sense} is {size} (order {n}), small compared with one "
         "cylinder's; {order} {n} cancels it{advice}",
-        kind=part.kind,
-        sense=tell_sense(part.sense),
-        size=_tell_size(one, part),
-        n=one.order,
+        kind=small.part.kind,
+        sense=tell_sense(small.part.sense),
+        size=_tell_size(small.residual, small.part),
+        n=small.residual.order,
         advice=advice,
     )
 
 
-def _name_cure(residual: Residual, part: ResidualPart) -> str:
+def _list_shares(
+    residuals: Iterable[Residual], parts: Sequence[ResidualPart], scales: Scales
+) -> Iterator[_PartOfOrder]:
+    """Yield these parts of all orders."""
+    for residual in residuals:
+        for part in parts:
+            yield _PartOfOrder(residual, part, find_share(residual, part, scales))
+
+
+def _get_share(of_order: _PartOfOrder) -> float:
+    return of_order.share
+
+
+def _name_cure(large: _PartOfOrder) -> str:
     """Return a sentence that names the scheme that cancels a part."""
+    residual, part, _ = large
     ratio = part.sense * residual.order
     scheme = "counterweights" if ratio == 1 else _SCHEMES[part]
     size = _tell_size(residual, part)
@@ -318,12 +343,15 @@ def tell_sense(sense: int) -> str:
 
 
 def _tell_size(residual: Residual, part: ResidualPart) -> str:
-    return f"{residual.size(part):.4g} {'N·m' if part.kind == 'moment' else 'N'}"
+    unit = "N·m" if part.kind == "moment" else "N"
+    return f"{residual.size(part):.4g} {unit}"
 
 
 def _tell_rest(residual: Residual) -> str:
     """Return in words the forces and moments of an order, and the schemes that cancel them."""
-    parts = [part for part in (*FORWARD, *BACKWARD) if residual.parts[part]]
-    both = {"force": "two-shaft", "moment": "couple-shaft"}  # they cancel both directions
-    has = (f"a {part.kind} turning {tell_sense(part.sense)} ({both[part.kind]})" for part in parts)
-    return f"; it has {join_words(has)}" if parts else ""
+    schemes = {"force": "two-shaft", "moment": "couple-shaft"}  # they cancel both directions
+    rest = []
+    for part in (*FORWARD, *BACKWARD):
+        if residual.parts[part]:
+            rest.append(f"a {part.kind} turning {tell_sense(part.sense)} ({schemes[part.kind]})")
+    return f"; it has {join_words(rest)}" if rest else ""

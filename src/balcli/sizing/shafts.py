@@ -237,7 +237,8 @@ def _choose_places(residual: Residual, options: SchemeOptions) -> Places:
                 way=way,
             )
         place = at[0] if at else 0j
-        return {1 if forward else -1: (place, -place) if place else (0j,)}
+        sense = 1 if forward else -1
+        return {sense: (place, -place) if place else (0j,)}
     if len(at) == 2 and options.roll:
         raise ArgumentError("{roll} zero places the second shaft; give one {at}")
     if len(at) == 2:

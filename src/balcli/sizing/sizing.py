@@ -67,9 +67,9 @@ def size_counterweights(engine: Engine, options: SchemeOptions) -> Remedy:
     residual = fitting.find_residual(1)
     if options.planes == "throws":
         return _size_at_throws(fitting)
-    for sense, one in find_carriers(engine).items():
+    for sense, crank in find_carriers(engine).items():
         if any(residual.parts[part] for part in list_parts(sense)):
-            fitting = _size_on_crank(fitting, one, options, residual)
+            fitting = _size_on_crank(fitting, crank, options, residual)
     remedy = fitting.remedy
     if not remedy.devices and not remedy.note:  # only negligible weights
         raise NothingToBalanceError(_tell_not_needed(engine))
@@ -77,16 +77,16 @@ def size_counterweights(engine: Engine, options: SchemeOptions) -> Remedy:
 
 
 def _size_on_crank(
-    fitting: Fitting, one: Placed, options: SchemeOptions, residual: Residual
+    fitting: Fitting, crank: Placed, options: SchemeOptions, residual: Residual
 ) -> Fitting:
     """Return the fitting with weights on a crank for the part that turns with this crank."""
     engine = fitting.engine
-    parts = list_parts(one.ratio)
-    planes = find_ends(one.engine) if options.planes is None else read_planes(engine, options)
-    slots = [Slot.on_crank(one, z) for z in planes]
+    parts = list_parts(crank.ratio)
+    planes = find_ends(crank.engine) if options.planes is None else read_planes(engine, options)
+    slots = [Slot.on_crank(crank, z) for z in planes]
     if len(slots) == 1 and engine.places_known:
         return _compromise(fitting, slots, residual)
-    reason = explain_counterweights(residual, one.ratio)
+    reason = explain_counterweights(residual, crank.ratio)
     return fitting.cancel(slots, parts if len(slots) > 1 else parts[:1], reason)
 
 
@@ -165,10 +165,22 @@ def size_sliders(engine: Engine, options: SchemeOptions) -> Remedy:
     return fitting.describe_left(residual.order, "moment_left_Nm").describe_roll(residual).remedy
 
 
+def _size_auto(engine: Engine, options: SchemeOptions) -> Remedy:
+    return find_ladder(engine, options.read_small()).fit()
+
+
+def _size_step(engine: Engine, options: SchemeOptions) -> Remedy:
+    return find_ladder(engine, options.read_small()).fit(options.step)
+
+
+def _size_complete(engine: Engine, _: SchemeOptions) -> Remedy:
+    return size_complete(engine)
+
+
 SIZE: dict[str, Callable[[Engine, SchemeOptions], Remedy]] = {
-    "auto": lambda engine, options: find_ladder(engine, options.read_small()).fit(),
-    "complete": lambda engine, _: size_complete(engine),
-    "step": lambda engine, options: find_ladder(engine, options.read_small()).fit(options.step),
+    "auto": _size_auto,
+    "complete": _size_complete,
+    "step": _size_step,
     "counterweights": size_counterweights,
     "factor": size_by_factor,
     "minimax": size_minimax,

@@ -139,10 +139,12 @@ def _refuse_impossible(tools: Tools) -> None:
 
 
 def _check_figure(name: str, figure: float | None) -> float | None:
-    wanted = (
-        "a density in kg/m3, such as 17500" if name == "slug" else "a length in m, such as 0.02"
-    )
-    return None if figure is None else check_number(f"Tools: {name}", figure, f"give {wanted}")
+    if figure is None:
+        return None
+    wanted = "a length in m, such as 0.02"
+    if name == "slug":
+        wanted = "a density in kg/m3, such as 17500"
+    return check_number(f"Tools: {name}", figure, f"give {wanted}")
 
 
 def _find_figures(engine: Engine, device: DeviceTable, tools: Tools, room: float) -> Practical:
@@ -241,29 +243,44 @@ def shape_devices(engine: Engine, remedy: Remedy, shapes: Shapes) -> Remedy:
     Raises:
         ArgumentError: Bearings or sector are impossible, or no new device can have them.
     """
-    for key, found in (("sector", remedy.counterweights), ("bearings", remedy.shafts)):
-        if getattr(shapes, key) is not None and not found:
+    for key, devices in (("sector", remedy.counterweights), ("bearings", remedy.shafts)):
+        if getattr(shapes, key) is not None and not devices:
             raise ArgumentError(
                 "{argument}: scheme {name} fits no device with {key}",
                 argument=Argument(key),
                 name=remedy.scheme,
                 key=key,
             )
-    of_weights = {"sector": _read_sector(shapes.sector)} if shapes.sector is not None else {}
-    bearings = _read_bearings(shapes.bearings) if shapes.bearings is not None else {}
+    of_weights: Node = {}
+    if shapes.sector is not None:
+        of_weights["sector"] = _read_sector(shapes.sector)
+    of_axes: dict[object, Node] = {}
+    if shapes.bearings is not None:
+        of_axes = _name_shafts(engine, remedy.shafts, _read_bearings(shapes.bearings))
+    shaped = []
+    for device in remedy.devices:
+        shape: Node = {}
+        if isinstance(device, Counterweight):
+            shape = of_weights
+        elif isinstance(device, Shaft):
+            shape = of_axes.get((device.ratio, device.at), {})
+        shaped.append(device.model_copy(update=shape))
+        shape.pop("bearings", None)  # only the first eccentric of a shaft has the key
+    return remedy._replace(devices=tuple(shaped))
+
+
+def _name_shafts(engine: Engine, shafts: Sequence[Shaft], bearings: Node) -> dict[object, Node]:
+    """Return name and bearings of each new shaft by its speed ratio and axis. Names are "balancer
+    1", "balancer 2", ... without those that the file uses.
+    """
     used = set() if engine.model is None else {shaft.name for shaft in engine.model.shaft}
     free = (name for name in map("balancer {}".format, count(1)) if name not in used)
-    axes = dict.fromkeys((shaft.ratio, shaft.at) for shaft in remedy.shafts)
-    named = zip(axes if bearings else (), free, strict=False)
-    of_axes: dict[object, Node] = {axis: {"name": name, **bearings} for axis, name in named}
-    devices = []
-    for device in remedy.devices:
-        shape: Node = of_weights if isinstance(device, Counterweight) else {}
-        if isinstance(device, Shaft):
-            shape = of_axes.get((device.ratio, device.at), {})
-        devices.append(device.model_copy(update=shape))
-        shape.pop("bearings", None)  # only the first eccentric of a shaft has the key
-    return remedy._replace(devices=tuple(devices))
+    named: dict[object, Node] = {}
+    for shaft in shafts:
+        axis = (shaft.ratio, shaft.at)
+        if axis not in named:
+            named[axis] = {"name": next(free), **bearings}
+    return named
 
 
 def _read_sector(values: Sequence[float]) -> Sector | None:
@@ -282,11 +299,11 @@ def _read_bearings(values: Sequence[float]) -> Node:
 
 def _read_table(argument: str, values: Node, table: type[T]) -> T:
     reader = TableReader("an option")
-    found = reader.read_table(argument, values, table)
-    if found is None:
+    read = reader.read_table(argument, values, table)
+    if read is None:
         raise ArgumentError(
             "{argument}: {problems}",
             argument=Argument(argument),
             problems="; ".join(problem.message for problem in reader.problems),
         )
-    return found
+    return read
