@@ -17,13 +17,14 @@ def compute(browser, engines, small=SMALL):
     """What the kernel makes of engines: pairs of the page's data and numbers."""
     limits = make_book({}, SI, small=small)["limits"]
     browser.run(f"window.asked = {json.dumps(engines)}, window.limits = {json.dumps(limits)}, 0")
-    make = "const e = Kernel.assemble(d, n); return Kernel.describe(e, Kernel.findLadder(e, limits), limits);"
+    make = "const e = Kernel.assemble(d, n); return Kernel.describe(e, Kernel.findLadder(e, limits), limits, [...Array(13).keys()]);"
     return json.loads(browser.run(f"JSON.stringify(asked.map(([d, n]) => {{ {make} }}))"))
 
 
 def find_findings(engine, small=SMALL):
-    """What the verdict of the command has on each order."""
-    return analyze(engine, small=small).to_dict()["verdict"]["matter"]
+    """What the verdict of the command has on each order, and on the couple."""
+    verdict = analyze(engine, small=small).to_dict()["verdict"]
+    return {"matter": verdict["matter"]} | {key: verdict[key] for key in ("couple",) if key in verdict}
 
 
 def differences(wanted, found):
@@ -48,18 +49,38 @@ def differences(wanted, found):
             for order, part, one, other in pairs
             if abs(one - other).max() > 1e-9 * largest
         )
+    yield from differences_of_ladder(wanted, found)
+
+
+def differences_of_ladder(wanted, found):
+    """Peaks, and figures of the ladder, that differ."""
     scale = wanted["ladder"]["scale"]
     for key in VECTORS:
         if key in wanted["peak"] and abs(wanted["peak"][key] - found["peak"][key]) > 1e-9 * scale[key]:
             yield key, wanted["peak"], found["peak"]
-    steps = {step["step"]: step for step in wanted["ladder"]["steps"]}
-    for step in found["ladder"]["steps"]:
-        own = steps.get(step["step"], {})
-        for key in ("peak_force_N", "peak_moment_Nm"):
-            limit = 1e-9 * scale.get(key.removeprefix("peak_"), 1)
-            if "counterweights at every throw" not in steps and abs(own.get(key, 0) - step.get(key, 0)) > limit:
-                yield step, own
+    for key in ("auto", "steps", "left_out"):
+        of_command, of_page = wanted["ladder"][key], found["ladder"][key]
+        if list_names(of_command) != list_names(of_page):
+            yield key, of_command, of_page
+        elif key != "auto":
+            for own, step in zip(of_command, of_page, strict=True):
+                yield from ((name, own, step) for name in differing(own, step, scale))
 
 
-def answer(engine):
-    return analyze(engine, range(13), WANTED).to_dict()
+def differing(own, step, scale):
+    """Names of figures of a step that differ."""
+    for name in {*step, *own} - UNTOLD:
+        limit = 1e-9 * scale.get("moment_Nm" if name.endswith("Nm") else "force_N", 1)
+        if name not in own or name not in step or abs(own[name] - step[name]) > limit:
+            yield name
+
+
+UNTOLD = {"step", "inner_moment_Nm", "pru_Nm_per_kW", "devices"}  # these are not figures of both
+
+
+def list_names(steps):
+    return [step if isinstance(step, str) else step["step"] for step in steps]
+
+
+def answer(engine, orders=range(13)):
+    return analyze(engine, orders, WANTED).to_dict()

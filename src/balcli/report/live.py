@@ -40,6 +40,7 @@ from ..file.units import (
     convert,
 )
 from ..forces.kinds import FORCE, GAS_KINDS, VECTORS
+from ..forces.power import LIKELY
 from ..forces.spectrum import (
     SHOWN,
     choose_orders,
@@ -48,9 +49,14 @@ from ..forces.spectrum import (
     list_gas_orders,
     merge_orders,
 )
-from ..limits import SMALL
+from ..limits import (
+    FEWEST_CYLINDERS_COUNTED,
+    SMALL,
+    WORTH_A_SHAFT_OF_ORDER_1,
+    WORTH_A_SHAFT_OF_ORDER_2,
+)
 from ..show.figures import clean
-from ..show.sheet import sentence
+from ..show.sheet import NEGLIGIBLE, sentence
 from ..show.units import ShownUnit, System
 from ..sizing.fitting import LEFT
 from ..studies.parameters import find_places
@@ -144,9 +150,12 @@ def describe_engine(model: EngineFile, engine: Engine, text: str) -> Node:
         "reference": model.frame.reference,
         "numbers": numbers,
         "throws": forms["throws"],
+        "pins": forms["pins"],
         "cylinders": [
             {
                 "number": cell.number,
+                "throw": cell.throw,
+                "bank": cell.bank,
                 **{key: forms[key][k] for key in ("axis", "lead", "z")},
                 "by": _find_leader(parts, cell, throws),
                 **_list_masses(model, parts, cell),
@@ -203,7 +212,16 @@ def make_book(
         "file": file.removesuffix(".toml"),
         "source": file if file.endswith(".toml") else "",
         "choice": choice,
-        "limits": {"small": small, "shown": SHOWN, "rounding": LEFT},
+        "limits": {
+            "small": small,
+            "shown": SHOWN,
+            "rounding": LEFT,
+            "worth1": WORTH_A_SHAFT_OF_ORDER_1,
+            "worth2": WORTH_A_SHAFT_OF_ORDER_2,
+            "fewest": FEWEST_CYLINDERS_COUNTED,
+            "likely": LIKELY,
+            "negligible": NEGLIGIBLE,
+        },
         "options": "" if small == SMALL else f" --small {100 * small:g}%",
         "unknown": sentence(MOMENTS_UNKNOWN),
         "devices": _NEW,
@@ -317,8 +335,8 @@ def _find_forms(
     model: EngineFile, parts: Parts, throws: Mapping[int, int], numbers: Mapping[str, float]
 ) -> dict[str, list[Node]]:
     """Return the linear functions for axes and crank pins (deg) and positions (mm) of the
-    cylinders, and for positions of the throws. Each function has a constant, and coefficients by
-    the names of numbers.
+    cylinders, and for positions of the throws and their pins. Each function has a constant, and
+    coefficients by the names of numbers.
 
     If the firing of a cylinder determines the angle of a throw, the angles of this throw's pins do
     not include the shift of top dead centre by the piston offset: the page adds this shift.
@@ -341,7 +359,7 @@ def _find_forms(
 
 def _measure(parts: Parts, throws: Mapping[int, int]) -> dict[str, list[float]]:
     """Return the values of the functions of `_find_forms`: cylinder axes, and angles of crank pins
-    from cylinder 1's pin (deg); positions of cylinders and throws (mm).
+    from cylinder 1's pin (deg); positions of cylinders, throws and their pins (mm).
     """
     cells = parts.plan.cells
     pins = parts.pins
@@ -359,6 +377,7 @@ def _measure(parts: Parts, throws: Mapping[int, int]) -> dict[str, list[float]]:
         "lead": [find_lead(cell) for cell in cells],
         "z": [1e3 * float(places.z[cell.number]) for cell in cells],
         "throws": [1e3 * float(z) for z in places.throws.ravel()],
+        "pins": [1e3 * float(z) for z in places.pins.ravel()],
     }
 
 

@@ -263,11 +263,11 @@
   function showLadder({ ladder: { steps, scale } }) {
     const [least, small] = [1e-9 * scale.force_N, 1e-9 * (scale.moment_Nm || 0)];
     const rows = steps.map((each, k) => [
-      each.step, cell("force", each.peak_force_N, least), data.known ? cell("moment", each.peak_moment_Nm, small) : "–",
-      String(each.counterweights || "–"), String(each.shafts || "–"), each.mass_kg ? shown(each.mass_kg, 3) : "–",
+      `${k} ${each.step}`, cell("force", each.peak_force_N, least), data.known ? cell("moment", each.peak_moment_Nm, small) : "–",
+      each.main_bearing_N === undefined ? "–" : cell("force", each.main_bearing_N, least), String(each.counterweights || "–"), String(each.shafts || "–"), each.mass_kg ? shown(each.mass_kg, 3) : "–",
       k ? button("Fit", () => fit(k), `live-fit-${k}`) : "",
     ]);
-    fill("live-ladder", ["step", `force, ${unitName("force")}`, `moment, ${unitName("moment")}`, "weights", "shafts", "kg", ""], rows);
+    fill("live-ladder", ["step", `force, ${unitName("force")}`, `moment, ${unitName("moment")}`, `main bearing, ${unitName("force")}`, "weights", "shafts", "kg", ""], rows);
   }
   // Adds the devices of a step of the ladder to the numbers.
   function fit(k) {
