@@ -133,7 +133,7 @@ def test_csv_names_components_like_json():
 def test_the_verdict_names_the_direction(kind, axis_deg, up, words):
     side = 2 * np.exp(1j * np.radians([float(axis_deg)]))
     phasors = Phasors.of(np.array([2.0]), side, side, np.zeros(1))
-    found, scales = Spectra(np.array([2.0]), up, **{kind: phasors}), Scales(0.0, 0.0, 0.0)
+    found, scales = Spectra(np.array([2.0]), up, {kind: phasors}), Scales(0.0, 0.0, 0.0)
     (told,) = VerdictWords(found, scales, SI).write(judge(found, scales))
     assert words in told
 

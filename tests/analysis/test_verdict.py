@@ -27,7 +27,7 @@ def spectra(order: float, forward: complex, backward: complex, kind: str = "forc
     """One order of a force or moment."""
     orders = np.array([float(order)])
     phasors = Phasors.of(orders, np.array([forward], complex), np.array([backward], complex), np.zeros(1))
-    return Spectra(orders, **{kind: phasors})
+    return Spectra(orders, kinds={kind: phasors})
 
 
 def write(found: Spectra, scales: Scales = NO_SCALES, engine: Engine | None = None, **options) -> tuple[str, ...]:
@@ -49,7 +49,7 @@ def test_what_is_small_beside_one_cylinder(force: dict, moment: dict, told: list
         v = np.array([sizes.get(f"{n:g}", 0) for n in orders], complex)
         return Phasors.of(orders, v, v, np.zeros(5))
 
-    found = Spectra(orders, force=phasors(force), moment=phasors(moment))
+    found = Spectra(orders, kinds={"force": phasors(force), "moment": phasors(moment)})
     assert write(found, SCALES) == tuple(told)
 
 
@@ -82,7 +82,7 @@ def test_a_sentence_has_at_most_25_words(seed):
         return Phasors.of(orders, parts[0] + 1j * parts[1], parts[2] + 1j * parts[3], np.zeros(8))
 
     up = None if seed % 2 else float(random.integers(-180, 180))
-    found = Spectra(orders, up, force=phasors(), moment=phasors())
+    found = Spectra(orders, up, {"force": phasors(), "moment": phasors()})
     told = write(found, SCALES, ENGINES[seed % 4])
     assert max(len(sentence.split()) for sentence in told) <= 25
 
@@ -97,7 +97,7 @@ def test_small_is_what_is_asked_for():
 @pytest.mark.parametrize(("couple", "told"), [(0, "force, moment and couple"), (1, "force and moment")])
 def test_the_couple_is_judged_with_force_and_moment(couple: float, told: str) -> None:
     none, some = spectra(1, 0, 0).force, spectra(1, couple, couple).force
-    found = Spectra(none.orders, force=none, moment=none, couple=some)
+    found = Spectra(none.orders, kinds={"force": none, "moment": none, "couple": some})
     assert write(found) == (f"Order 1: {told} balanced.",)
 
 
@@ -211,14 +211,15 @@ def test_a_crank_that_turns_backwards_can_carry_weights():
 def test_only_balanced_orders_that_are_worth_naming(forces, balanced):
     orders = np.array([0.5, 1, 2, 3])
     sizes = np.array([forces.get(order, 0) for order in orders], complex)
-    found = Spectra(orders, force=Phasors.of(orders, sizes, sizes, np.zeros(4)))
+    found = Spectra(orders, kinds={"force": Phasors.of(orders, sizes, sizes, np.zeros(4))})
     assert judge(found, SCALES).balanced == balanced
 
 
 @pytest.mark.parametrize(("orders", "force", "balanced"), [([0.5, 3], 0, (0.5,)), ([3, 4], 0, (3, 4)), ([3, 4], 1, ())])
 def test_other_balanced_orders_only_if_no_order_is_named(orders, force, balanced):
     sizes = np.array([0, force], complex)
-    found = Spectra(np.array(orders, float), force=Phasors.of(np.array(orders, float), sizes, sizes, np.zeros(2)))
+    listed = np.array(orders, float)
+    found = Spectra(listed, kinds={"force": Phasors.of(listed, sizes, sizes, np.zeros(2))})
     assert judge(found, SCALES).balanced == balanced
 
 

@@ -1,17 +1,21 @@
 """The table of what shakes, against what the rest of the house makes of it."""
 
-from dataclasses import fields
-
 import pytest
 from support.engines import engine
 
 from balcli.errors import NotComputedError
-from balcli.forces.kinds import EVERY_KIND, FORCE, TORQUE
+from balcli.forces.kinds import EVERY_KIND, FORCE, KINDS, TORQUE
 from balcli.forces.spectrum import Spectra, compute_spectra
 
 
-def test_every_kind_is_a_member_of_spectra_in_the_order_of_the_table():
-    assert [field.name for field in fields(Spectra)] == ["orders", "up_deg", *EVERY_KIND]
+def test_attributes_of_spectra_are_kinds():
+    """Shorthands for kinds that have one: `spectra.force` is `spectra["force"]`, or None."""
+    found = compute_spectra(engine(), [2.0])
+    for name in KINDS:
+        assert getattr(found, name) is found[name]
+    shorthands = [name for name, value in vars(Spectra).items() if isinstance(value, property)]
+    assert {*shorthands} <= {*EVERY_KIND}
+    assert all(getattr(Spectra(found.orders), name) is None for name in shorthands)
 
 
 @pytest.mark.parametrize("kind", EVERY_KIND.values(), ids=lambda kind: kind.name)

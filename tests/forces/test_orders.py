@@ -44,7 +44,9 @@ def test_an_order_is_considerable_beside_the_largest_unless_it_is_very_high() ->
 
 def test_orders_to_2_and_all_considerable_ones_are_shown() -> None:
     orders = [1.0, 2.0, 3.0, 4.0]
-    found = Spectra(np.array(orders), force=curve(orders, [0, 0, 1, 0]), couple=curve(orders, [1, 0, 0, 0]))
+    found = Spectra(
+        np.array(orders), kinds={"force": curve(orders, [0, 0, 1, 0]), "couple": curve(orders, [1, 0, 0, 0])}
+    )
     assert choose_orders(found, ()).tolist() == [1, 2, 3]
 
 

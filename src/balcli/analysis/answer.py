@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from types import NoneType
 from typing import Annotated, Literal
 
@@ -15,7 +15,7 @@ from ..errors import ArgumentError, BalcliError, check_number, check_type, list_
 from ..file.assumed import Assumed
 from ..forces.crankshaft import InnerLoads, add_gas_loads, compute_inner_loads
 from ..forces.guide import GuideMoments, compute_guide_moments
-from ..forces.kinds import EVERY_KIND, GAS, GAS_KINDS, KINDS, SCALARS, VECTORS
+from ..forces.kinds import EVERY_KIND, FREE, GAS, GAS_KINDS, KINDS, list_with
 from ..forces.spectrum import (
     Spectra,
     check_orders,
@@ -63,18 +63,19 @@ QUANTITIES = (*UNASKED, "sizing", "ladder")
 EXTRAS = ("inner", "guide", "journals", "masses", "parts", "pru")  # computed only on request
 
 # Quantities that depend on the default of a file key or table, by the name of this key or table.
-_WITH_FORCES = {"force", "moment", "peak", "sizing", "ladder", "inner", "pru"}
-_WITH_PLACES = (_WITH_FORCES - {"force"}) | {"guide"}
+_OF_FORCES = {"peak", "sizing", "ladder", "inner", "pru"}
+_WITH_THROWS = list_with("throws") | _OF_FORCES
+_WITH_PLACES = list_with("planes") | _OF_FORCES | {"guide"}
 _ALL_BUT_MASSES = {*QUANTITIES, *GAS_KINDS, "inner", "guide", "journals", "pru"}
-_WITH_RODS = {"couple", "torque", "roll", *GAS_KINDS, "guide", "journals", "masses"}
-_WITH_UNEVEN_SPEED = {"couple", "torque", "torque_total"}
+# "gas" stands for loads with gas, which depend on rods as well.
+_WITH_RODS = list_with("rods") | {"gas", "guide", "journals", "masses"}
 _OF_FIRING = {"layout.strokes", "layout.firing_intervals"}
 _DEPENDENT = {
     "gas": {*GAS_KINDS, "pru"},
     "rod.inertia": _WITH_RODS,
     "articulation.rod.inertia": _WITH_RODS,
-    "crank.inertia": _WITH_UNEVEN_SPEED,
-    "flywheel.inertia": _WITH_UNEVEN_SPEED,
+    "crank.inertia": list_with("turning"),
+    "flywheel.inertia": list_with("turning"),
     **dict.fromkeys(("crank.throws", "piston.offset", *_OF_FIRING), _ALL_BUT_MASSES),
     "layout.stagger": _WITH_PLACES,
     # Forces do not depend on the spacing; its listed default explains why no moments are printed.
@@ -159,7 +160,8 @@ class Analysis(OrdersAndPeaks, Result):
     def of_one_cylinder(self) -> dict[str, float]:
         """Largest first-order force, moment and roll of one cylinder, by the name of each kind."""
         scales = self.scales
-        return {kind.name: scales.roll for kind in SCALARS} | scales._asdict()
+        scalars = [kind.name for kind in KINDS.values() if not kind.vector]
+        return dict.fromkeys(scalars, scales.roll) | scales._asdict()
 
     @property
     def scales(self) -> Scales:
@@ -241,7 +243,7 @@ def analyze(
     due = DEFAULT_ORDERS if asked is None else asked
     every = merge_orders(find_relevant_orders(engine), of_gas, due)
     computed = every if asked is None or "peak" in wanted else asked
-    peaked = {kind.name for kind in VECTORS} if "peak" in wanted else set()
+    peaked = {kind.name for kind in FREE} if "peak" in wanted else set()
     if engine.gas is None or computed.max() <= HIGHEST_ORDER_UNASKED:
         everything = compute_spectra(engine, computed, shown | peaked)
         visible = everything.only(shown)
@@ -319,9 +321,11 @@ def list_idle_defaults(engine: Engine, wanted: Collection[str]) -> set[str]:
     due = {*wanted}
     if engine.gas is not None and due.intersection(EXTRAS) - {"masses"}:
         due.add("gas")
-    of_throws = _WITH_FORCES | {"masses"}
-    of_throws |= _WITH_UNEVEN_SPEED if engine.ripple else set()
-    of_throws |= {"couple", "roll", "roll_total"} if any(engine.reference_m[:2]) else set()
+    of_throws = _WITH_THROWS | {"masses"}
+    if engine.ripple:
+        of_throws |= list_with("turning")
+    if any(engine.reference_m[:2]):
+        of_throws |= list_with("arms")
     idle = {k for k, of in (_DEPENDENT | {"crank.throw_mass": of_throws}).items() if not due & of}
     throws_inferred = any(value.path == "crank.throws" for value in engine.inferred)
     if engine.gas is not None and "gas" in idle and not throws_inferred:
@@ -344,7 +348,7 @@ def _analyze_cylinders(
 def _judge(engine: Engine, spectra: Spectra, small: float) -> Verdict:
     """Return the verdict; if the positions of the throws are not known, only on forces."""
     if not engine.places_known:
-        spectra = replace(spectra, moment=None)
+        spectra = spectra.only({*spectra.kinds} - {"moment"})
     return judge(spectra, find_scales(engine), small=small, engine=engine)
 
 

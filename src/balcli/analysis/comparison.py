@@ -16,7 +16,7 @@ from ..engine.engine import Engine, check_engine
 from ..errors import BalcliError, list_words
 from ..file.assumed import Assumed, join_assumed
 from ..file.fields import order_number
-from ..forces.kinds import EVERY_KIND, GAS, MOMENT, VECTORS, Kind
+from ..forces.kinds import EVERY_KIND, FREE, GAS, MOMENT, Kind
 from ..forces.spectrum import merge_orders
 from ..limits import SMALL
 from ..show.engine_facts import tell_speed
@@ -56,7 +56,7 @@ LEFT = {
         label=f"{kind.label} with the devices of scheme auto",
         key=f"with_devices_{kind.key}",
     )
-    for kind in VECTORS
+    for kind in FREE
 }
 
 

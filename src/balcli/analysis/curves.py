@@ -28,6 +28,7 @@ from ..forces.kinds import (
     COUPLE,
     EVERY_KIND,
     FORCE,
+    FREE,
     GAS,
     KINDS,
     MOMENT,
@@ -35,7 +36,7 @@ from ..forces.kinds import (
     ROLL_TOTAL,
     TORQUE,
     TORQUE_TOTAL,
-    VECTORS,
+    Kind,
 )
 from ..forces.rod_forces import compute_rod_forces
 from ..forces.spectrum import (
@@ -125,7 +126,7 @@ def _find_upright(engine: Engine, curves: Mapping[str, Array]) -> dict[str, Arra
     found: dict[str, Array] = {}
     if engine.up_deg is None:
         return found
-    for kind in VECTORS:
+    for kind in FREE:
         x, y = (curves[kind.key_along(axis)] for axis in "xy")
         turned = unit(-engine.up_deg) * compose(x, y)
         most = float(np.abs(turned).max(initial=0))
@@ -212,15 +213,25 @@ def _compute_crank_parts(one: Placed, crank_deg: Array) -> dict[str, Array]:
     momentum, energy = (-inertia * motion.xi[None] for inertia in turning)
     couple = one.ratio * np.concatenate([_couple_of_cylinders(motion), arms, momentum])
     torque = np.concatenate([torque_of_cylinders(motion), energy])
-    return {
+    curves = {
         FORCE.key_along("x"): force.real,
         FORCE.key_along("y"): force.imag,
         MOMENT.key_along("x"): moment.real,
         MOMENT.key_along("y"): moment.imag,
-        COUPLE.key: couple,
-        TORQUE.key: torque,
-        ROLL.key: np.concatenate([couple, -one.load_sense * torque]),
     }
+    parts = {COUPLE.name: couple, TORQUE.name: torque}
+    on_frame = {COUPLE.name: couple, TORQUE.name: one.load_sense * torque}
+    for kind in KINDS.values():
+        if parts.keys() >= {*kind.parts}:
+            curves[kind.key] = _join_terms(kind, parts if kind.on_crank else on_frame)
+    return curves
+
+
+def _join_terms(kind: Kind, parts: Mapping[str, Array]) -> Array:
+    """Return the terms of a kind from those of its parts, shape (terms, angles)."""
+    terms = [parts[name] for name in kind.plus or (kind.name,)]
+    terms += [-parts[name] for name in kind.minus]
+    return np.concatenate(terms)
 
 
 def _compute_cylinder_parts(engine: Engine, row: int, crank_deg: Array) -> dict[str, Array]:

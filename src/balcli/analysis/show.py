@@ -12,7 +12,7 @@ from ..engine.engine import CylinderNumber
 from ..errors import MOMENTS_UNKNOWN
 from ..file.fields import join_words
 from ..forces.curves import find_constant_inertia
-from ..forces.kinds import COUPLE, EVERY_KIND, GAS, GAS_KINDS, MOMENT, TORQUE, VECTORS
+from ..forces.kinds import COUPLE, EVERY_KIND, FREE, GAS, GAS_KINDS, MOMENT, TORQUE
 from ..forces.spectrum import Spectra
 from ..forces.symmetry import find_textbook
 from ..show.engine_facts import engine_facts, speed_facts, tell_pivot
@@ -154,7 +154,7 @@ def _chosen_order_parts(result: Analysis, system: System, view: View) -> Iterato
 def _order_parts_in_brief(result: Analysis, system: System, view: View) -> Iterator[Part]:
     """Yield a table of force and moment, and lines on roll and peaks."""
     spectra = result.spectra.with_moment_if(result.moments_known)
-    vectors = spectra.only([kind.name for kind in VECTORS])
+    vectors = spectra.only([kind.name for kind in FREE])
     shown = list(map(float, vectors.orders))
     if not view.every_order:
         shown = find_orders_that_matter(vectors, result.of_one_cylinder)
@@ -162,7 +162,7 @@ def _order_parts_in_brief(result: Analysis, system: System, view: View) -> Itera
         yield vectors_grid(vectors, shown, system, hints=view.hints)
     couple = select_couple(result.spectra.couple, result.scales)
     if couple is not None:
-        alone = Spectra(couple.orders, couple=couple)
+        alone = Spectra(couple.orders, kinds={COUPLE.name: couple})
         yield from order_tables(alone, system, tell_pivot(result.engine))
     facts = roll_and_peaks(result, system, every_order=view.every_order)
     if facts.pairs:

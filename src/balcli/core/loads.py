@@ -14,10 +14,11 @@ cylinder's axis. A prime is a derivative by the crank angle.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import cached_property, reduce
 from operator import add
+from typing import NamedTuple
 
 import numpy as np
 
@@ -173,12 +174,54 @@ def find_device_force(device: Device, n: Array, square: Figure) -> Phasors:
 
 
 # ------------------------------------------------------------------ one cylinder in its own frame
+class Turning(NamedTuple):
+    """Inertia beyond the crank pins that turns with the crank.
+
+    Attributes:
+        momentum: Its moment of momentum times the speed, N m.
+        energy: Twice its kinetic energy, N m.
+    """
+
+    momentum: Figure
+    energy: Figure
+
+
+def _find_no_mean(_loads: Loads, _turning: Turning) -> Figure:
+    return 0.0
+
+
+def _find_mean_momentum(loads: Loads, turning: Turning) -> Figure:
+    return loads.mean_momentum + turning.momentum
+
+
+def _find_mean_energy(loads: Loads, turning: Turning) -> Figure:
+    return (loads.mean_inertia + turning.energy) / 2
+
+
+class LoadForm(NamedTuple):
+    """How a load is computed; the attribute of `Loads` with its name has its phasors.
+
+    Attributes:
+        series: Names of the series of mechanisms (`closed_form.SERIES`) that it needs.
+        find_mean: Function that returns the mean of the momentum or energy of which it is the
+            derivative, which matters at uneven speed (`speed_ripple.apply_speed`).
+        of_energy: Whether it is the derivative of an energy by the crank angle, as a torque is;
+            otherwise of a momentum.
+    """
+
+    series: frozenset[str]
+    find_mean: Callable[[Loads, Turning], Figure] = _find_no_mean
+    of_energy: bool = False
+
+
 _SHAKING = frozenset({"piston", "along", "across"})
-_SERIES = {
-    "force": _SHAKING,
-    "moment": _SHAKING,
-    "couple": _SHAKING | {"rod", "couple", "swirl"},
-    "torque": frozenset({"kinetic", "rod_kinetic", "energy"}),
+LOADS = {
+    "force": LoadForm(_SHAKING),
+    "moment": LoadForm(_SHAKING),
+    "couple": LoadForm(_SHAKING | {"rod", "couple", "swirl"}, _find_mean_momentum),
+    "torque": LoadForm(
+        frozenset({"kinetic", "rod_kinetic", "energy"}), _find_mean_energy, of_energy=True
+    ),
 }
 
 
@@ -187,11 +230,11 @@ def find_needed_series(cylinders: Cylinders, parts: Iterable[str], *, uneven: bo
 
     Args:
         cylinders: Cylinders of the engine.
-        parts: Names of loads: force, moment, couple or torque.
+        parts: Names of loads, keys of `LOADS`.
         uneven: Whether the crank speed is uneven, which needs the mean moment of momentum.
     """
     c = cylinders
-    needed: set[str] = set().union(*(_SERIES[name] for name in parts))
+    needed: set[str] = set().union(*(LOADS[name].series for name in parts))
     if not np.count_nonzero(c.couple):
         needed -= {"rod", "rod_kinetic"}
     if not _has_pistons(c):

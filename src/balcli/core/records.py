@@ -21,7 +21,8 @@ Rules:
 * Marks in `Annotated`: `Polar` writes a complex number as magnitude and angle, `Reached` a peak as
   its value and its crank angle, `WrittenAs` a value as the record that a function makes of it.
   `Axes(2)` declares an array of two axes (without the mark: one). `INLINE` lifts the keys of a
-  record, a dict or a `Polar` into the parent object. `HIDDEN` keeps an attribute out of documents.
+  record, a dict or a `Polar` into the parent object. `Keys` declares the keys of such a dict.
+  `HIDDEN` keeps an attribute out of documents.
 
 Example::
 
@@ -174,6 +175,19 @@ class Asked(Generic[T]):
         record.__dict__[self.name] = value
 
 
+class Key(NamedTuple):
+    """A key of a dict: type and description of its value."""
+
+    kind: type
+    description: str
+
+
+class Keys(NamedTuple):
+    """Mark of an `INLINE` dict: the keys that it may have, in the order of the schema."""
+
+    known: Mapping[str, Key]
+
+
 INLINE = "inline"
 HIDDEN = "hidden"
 
@@ -193,6 +207,7 @@ class _Attribute(NamedTuple):
     axes: int
     split: Polar | Reached | None
     make: Callable[..., object] | None
+    keys: Mapping[str, Key]
 
 
 @cache
@@ -214,7 +229,8 @@ def _read_marks(name: str, optional: bool, kind: object, marks: tuple[object, ..
     split = next((mark for mark in marks if isinstance(mark, (Polar, Reached))), None)
     axes = next((mark.number for mark in marks if isinstance(mark, Axes)), 1)
     make, key = next((mark for mark in marks if isinstance(mark, WrittenAs)), (None, ""))
-    return _Attribute(name, key or name, kind, optional, INLINE in marks, axes, split, make)
+    keys: Mapping[str, Key] = next((mark.known for mark in marks if isinstance(mark, Keys)), {})
+    return _Attribute(name, key or name, kind, optional, INLINE in marks, axes, split, make, keys)
 
 
 def _find_marks(annotation: object) -> tuple[object, ...]:
@@ -347,6 +363,11 @@ def _describe_class(record: type, definitions: Node) -> Node:
     further: Node = {}
     required: list[str] = []
     for each in _list_attributes(record):
+        for name, (kind_of_key, meaning) in each.keys.items():
+            node = _describe(kind_of_key, each, definitions)
+            properties[name] = {"description": _with_unit(meaning, name)} | node
+        if each.keys:
+            continue
         kind = each.kind if each.make is None else get_type_hints(each.make)["return"]
         node = _describe(kind, each, definitions)
         if each.inline and "$ref" in node:
@@ -355,9 +376,8 @@ def _describe_class(record: type, definitions: Node) -> Node:
             further |= node
             continue
         for key, part in (node["properties"] if each.inline else {each.key: node}).items():
-            unit = find_unit(key)
             text = "" if each.inline else " ".join(texts.get(each.name, "").split())
-            text = " ".join(filter(None, (text, unit and f"[{unit}]")))
+            text = _with_unit(text, key)
             properties[key] = {"description": text} | part if text else part
         if not each.optional:
             required += node.get("required", ()) if each.inline else (each.key,)
@@ -367,6 +387,12 @@ def _describe_class(record: type, definitions: Node) -> Node:
         "properties": properties,
         "required": required,
     }
+
+
+def _with_unit(text: str, key: str) -> str:
+    """Return a description, followed by the unit with which its key ends."""
+    unit = find_unit(key)
+    return " ".join(filter(None, (text, unit and f"[{unit}]")))
 
 
 def _describe(kind: object, each: _Attribute, definitions: Node) -> Node:

@@ -1,15 +1,19 @@
-"""Define the table of all kinds of forces and moments: names, symbols, keys and units.
+"""Define the table of all kinds of forces and moments: names, symbols, keys, units, and what they
+depend on.
 
-All code that computes, shows, compares, records or searches kinds reads this table. A new kind
-needs a line here, an attribute of `spectrum.Spectra`, and its computation. `KINDS` are caused by
-inertia, and every engine has them; `GAS_KINDS` exist only for engines with [gas].
+All code that computes, shows, compares, records or searches kinds reads this table. A new kind that
+is a sum of others needs only its line here; any other kind also needs its computation in
+`core.loads`. `KINDS` are caused by inertia, and every engine has them; `GAS_KINDS` exist only for
+engines with [gas].
 """
 
 from __future__ import annotations
 
-from typing import Literal, NamedTuple
+from typing import Literal, NamedTuple, get_args
 
 Dimension = Literal["force", "moment"]
+Cause = Literal["throws", "arms", "rods", "turning", "planes"]
+EVERY_CAUSE: tuple[Cause, ...] = get_args(Cause)
 _SI: dict[Dimension, str] = {"force": "N", "moment": "N·m"}
 _UPRIGHT = {"force": ("vertical", "horizontal"), "moment": ("yawing", "pitching")}
 
@@ -26,6 +30,13 @@ class Kind(NamedTuple):
         dimension: Force or moment.
         plus: Names of the kinds that are added to give this kind, if any.
         minus: Names of the kinds that are subtracted to give this kind, if any.
+        on_crank: Whether it is a torque on the crank; otherwise it acts on the frame.
+        causes: What it depends on, besides pistons and crank angles: masses of throws ("throws");
+            the same if the point of reference is off the crank's axis ("arms"); inertia of rods
+            ("rods"); inertia that turns with the crank at uneven speed ("turning"); axial positions
+            ("planes"). Results list the assumed values of these. Default: all of them.
+        meaning: Meaning in the list of quantities (`balcli numbers`); empty: the label.
+        description: Description in the JSON Schema; empty: the label.
     """
 
     name: str
@@ -36,6 +47,10 @@ class Kind(NamedTuple):
     dimension: Dimension = "moment"
     plus: tuple[str, ...] = ()
     minus: tuple[str, ...] = ()
+    on_crank: bool = False
+    causes: tuple[Cause, ...] = EVERY_CAUSE
+    meaning: str = ""
+    description: str = ""
 
     @property
     def si_unit(self) -> str:
@@ -70,14 +85,77 @@ class Kind(NamedTuple):
         return f"{stem}_{axis}_{unit}"
 
 
-FORCE = Kind("force", "free force", "F", "force_N", vector=True, dimension="force")
-MOMENT = Kind("moment", "free moment", "M", "moment_Nm", vector=True)
-COUPLE = Kind("couple", "couple C", "C", "couple_Nm")
-TORQUE = Kind("torque", "inertia torque T", "T", "inertia_torque_Nm")
-ROLL = Kind("roll", "roll moment", "C − T", "roll_Nm", plus=("couple",), minus=("torque",))
+FORCE = Kind(
+    "force",
+    "free force",
+    "F",
+    "force_N",
+    vector=True,
+    dimension="force",
+    causes=("throws",),
+    description="Free force.",
+)
+MOMENT = Kind(
+    "moment",
+    "free moment",
+    "M",
+    "moment_Nm",
+    vector=True,
+    causes=("throws", "planes"),
+    description="Free moment about the point of reference.",
+)
+COUPLE = Kind(
+    "couple",
+    "couple C",
+    "C",
+    "couple_Nm",
+    causes=("rods", "arms", "turning"),
+    meaning="free couple of the rods",
+    description="Free couple about z through the point of reference.",
+)
+TORQUE = Kind(
+    "torque",
+    "inertia torque T",
+    "T",
+    "inertia_torque_Nm",
+    on_crank=True,
+    causes=("rods", "turning"),
+    meaning="torque on the crank, gas included",  # `torque` of an engine with gas is the total
+    description="Torque of the inertia on the crank.",
+)
+ROLL = Kind(
+    "roll",
+    "roll moment",
+    "C − T",
+    "roll_Nm",
+    plus=("couple",),
+    minus=("torque",),
+    causes=("rods", "arms"),
+    meaning="roll of the block by inertia",
+    description="Roll of the frame: couple minus inertia torque.",
+)
 
-GAS = Kind("gas", "gas torque", "Tg", "gas_torque_Nm")
-TORQUE_TOTAL = Kind("torque_total", "total torque", "T + Tg", "torque_Nm", plus=("torque", "gas"))
+GAS = Kind(
+    "gas",
+    "gas torque",
+    "Tg",
+    "gas_torque_Nm",
+    on_crank=True,
+    causes=(),
+    meaning="torque of the gas",
+    description="Torque of the gas on the crank.",
+)
+TORQUE_TOTAL = Kind(
+    "torque_total",
+    "total torque",
+    "T + Tg",
+    "torque_Nm",
+    plus=("torque", "gas"),
+    on_crank=True,
+    causes=("rods", "turning"),
+    meaning="torque of gas and inertia",
+    description="Torque of inertia and gas on the crank.",
+)
 ROLL_TOTAL = Kind(
     "roll_total",
     "total roll",
@@ -85,12 +163,21 @@ ROLL_TOTAL = Kind(
     "roll_total_Nm",
     plus=("couple",),
     minus=("torque", "gas"),
+    causes=("rods", "arms"),
+    meaning="roll of the block, gas included",
+    description="Roll of the frame with gas.",
 )
 
 KINDS = {kind.name: kind for kind in (FORCE, MOMENT, COUPLE, TORQUE, ROLL)}
 GAS_KINDS = {kind.name: kind for kind in (GAS, TORQUE_TOTAL, ROLL_TOTAL)}  # with gas only
 EVERY_KIND = KINDS | GAS_KINDS
+FREE = (FORCE, MOMENT)  # have peaks, verdicts and pictures of their own
+
+
+def list_with(cause: Cause) -> set[str]:
+    """Return the names of the kinds that depend on a cause."""
+    return {kind.name for kind in EVERY_KIND.values() if cause in kind.causes}
+
+
 # Default quantities (see quantity.py) of variants in sweep, search and scatter.
 DEFAULT_QUANTITIES = "force.1.major,force.2.major,moment.1.major,moment.2.major"
-VECTORS = tuple(kind for kind in KINDS.values() if kind.vector)
-SCALARS = tuple(kind for kind in KINDS.values() if not kind.vector)

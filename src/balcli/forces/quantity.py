@@ -19,7 +19,7 @@ from ..engine.engine import Engine
 from ..errors import MOMENTS_UNKNOWN, BalcliError
 from ..file.fields import shorten, suggest_nearest
 from ..limits import HIGHEST_ORDER
-from .kinds import EVERY_KIND, GAS_KINDS, TORQUE_TOTAL, VECTORS
+from .kinds import EVERY_KIND, FREE, GAS_KINDS, TORQUE_TOTAL
 from .spectrum import compute_spectra, find_relevant_orders, split_order
 
 _SIZES = ("major", "minor", "forward", "backward")
@@ -91,7 +91,7 @@ def parse_quantity(text: str, *, with_gas: bool = False) -> Quantity:
         BalcliError: The text names no quantity; the error lists the possible ones.
     """
     kind, _, rest = text.partition(".")
-    if kind == "peak" and rest in [vector.name for vector in VECTORS]:
+    if kind == "peak" and rest in [vector.name for vector in FREE]:
         return Quantity(rest, 0, "peak")
     if kind == "peak":
         raise BalcliError(f"{text} is not a quantity: after peak comes force or moment")

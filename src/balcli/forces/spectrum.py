@@ -18,7 +18,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Collection, Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import reduce
 from operator import add, sub
 from typing import TYPE_CHECKING, NamedTuple
@@ -28,10 +28,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..core import speed_ripple as ripple
 from ..core.cylinders import Device
-from ..core.loads import Loads, find_device_force, find_needed_series
+from ..core.loads import LOADS, Loads, Turning, find_device_force, find_needed_series
 from ..core.mechanisms.closed_form import select_cylinders
 from ..core.phases import ANGLE, SUM, Phases, SeparatePhases
-from ..core.phasors import EPS, Array, Complex, Figure, Phasors, join_orders, join_places, unit
+from ..core.phasors import EPS, Array, Complex, Phasors, join_orders, join_places, unit
 from ..engine.engine import Engine, Placed
 from ..engine.figures import place_in_plane
 from ..errors import NO_GAS, BalcliError, NotComputedError, check_number, list_values, wrong_type
@@ -54,30 +54,61 @@ _AT_ONCE = 1 << 18
 
 @dataclass(frozen=True, eq=False)
 class Spectra:
-    """Phasors by order of each kind (`kinds.EVERY_KIND`).
+    """Phasors by order of each kind (`kinds.EVERY_KIND`) that was computed.
 
     `spectra["moment"]` returns the phasors of a kind, or raises an error that says how to ask for
-    them. The attributes are None for kinds that were not computed.
+    them. The kinds that engines have today are attributes, too; an attribute is None if its kind
+    was not computed.
 
     Attributes:
         orders: Orders, ascending, shape (orders,).
         up_deg: Direction that points up, deg from x; None if the file gives none.
-        force: Free force, N.
-        moment, couple, torque, roll: Free moment, couple, inertia torque on the crank, and roll, N
-            m.
-        gas, torque_total, roll_total: Gas torque, and torque and roll of gas and inertia, N m.
+        kinds: Phasors of each computed kind, by its name.
     """
 
     orders: Array
     up_deg: float | None = None
-    force: Phasors | None = None
-    moment: Phasors | None = None
-    couple: Phasors | None = None
-    torque: Phasors | None = None
-    roll: Phasors | None = None
-    gas: Phasors | None = None
-    torque_total: Phasors | None = None
-    roll_total: Phasors | None = None
+    kinds: Mapping[str, Phasors] = field(default_factory=dict)
+
+    @property
+    def force(self) -> Phasors | None:
+        """Free force, N; None if it was not computed."""
+        return self.kinds.get("force")
+
+    @property
+    def moment(self) -> Phasors | None:
+        """Free moment, N m; None if it was not computed."""
+        return self.kinds.get("moment")
+
+    @property
+    def couple(self) -> Phasors | None:
+        """Free couple, N m; None if it was not computed."""
+        return self.kinds.get("couple")
+
+    @property
+    def torque(self) -> Phasors | None:
+        """Inertia torque on the crank, N m; None if it was not computed."""
+        return self.kinds.get("torque")
+
+    @property
+    def roll(self) -> Phasors | None:
+        """Roll by inertia, N m; None if it was not computed."""
+        return self.kinds.get("roll")
+
+    @property
+    def gas(self) -> Phasors | None:
+        """Gas torque on the crank, N m; None if it was not computed."""
+        return self.kinds.get("gas")
+
+    @property
+    def torque_total(self) -> Phasors | None:
+        """Torque of gas and inertia on the crank, N m; None if it was not computed."""
+        return self.kinds.get("torque_total")
+
+    @property
+    def roll_total(self) -> Phasors | None:
+        """Roll by gas and inertia, N m; None if it was not computed."""
+        return self.kinds.get("roll_total")
 
     def __getitem__(self, kind: str) -> Phasors:
         """Return the phasors of a kind.
@@ -92,19 +123,18 @@ class Spectra:
         """
         if kind not in EVERY_KIND:
             raise KeyError(f"{kind}; there are {', '.join(EVERY_KIND)}")
-        phasors: Phasors | None = getattr(self, kind)
-        if phasors is None:
+        if kind not in self.kinds:
             word = GAS.name if kind in GAS_KINDS else kind
             raise NotComputedError(f'{kind} was not computed; ask for it with only=["{word}"]')
-        return phasors
+        return self.kinds[kind]
 
     def items(self) -> list[tuple[Kind, Phasors]]:
         """Return each computed kind with its phasors, in the order of the table of kinds."""
-        found = [(kind, getattr(self, name)) for name, kind in EVERY_KIND.items()]
-        return [(kind, phasors) for kind, phasors in found if phasors is not None]
+        computed = self.kinds
+        return [(kind, computed[name]) for name, kind in EVERY_KIND.items() if name in computed]
 
     def vectors(self) -> list[tuple[Kind, Phasors]]:
-        """Return the `items` that are vectors: force and moment."""
+        """Return the `items` that are vectors, such as force and moment."""
         return [(kind, phasors) for kind, phasors in self.items() if kind.vector]
 
     def scalars(self) -> list[tuple[Kind, Phasors]]:
@@ -113,8 +143,8 @@ class Spectra:
 
     def only(self, kinds: Collection[str]) -> Spectra:
         """Return the spectra of only these kinds, given by their names."""
-        found = {kind.name: p for kind, p in self.items() if kind.name in kinds}
-        return Spectra(self.orders, self.up_deg, **found)
+        found = {name: phasors for name, phasors in self.kinds.items() if name in kinds}
+        return replace(self, kinds=found)
 
     def with_moment_if(self, known: bool) -> Spectra:
         """Return the spectra, with nan for the moment if it is not known."""
@@ -122,18 +152,18 @@ class Spectra:
             return self
         p = self.moment
         unknown = Phasors(p.orders, np.full_like(p.vectors, np.nan), p.noise)
-        return replace(self, moment=unknown)
+        return replace(self, kinds={**self.kinds, "moment": unknown})
 
     def select_orders(self, orders: ArrayLike) -> Spectra:
         """Return the spectra of only these orders, shape (orders,)."""
         wanted = np.asarray(orders, float)
-        found = {kind.name: p.select_orders(wanted) for kind, p in self.items()}
-        return Spectra(wanted, self.up_deg, **found)
+        found = {name: phasors.select_orders(wanted) for name, phasors in self.kinds.items()}
+        return Spectra(wanted, self.up_deg, found)
 
     def select_place(self, place: int) -> Spectra:
         """Return the spectra at one index of the trailing axis."""
-        found = {kind.name: p.select_place(place) for kind, p in self.items()}
-        return Spectra(self.orders, self.up_deg, **found)
+        found = {name: phasors.select_place(place) for name, phasors in self.kinds.items()}
+        return replace(self, kinds=found)
 
 
 def compute_spectra(
@@ -168,7 +198,7 @@ def compute_spectra(
     if "gas" in parts:
         found["gas"] = compute_gas_torque(engine, wanted, each=each)
     sums = {name: add_parts(EVERY_KIND[name], found).drop_noise() for name in kinds}
-    return Spectra(wanted, engine.up_deg, **sums)
+    return Spectra(wanted, engine.up_deg, sums)
 
 
 def _add_cranks(engine: Engine, orders: Array, kinds: Collection[str], *, each: bool) -> Spectra:
@@ -180,7 +210,7 @@ def _add_cranks(engine: Engine, orders: Array, kinds: Collection[str], *, each: 
     for name in kinds:
         parts = [one[name] for one in every]
         found[name] = (join_places(parts) if each else reduce(add, parts)).drop_noise()
-    return Spectra(orders, engine.up_deg, **found)
+    return Spectra(orders, engine.up_deg, found)
 
 
 def place_spectra(
@@ -207,11 +237,13 @@ def place_spectra(
     if "gas" in parts and not fires:
         shape = (len(orders), *(one.engine.cylinders.count,) * each)
         seen["gas"] = Phasors(orders, np.zeros((2, *shape), complex), np.zeros(shape))
-    borne = {part: one.load_sense * seen[part] for part in ("torque", "gas") if part in seen}
-    return {
-        name: add_parts(EVERY_KIND[name], seen | (borne if EVERY_KIND[name].minus else {}))
-        for name in kinds
-    }
+    on_crank = [part for part in seen if EVERY_KIND[part].on_crank]
+    on_frame = seen | {part: one.load_sense * seen[part] for part in on_crank}
+    found = {}
+    for name in kinds:
+        kind = EVERY_KIND[name]
+        found[name] = add_parts(kind, seen if kind.on_crank else on_frame)
+    return found
 
 
 def _see(one: Placed, kind: Kind, own: Phasors) -> Phasors:
@@ -221,7 +253,7 @@ def _see(one: Placed, kind: Kind, own: Phasors) -> Phasors:
     forward = lead * own.forward
     backward = np.conj(lead) * own.backward
     noise = own.noise + (SUM + ANGLE * n) * (np.abs(own.forward) + np.abs(own.backward))
-    if one.ratio < 0 and kind.name not in ("torque", "gas"):
+    if one.ratio < 0 and not kind.on_crank:
         sign = 1.0 if kind.dimension == "force" else -1.0
         ahead = sign * forward.conj()
         against = sign * backward.conj()
@@ -332,16 +364,14 @@ def _compute_inertia(
     if not uneven:
         return steady
     scale = engine.omega**2 / (c.count if each else 1)
-    momentum, energy = (scale * value for value in engine.find_turning_inertia(beyond_pins=True))
+    inertia = engine.find_turning_inertia(beyond_pins=True)
+    turning = Turning(*(scale * value for value in inertia))
     found = {}
     lowest = make_loads(0)
     for name, phasors in steady.items():
-        mean: Figure = 0.0
-        if name == "torque":
-            mean = (lowest.mean_inertia + energy) / 2
-        elif name == "couple":
-            mean = lowest.mean_momentum + momentum
-        mixed = ripple.apply_speed(phasors.drop_noise(), speed, mean, rate_last=name == "torque")
+        form = LOADS[name]
+        mean = form.find_mean(lowest, turning)
+        mixed = ripple.apply_speed(phasors.drop_noise(), speed, mean, rate_last=form.of_energy)
         found[name] = mixed.select_orders(orders)
     return found
 

@@ -110,7 +110,8 @@ def find_stars(
     each = compute_spectra(alone, orders, kinds, each=True)
     total = compute_spectra(alone, orders, kinds)
     members = np.array([np.isin(engine.numbers, bank) for bank in banks], float)
-    sums = Spectra(orders, None, **{k.name: sum_weighted(p, members) for k, p in each.vectors()})
+    weighted = {kind.name: sum_weighted(phasors, members) for kind, phasors in each.vectors()}
+    sums = Spectra(orders, None, weighted)
     for k, order in enumerate(orders.tolist()):
         for way, turns in enumerate(WAYS):
             if not each["force"].vectors[way, k].any():

@@ -30,7 +30,7 @@ from ..core.mechanisms import harmonics
 from ..core.phasors import Array
 from ..engine.engine import Engine
 from ..file.fields import order_number
-from .kinds import KINDS, Kind
+from .kinds import EVERY_KIND, GAS, KINDS, ROLL, TORQUE, Kind
 from .spectrum import Spectra, compute_spectra, merge_orders
 
 if TYPE_CHECKING:
@@ -158,16 +158,9 @@ def find_textbook_units(engine: Engine, orders: Array) -> TextbookUnits:
 
 
 # ------------------------------------------------------------------ symmetry or chance
-# Groups of kinds that are judged together, and the names of some groups in words.
-_GROUPS = {
-    "force": ("force",),
-    "moment": ("moment",),
-    "couple": ("couple",),
-    "turning": ("couple", "torque"),
-    "gas": ("gas",),
-}
-_WORDS = {"turning": "torque and roll", "gas": "gas torque"}
-_INERTIA = ("force", "moment", "couple", "torque", "roll")
+TURNING = "turning"  # group of torque and roll, which have one reason in common
+_GROUPS = [TURNING if name == TORQUE.name else name for name in EVERY_KIND]  # in the order of print
+_WORDS = {TURNING: "torque and roll", GAS.name: "gas torque"}  # names of groups in words
 NEARLY = 1e-2  # an order is nearly balanced below this share of the amplitude of one cylinder
 _DRAWS = 3
 _SEED = 1
@@ -237,7 +230,7 @@ class Symmetry(NamedTuple):
     def sentences(self) -> tuple[str, ...]:
         """All findings in words; orders with the same finding share a sentence."""
         orders: dict[tuple[str, str], list[str]] = {}
-        for reason in sorted(self.reasons, key=lambda reason: [*_GROUPS].index(reason.quantity)):
+        for reason in sorted(self.reasons, key=lambda reason: _GROUPS.index(reason.quantity)):
             subject = _WORDS.get(reason.quantity, reason.quantity)
             orders.setdefault((subject, reason.finding), []).append(f"{reason.order:g}")
         findings = (
@@ -248,7 +241,7 @@ class Symmetry(NamedTuple):
 
 
 def explain_symmetry(
-    engine: Engine, orders: Iterable[float], kinds: Collection[str] = _INERTIA
+    engine: Engine, orders: Iterable[float], kinds: Collection[str] = tuple(KINDS)
 ) -> Symmetry:
     """Find out whether the cylinders alone, without devices and at steady speed, are balanced by
     symmetry or by chance.
@@ -259,15 +252,9 @@ def explain_symmetry(
     Args:
         engine: One engine, not an array of variants.
         orders: Orders, multiples of 1/2 above 0.
-        kinds: Any of force, moment, couple, torque, roll and gas; torque and roll have one reason
-            in common.
+        kinds: Names of kinds (`kinds.EVERY_KIND`); torque and roll have one reason in common.
     """
-    asked = {"turning" if kind in ("torque", "roll") else kind for kind in kinds}
-    groups = {
-        group: parts
-        for group, parts in _GROUPS.items()
-        if group in asked and (group != "gas" or engine.gas is not None)
-    }
+    groups = dict(_list_groups(kinds, with_gas=engine.gas is not None))
     reasons = _find_reasons(without_devices(engine), merge_orders(orders), groups)
     scope = {
         "without counterweights, shafts and sliders": engine.devices,
@@ -280,6 +267,21 @@ def explain_symmetry(
         describe_firing(engine),
         f"cylinders only: {left_out}" if left_out else None,
     )
+
+
+def _list_groups(
+    kinds: Collection[str], *, with_gas: bool
+) -> Iterator[tuple[str, tuple[str, ...]]]:
+    """Yield each group of kinds that are judged together, with the kinds that are computed for it,
+    in the order of the table of kinds. Sums of gas and inertia are not judged.
+    """
+    for name, kind in KINDS.items():
+        if name in kinds and kind not in (TORQUE, ROLL):
+            yield name, kind.parts
+        elif name in kinds:
+            yield TURNING, ROLL.parts
+    if GAS.name in kinds and with_gas:
+        yield GAS.name, GAS.parts
 
 
 def _find_reasons(

@@ -76,7 +76,7 @@ def compute_spectra_in_time(
         most = max(of_inertia, reach) if name in GAS_KINDS else of_inertia
         found = compute_spectra(engine, dense_orders(most, mixed), [name])
         in_time[name] = count_in_time(found[name], timetable, orders)
-    return Spectra(orders, None, **in_time), timetable.turns
+    return Spectra(orders, None, in_time), timetable.turns
 
 
 class BodyLoads(NamedTuple):

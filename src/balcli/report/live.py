@@ -39,7 +39,7 @@ from ..file.units import (
     UNBALANCE,
     convert,
 )
-from ..forces.kinds import FORCE, GAS_KINDS, VECTORS
+from ..forces.kinds import FORCE, FREE, GAS_KINDS
 from ..forces.power import LIKELY
 from ..forces.spectrum import (
     SHOWN,
@@ -231,7 +231,7 @@ def make_book(
         },
         "show": {
             kind.name: {**name_unit(system.unit(kind)), "size": system.unit(kind).size}
-            for kind in VECTORS
+            for kind in FREE
         },
     }
 

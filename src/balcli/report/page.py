@@ -30,7 +30,7 @@ from ..errors import BalcliError, name_option, warn
 from ..file.fields import order_number
 from ..file.model import EngineFile
 from ..forces.curves import find_torque_curves
-from ..forces.kinds import FORCE, MOMENT, VECTORS
+from ..forces.kinds import FORCE, FREE, MOMENT
 from ..forces.spectrum import take_gas
 from ..mounting import show as mounts
 from ..mounting.answer import report_mounts
@@ -81,7 +81,7 @@ def scene(now: Analysis, shown: Mapping[str, Analysis], system: System) -> Node:
                 **name_unit(system.unit(kind)),
                 "least": system.unit(kind).of(NEGLIGIBLE * now.of_one_cylinder[kind.name]),
             }
-            for kind in VECTORS
+            for kind in FREE
         },
         "orders": [
             order_number(n) for n in now.orders if any(_shakes(each, n) for each in shown.values())

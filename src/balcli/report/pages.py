@@ -31,7 +31,7 @@ from ..balancing.scheme_show import percent
 from ..core.phasors import Array, Phasors
 from ..crank_torque.plot import draw_gas
 from ..forces.crankshaft import AlongCrank
-from ..forces.kinds import EVERY_KIND, FORCE, GAS, KINDS, ROLL, ROLL_TOTAL, SCALARS, TORQUE, VECTORS
+from ..forces.kinds import COUPLE, EVERY_KIND, FORCE, FREE, GAS, KINDS, ROLL, ROLL_TOTAL, TORQUE
 from ..forces.stars import find_stars
 from ..show.engine_facts import tell_pivot
 from ..show.plane import (
@@ -168,7 +168,7 @@ def draw_roses(ax: Any, banks: Banks, unit: ShownUnit) -> None:
     ax.legend(loc="lower center", bbox_to_anchor=(0.5, 0.02), ncols=2)
 
 
-_VECTORS = tuple(kind.name for kind in VECTORS)
+_VECTORS = tuple(kind.name for kind in FREE)
 ABOUT = "about"  # one picture of couple, torque and roll
 PICTURED = (*_VECTORS, ABOUT)
 _TITLES = {"force": "Free force", "moment": "Free moment", ABOUT: "About the crank"}
@@ -208,7 +208,7 @@ class PageSubject:
     def list_scalars(self, *, with_gas: bool) -> dict[str, Phasors]:
         """Return the moments about the crank by label, the roll last."""
         gas_counts = with_gas and self.now.spectra.gas is not None
-        kinds = (TORQUE, GAS, ROLL_TOTAL) if gas_counts else SCALARS
+        kinds = (TORQUE, GAS, ROLL_TOTAL) if gas_counts else (COUPLE, TORQUE, ROLL)
         return {EVERY_KIND[kind.name].label: self.now.spectra[kind.name] for kind in kinds}
 
     def find_words(self, quantity: str) -> str:

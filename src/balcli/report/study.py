@@ -17,7 +17,7 @@ from ..engine.engine import Engine, refuse_geared
 from ..errors import ArgumentError, Message
 from ..file.fields import counted
 from ..forces.crankshaft import InnerLoads
-from ..forces.kinds import VECTORS
+from ..forces.kinds import FREE
 from ..forces.spectrum import compute_spectra
 from ..forces.symmetry import with_reciprocating_only
 from ..sizing.bobweights import FactorPeaks
@@ -106,7 +106,7 @@ def analyze_steps(
     """
     return {
         f"{k} {step.step}": analyze(
-            fit_devices(engine, step.remedy), orders, [kind.name for kind in VECTORS]
+            fit_devices(engine, step.remedy), orders, [kind.name for kind in FREE]
         )
         for k, step in enumerate(ladder.steps)
     }

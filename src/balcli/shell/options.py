@@ -10,7 +10,7 @@ import typer
 
 from ..errors import BalcliError
 from ..file.units import SPEED
-from ..forces.kinds import GAS_KINDS, KINDS, VECTORS
+from ..forces.kinds import FREE, GAS_KINDS, KINDS
 from ..limits import (
     HIGHEST_GUIDE_M,
     HIGHEST_ORDER,
@@ -188,7 +188,7 @@ def parse_parts(text: str | None) -> tuple[list[str] | None, frozenset[str]]:
         named = ", ".join(stranger or '""' for stranger in strangers)
         raise BalcliError(f"--only {named}: choose from {', '.join(WORDS_OF_ONLY)}")
     quantities = [word for word in words if word not in PARTS]
-    vectors = {kind.name for kind in VECTORS}
+    vectors = {kind.name for kind in FREE}
     if len(quantities) < len(words) and not vectors.intersection(quantities):
         quantities += sorted(vectors)
     return quantities, frozenset(words)

@@ -1,7 +1,7 @@
 """Define records of an engine's figures (orders, peaks, size and state), and their rows of CSV."""
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Annotated, NamedTuple
@@ -11,12 +11,13 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..core.peaks import Peak, find_peak
 from ..core.phasors import Array, Complex, Figure, Phasors
-from ..core.records import INLINE, Node, Reached, list_figures, to_document, write_each
+from ..core.records import INLINE, Key, Keys, Node, Reached, list_figures, to_document, write_each
 from ..engine.engine import CylinderNumber, Engine, Placed, SilentCylinders, place_in_mm
 from ..file.fields import order_number
 from ..file.model import EngineFile
-from ..forces.kinds import FORCE, MOMENT, Kind
+from ..forces.kinds import EVERY_KIND, FORCE, MOMENT, Dimension, Kind
 from ..forces.spectrum import Spectra
+from .sheet import sentence
 from .units import ShownUnit, System
 
 
@@ -106,31 +107,28 @@ class Harmonic(NamedTuple):
     balanced: bool
 
 
-@dataclass(frozen=True, kw_only=True)
-class OrderFigures:
+_RECORDS: dict[Dimension, type[Vector]] = {"force": FreeForce, "moment": FreeMoment}
+
+
+def _declare(kind: Kind) -> Key:
+    """Return type and description of the figures of a kind in documents."""
+    record = _RECORDS[kind.dimension] if kind.vector else Harmonic
+    return Key(record, kind.description or sentence(kind.label))
+
+
+_KEYS = Keys({kind.key: _declare(kind) for kind in EVERY_KIND.values()})
+
+
+class OrderFigures(NamedTuple):
     """Figures of one order; those that are not computed or not known are left out.
 
     Attributes:
         order: Order, in multiples of the crank speed; four-stroke engines have half orders.
-        force_N: Free force.
-        moment_Nm: Free moment about the point of reference.
-        couple_Nm: Free couple about z through the point of reference.
-        inertia_torque_Nm: Torque of the inertia on the crank.
-        roll_Nm: Roll of the frame: couple minus inertia torque.
-        gas_torque_Nm: Torque of the gas on the crank.
-        torque_Nm: Torque of inertia and gas on the crank.
-        roll_total_Nm: Roll of the frame with gas.
+        figures: Figures of each kind of force or moment, by the key of the kind.
     """
 
     order: float
-    force_N: FreeForce | None = None
-    moment_Nm: FreeMoment | None = None
-    couple_Nm: Harmonic | None = None
-    inertia_torque_Nm: Harmonic | None = None
-    roll_Nm: Harmonic | None = None
-    gas_torque_Nm: Harmonic | None = None
-    torque_Nm: Harmonic | None = None
-    roll_total_Nm: Harmonic | None = None
+    figures: Annotated[Mapping[str, Vector | Harmonic], _KEYS, INLINE]
 
 
 class Peaks(NamedTuple):
@@ -260,16 +258,15 @@ def clean(value: Figure) -> float | None:
 # ------------------------------------------------------------------ order by order
 def list_orders(spectra: Spectra) -> list[OrderFigures]:
     """Return one record for each order, with the computed kinds of force and moment."""
-    free: dict[Kind, type[Vector]] = {FORCE: FreeForce, MOMENT: FreeMoment}
-    columns: Node = {}
+    columns: dict[str, Sequence[Vector | Harmonic]] = {}
     for kind, phasors in spectra.vectors():
-        columns[kind.key] = list_vectors(phasors, free[kind], spectra.up_deg)
+        columns[kind.key] = list_vectors(phasors, _RECORDS[kind.dimension], spectra.up_deg)
     for kind, phasors in spectra.scalars():
         columns[kind.key] = list_harmonics(phasors)
     orders = []
     for k, order in enumerate(map(order_number, spectra.orders)):
         figures = {key: column[k] for key, column in columns.items()}
-        orders.append(OrderFigures(order=order, **figures))
+        orders.append(OrderFigures(order, figures))
     return orders
 
 

@@ -31,7 +31,7 @@ from ..file.assumed import Assumed, join_assumed, select_assumed
 from ..file.fields import RIGID, suggest_nearest
 from ..file.model import EngineFile
 from ..file.table import document_keys
-from ..forces.kinds import GAS_KINDS
+from ..forces.kinds import EVERY_KIND, GAS_KINDS
 from ..forces.quantity import (
     Quantity,
     TargetQuantity,
@@ -141,12 +141,10 @@ def refuse_unknown(model: EngineFile, engine: Engine, wanted: Iterable[AnyQuanti
 
 # Tables whose default values affect the quantities of a chapter, besides tables that affect all.
 _TABLES = {MOUNTS: {"gas", "body", "mount"}, TORSION: {"gas", "torsion"}, PISTON: set[str]()}
-# Beginnings of the names of quantities that do not depend on the inertia of rods.
-_WITHOUT_RODS = ("force.", "moment.", "peak.", "gas.", "mode.", "torque.mean", "piston.")
-# Beginnings of the names of quantities that depend on the masses of throws: in every engine, and
-# only if frame.reference is off the axis of the crankshaft.
-_OF_THROWS = ("force.1.", "moment.1.", "peak.", "mount.", "point.")
-_OF_THROWS_OFF_AXIS = ("couple.1.", "roll.1.", "roll_total.1.")
+# Beginnings of the names of quantities of chapters that do not depend on the inertia of rods, and
+# of those that depend on the masses of throws.
+_WITHOUT_RODS = ("mode.", "torque.mean", "piston.")
+_WITH_THROWS = ("mount.", "point.")
 
 
 def list_assumed(
@@ -170,17 +168,37 @@ def list_assumed(
     idle = set(varied)
     if not model.operation.speed_ripple:
         off_axis = any((model.frame.reference or (0.0,))[:2])
-        of_throws = (*_OF_THROWS, *(_OF_THROWS_OFF_AXIS * off_axis))
-        if not any(name.startswith(of_throws) for name in names):
+        if not any(_depends_on_throws(q, off_axis=off_axis) for q in quantities):
             idle.add("crank.throw_mass")
         if not ("flywheel" in tables and model.flywheel):
             idle.add("crank.inertia")
-    if all(name.startswith(_WITHOUT_RODS) for name in names):
+    if not any(map(_depends_on_rods, quantities)):
         idle.add("rod.inertia")
     lists = [select_assumed(list_inferred(Parts(crank)), tables, idle) for crank in model.cranks]
     if not model.engine:
         return lists[0] or None
     return join_assumed(model.crank_names, lists) or None
+
+
+def _depends_on_throws(q: AnyQuantity, *, off_axis: bool) -> bool:
+    """Return whether a quantity depends on the masses of throws at steady speed, which only make
+    forces of order 1.
+
+    Args:
+        q: Quantity.
+        off_axis: Whether the point of reference is off the axis of the crankshaft.
+    """
+    if isinstance(q, TargetQuantity):
+        return q.name.startswith(_WITH_THROWS)
+    causes = EVERY_KIND[q.kind].causes
+    has_order = q.order == 1 or q.part == "peak"
+    return has_order and ("throws" in causes or (off_axis and "arms" in causes))
+
+
+def _depends_on_rods(q: AnyQuantity) -> bool:
+    if isinstance(q, TargetQuantity):
+        return not q.name.startswith(_WITHOUT_RODS)
+    return "rods" in EVERY_KIND[q.kind].causes
 
 
 # ------------------------------------------------------------------ evaluation of variants

@@ -9,11 +9,12 @@ one of x, y, z, rx, ry, rz and roll, `PART` for one of the words in the meaning.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from itertools import groupby
 from typing import Annotated, NamedTuple
 
 from ..core.records import HIDDEN
+from ..forces.kinds import FREE, GAS_KINDS, KINDS, Kind
 
 ENGINE = "engine"
 GUIDE = "guide"
@@ -73,29 +74,25 @@ def _list_forms(chapter: str, table: str, *rows: tuple[str, str, str]) -> Iterat
         yield Form(chapter, name, unit, table, meaning)
 
 
+def _list_kinds(kinds: Mapping[str, Kind], table: str) -> Iterator[Form]:
+    """Yield the quantities by order of kinds of forces and moments; `table`: as for
+    `_list_forms`.
+    """
+    for name, kind in kinds.items():
+        parts = _OF_VECTOR if kind.vector else _OF_SCALAR
+        meaning = f"{kind.meaning or kind.label}: {parts}"
+        yield Form(ENGINE, f"{name}.N.PART", kind.si_unit, table, meaning)
+
+
+def _name_peak(kind: Kind) -> tuple[str, str, str]:
+    """Return name, unit and meaning of the peak of a kind."""
+    return f"peak.{kind.name}", kind.si_unit, f"largest {kind.label} over a revolution"
+
+
 FORMS = (
-    *_list_forms(
-        ENGINE,
-        "",
-        ("force.N.PART", "N", f"free force: {_OF_VECTOR}"),
-        ("moment.N.PART", "N·m", f"free moment: {_OF_VECTOR}"),
-        ("couple.N.PART", "N·m", f"free couple of the rods: {_OF_SCALAR}"),
-        ("torque.N.PART", "N·m", f"torque on the crank, gas included: {_OF_SCALAR}"),
-        ("roll.N.PART", "N·m", f"roll of the block by inertia: {_OF_SCALAR}"),
-    ),
-    *_list_forms(
-        ENGINE,
-        "gas",
-        ("gas.N.PART", "N·m", f"torque of the gas: {_OF_SCALAR}"),
-        ("torque_total.N.PART", "N·m", f"torque of gas and inertia: {_OF_SCALAR}"),
-        ("roll_total.N.PART", "N·m", f"roll of the block, gas included: {_OF_SCALAR}"),
-    ),
-    *_list_forms(
-        ENGINE,
-        "",
-        ("peak.force", "N", "largest free force over a revolution"),
-        ("peak.moment", "N·m", "largest free moment over a revolution"),
-    ),
+    *_list_kinds(KINDS, ""),
+    *_list_kinds(GAS_KINDS, "gas"),
+    *_list_forms(ENGINE, "", *map(_name_peak, FREE)),
     *_list_forms(
         GUIDE,
         "",
