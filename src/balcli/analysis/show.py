@@ -12,7 +12,7 @@ from ..engine.engine import CylinderNumber
 from ..errors import MOMENTS_UNKNOWN
 from ..file.fields import join_words
 from ..forces.curves import find_constant_inertia
-from ..forces.kinds import COUPLE, EVERY_KIND, FREE, GAS, GAS_KINDS, MOMENT, TORQUE
+from ..forces.kinds import COUPLE, EVERY_KIND, FREE, GAS, GAS_KINDS, KINDS, MOMENT, TORQUE
 from ..forces.spectrum import Spectra
 from ..forces.symmetry import find_textbook
 from ..show.engine_facts import engine_facts, speed_facts, tell_pivot
@@ -63,15 +63,25 @@ TEXTS = frozenset({"verdict", "sizing", "ladder", "textbook"})  # parts shown wi
 TABLES = TEXTS - {"verdict"} | {"xy", "peak", *EXTRAS}  # parts that are shown without a verdict
 
 
-def sheet(result: Analysis, system: System, view: View = IN_BRIEF) -> Sheet:
+def sheet(result: Analysis, system: System, view: View | None = None) -> Sheet:
     """Return the sheet of an analysis: engine, verdict, forces order by order, peaks and devices.
 
     Args:
         result: Analysis to show.
         system: System of units.
-        view: Tables and orders to show.
+        view: Tables and orders to show; default: those that the analysis was asked for.
     """
+    if view is None:
+        view = _choose_view(result)
     return Sheet(result.engine.name or NAMELESS, tuple(_parts(result, system, view)))
+
+
+def _choose_view(result: Analysis) -> View:
+    """Return the view in brief, or, if some kinds were not asked for, that of the other kinds."""
+    computed = frozenset(result.spectra.kinds)
+    if computed.issuperset(KINDS):
+        return IN_BRIEF
+    return View(parts=computed)
 
 
 def _parts(result: Analysis, system: System, view: View) -> Iterator[Part]:
