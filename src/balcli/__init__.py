@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from .analysis.piston import Pistons, piston
     from .analysis.two_engines import Combined, sum  # noqa: A004
     from .api import Engine, load, load_example
+    from .balancing.all_schemes import SchemeComparison, compare_schemes
     from .balancing.answer import Balance, balance
     from .books.answer import tables
     from .books.recomputed import Table
@@ -56,6 +57,7 @@ __all__ = [
     "Pistons",
     "Result",
     "Scatter",
+    "SchemeComparison",
     "SchemeOptions",
     "Search",
     "Shapes",
@@ -68,6 +70,7 @@ __all__ = [
     "analyze",
     "balance",
     "compare",
+    "compare_schemes",
     "curves",
     "field",
     "load",

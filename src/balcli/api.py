@@ -17,6 +17,7 @@ from .analysis.comparison import compare
 from .analysis.curves import curves
 from .analysis.piston import piston
 from .analysis.two_engines import sum  # noqa: A004
+from .balancing.all_schemes import compare_schemes
 from .balancing.answer import balance
 from .crank_torque.answer import torque
 from .engine import engine as kernel
@@ -45,6 +46,7 @@ class Engine(kernel.Engine):
     analyze = analyze
     balance = balance
     compare = compare
+    compare_schemes = compare_schemes
     sum = sum
     curves = curves
     piston = piston

@@ -13,7 +13,7 @@ import typer
 
 from ..core.records import change_attributes
 from ..core.unbalance import SLUGS
-from ..errors import BalcliError, note
+from ..errors import BalcliError, name_option, note
 from ..file.edit import set_speed
 from ..file.toml import name_file
 from ..file.units import ANGLE, MASS
@@ -41,9 +41,10 @@ from ..shell.values import (
     read_share,
 )
 from ..show.formats import Format, Units
-from ..sizing.options import FIT, KNUCKLES, MEANINGS, OPTIONS, SchemeOptions
+from ..sizing.options import ALL, FIT, KNUCKLES, MEANINGS, OPTIONS, SchemeOptions
 
 if TYPE_CHECKING:
+    from ..engine.engine import Engine
     from ..sizing.workshop import Shapes, Tools
     from .answer import Balance
 
@@ -232,6 +233,45 @@ def _check_scheme(scheme: str, options: SchemeOptions, even: str | None, shapes:
         raise BalcliError(f"--bearings and --sector are for new devices; scheme {scheme} adds none")
 
 
+def _read_mass(text: str | None, units: Units) -> float | None:
+    """Return the mass of `--mass`, kg; None: not given."""
+    return None if text is None else read_figure("mass", text, MASS, units)
+
+
+def _write_balanced(
+    text: bytes, path: str, write: Path, result: Balance, rpm: float | None
+) -> None:
+    """Write the engine file with the new devices, and with the speed that the command was given."""
+    from .answer import insert_remedy
+
+    refuse_leaving_files(text, path, write)
+    new = insert_remedy(text, result.remedy, name_file(path))
+    if rpm is not None:
+        new = set_speed(new, rpm, "as balanced by balcli")
+    write_file(new, write)
+
+
+def _show_all(engine: Engine, form: Format, output: Path | None, units: Units) -> None:
+    """Show what every scheme leaves."""
+    from .all_schemes import RENDERER, compare_schemes
+
+    if form is Format.CARD:
+        raise BalcliError("--format card is for one scheme, and scheme all compares them")
+    show([compare_schemes(engine)], RENDERER, form, output, units)
+
+
+def _refuse_beside_all(options: SchemeOptions, tools: Tools, **others: object) -> None:
+    """Raise BalcliError if anything that belongs to one scheme is given with scheme all."""
+    given = [name for name, value in others.items() if value is not None]
+    given += [name for name, value in options._asdict().items() if value is not None]
+    given += [name for name, value in tools._asdict().items() if value is not None]
+    if given:
+        raise BalcliError(
+            f"scheme all shows every scheme with its default options; leave "
+            f"{', '.join(map(name_option, given))} out, or name one scheme"
+        )
+
+
 def balance(
     path: EnginePath,
     scheme: Scheme = None,
@@ -278,6 +318,7 @@ def balance(
       balcli balance v8.toml --factor 50%:54%:1% --planes ends
       balcli balance v8.toml --factor 51% --planes ends --drill 19 --max-depth 32
       balcli balance twin.toml --measured "812 g"
+      balcli balance single.toml --scheme all
     """
     refuse_overwriting(reads=[path], writes={"--output": output, "--write": write})
     endings = {**TEXTS, ".txt": Format.CARD} if form is Format.CARD else TEXTS
@@ -301,13 +342,28 @@ def balance(
     tools = parse_tools(units, slug, **lengths, max_depth=max_depth, width=width)
     shapes = Shapes(*parse_shapes(units, bearings, sector))
     grade_mm_s = parse_grade(grade)
-    mass_kg = None if mass is None else read_figure("mass", mass, MASS, units)
+    mass_kg = _read_mass(mass, units)
     asked = parse_orders(orders)
     rpm = parse_speed(speed)
     text, model, engine = read_engine(path, rpm, prepare=remove_to_fit)
     open_devices = [name for name, _ in list_to_fit(model)]
     scheme = choose_scheme(scheme, options, _choose_usual(step, form, open_devices))
     fits = open_devices or target is not None or scheme == FIT
+    if scheme == ALL and not open_devices:
+        _refuse_beside_all(
+            options,
+            tools,
+            orders=orders,
+            even=even,
+            grade=grade,
+            mass=mass,
+            bearings=bearings,
+            sector=sector,
+            target=target,
+            write=write,
+        )
+        _show_all(engine, form, output, units)
+        return
     if fits:
         _check_fit(name_file(path), scheme, options, open_devices)
     _check_scheme(scheme, options, even, shapes)
@@ -333,11 +389,7 @@ def balance(
     if hasattr(result, "parts"):
         warn_each(result.parts.doubts, name_file(path))
     if write is not None and misfit is None:
-        refuse_leaving_files(text, path, write)
-        new = answer.insert_remedy(text, result.remedy, name_file(path))
-        if rpm is not None:
-            new = set_speed(new, rpm, "as balanced by balcli")
-        write_file(new, write)
+        _write_balanced(text, path, write, result, rpm)
     show_balance(result, form, output, units)
     if misfit is not None:
         raise misfit

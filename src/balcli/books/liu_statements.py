@@ -46,8 +46,11 @@ class _Turning(NamedTuple):
 
 def _find_angles(zero: Polynomial) -> list[float]:
     """Return the angles x between 0 and 90 degrees at which a polynomial of cos x is 0, rising."""
-    roots = [root.real for root in zero.roots() if abs(root.imag) < 1e-12]
-    return sorted(float(np.arccos(c)) for c in roots if 1e-12 < c < 1 - 1e-12)
+    roots = np.asarray(zero.roots(), complex)
+    real = roots.real[np.abs(roots.imag) < 1e-12]
+    inside = real[(real > 1e-12) & (real < 1 - 1e-12)]
+    angles: list[float] = np.sort(np.arccos(inside)).tolist()
+    return angles
 
 
 def _find_extreme(curve: Polynomial) -> tuple[float, float]:

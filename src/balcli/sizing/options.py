@@ -18,6 +18,7 @@ CRITERIA = ("largest", "mean")  # eccentric-slider minimises this value of the r
 LADDER = ("auto", "step")  # schemes that fit steps of the ladder
 KNUCKLES = "knuckles"  # fits no device, but changes the engine file (balcli.balancing.answer)
 FIT = "fit"  # fits the devices that the file leaves open (balcli.sizing.fit)
+ALL = "all"  # compares the other schemes (balcli.balancing.all_schemes)
 
 
 class Scheme(NamedTuple):
@@ -96,11 +97,13 @@ _SCHEMES = (
     Scheme("oldham", ("radius",), "an Oldham coupling for orders 1 and 2 of one cylinder"),
     Scheme("knuckles", ("even",), "knuckle angles for even dead centres or strokes (articulated)"),
     Scheme("fit", ("target",), 'the devices of the file that have unbalance = "fit"'),
+    Scheme(ALL, (), "what every scheme leaves and takes, side by side"),
 )
+_OF_THE_COMMAND = (KNUCKLES, FIT, ALL)  # schemes that the function `balance` does not run
 MEANINGS = {scheme.name: scheme.meaning for scheme in _SCHEMES}
 NAMES = tuple(MEANINGS)
 OPTIONS = {scheme.name: scheme.options for scheme in _SCHEMES}
-SCHEMES = {name: options for name, options in OPTIONS.items() if name not in (KNUCKLES, FIT)}
+SCHEMES = {name: options for name, options in OPTIONS.items() if name not in _OF_THE_COMMAND}
 
 # Type of number that each option takes, and words for a valid value.
 _NUMBERS: dict[str, tuple[type, str]] = {
@@ -297,7 +300,7 @@ def find_taken(scheme: str) -> tuple[str, ...]:
     """
     if scheme in SCHEMES:
         return SCHEMES[scheme]
-    if scheme in (KNUCKLES, FIT):
+    if scheme in _OF_THE_COMMAND:
         raise BalcliError(f"only the command balance runs the scheme {scheme}")
     near = nearest(scheme, NAMES)
     meant = f"did you mean {near}? " if near else ""

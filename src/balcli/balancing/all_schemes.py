@@ -1,0 +1,235 @@
+"""Compare what every scheme leaves: force, moment and roll, with the parts that it takes.
+
+Each scheme has its default options. A scheme that does not fit the engine, or that needs an option,
+is listed with the reason. Comparison of methods as in Wang Yongding, Methods of balancing
+single-cylinder engines.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Annotated, Literal, NamedTuple
+
+from ..analysis.answer import Analysis
+from ..core.records import HIDDEN
+from ..engine.engine import Engine, check_engine
+from ..errors import ArgumentError, BalcliError, name_option, tell
+from ..forces.kinds import ROLL
+from ..limits import SMALL
+from ..show.formats import Renderer, Rows
+from ..show.result import Result
+from ..show.sheet import (
+    NAMELESS,
+    UNKNOWN,
+    Column,
+    Grid,
+    Sheet,
+    number,
+    order_name,
+    size_cell,
+)
+from ..show.units import System
+from ..sizing.ladder import find_ladder
+from ..sizing.options import DESIGNS, LADDER, SCHEMES, SchemeOptions
+from .answer import Balance, balance
+
+AS_DRAWN = "as drawn"
+# Schemes whose devices no engine file can describe
+_ECCENTRIC_SLIDER = "eccentric-slider"
+_OLDHAM = "oldham"
+
+
+class SchemeResult(NamedTuple):
+    """What a scheme leaves, and what it takes.
+
+    Attributes:
+        scheme: Name of the scheme; "as drawn": the engine without new devices.
+        design: Design of the scheme eccentric-slider; None for other schemes.
+        peak_force_N: Largest free force over a revolution, all orders.
+        force_share: This force over that of one cylinder's first order.
+        peak_moment_Nm: Largest free moment over a revolution; None if places along the crank are
+            not known.
+        roll_order: Order of the largest roll; None without a roll.
+        roll_Nm: Its amplitude, of inertia.
+        parts: Number of new counterweights, eccentrics, sliders or couplings.
+        mass_kg: Mass of these parts at their radii.
+    """
+
+    scheme: str
+    design: str | None
+    peak_force_N: float
+    force_share: float
+    peak_moment_Nm: float | None
+    roll_order: float | None
+    roll_Nm: float
+    parts: int
+    mass_kg: float
+
+
+class Unfit(NamedTuple):
+    """A scheme that is left out.
+
+    Attributes:
+        scheme: Name of the scheme.
+        reason: Reason, as the error of the scheme says it.
+    """
+
+    scheme: str
+    reason: str
+
+
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class SchemeComparison(Result):
+    """Every scheme with what it leaves.
+
+    Attributes:
+        scale_N: Amplitude of one cylinder's first order (mass times radius times squared speed).
+        schemes: Engine as drawn, then all schemes that fit it.
+        left_out: Schemes that do not fit it.
+        engine: The engine.
+    """
+
+    format: Literal["balcli.schemes/1"] = "balcli.schemes/1"
+    scale_N: float
+    schemes: tuple[SchemeResult, ...]
+    left_out: tuple[Unfit, ...]
+    engine: Annotated[Engine, HIDDEN]
+
+    @property
+    def summary(self) -> str:
+        """Number of schemes and the engine, in words."""
+        return f"{len(self.schemes) - 1} schemes for {self.engine.summary}"
+
+
+def compare_schemes(engine: Engine) -> SchemeComparison:
+    """Return what every scheme leaves of an engine's forces and moments, with default options.
+
+    Args:
+        engine: One engine, not an array of variants.
+
+    Raises:
+        TypeError: `engine` is not an Engine.
+
+    Example:
+        >>> compare_schemes(load_example("single")).schemes[1].force_share
+    """
+    check_engine("compare_schemes", engine)
+    scale = find_ladder(engine, SMALL).scale.force_N
+    rows: list[SchemeResult] = []
+    left_out: list[Unfit] = []
+    for scheme, design in _list_schemes():
+        try:
+            found = balance(engine, scheme, SchemeOptions(design=design))
+        except BalcliError as error:
+            reason = error.message if isinstance(error, ArgumentError) else str(error)
+            left_out.append(Unfit(scheme, reason))
+            continue
+        if not rows:
+            rows.append(_measure(AS_DRAWN, None, found.before, scale, 0, 0.0))
+        if not found.remedy.devices and not found.remedy.beyond:
+            left_out.append(Unfit(scheme, found.remedy.note))
+            continue
+        parts, mass = _count_parts(found)
+        rows.append(_measure(scheme, design, found.after, scale, parts, mass))
+    unique = {unfit.scheme: unfit for unfit in left_out}
+    return SchemeComparison(
+        scale_N=scale, schemes=tuple(rows), left_out=tuple(unique.values()), engine=engine
+    )
+
+
+def _list_schemes() -> Iterator[tuple[str, str | None]]:
+    """Yield each scheme that can do without options, with its designs."""
+    for scheme in SCHEMES:
+        if scheme == _ECCENTRIC_SLIDER:
+            yield from ((scheme, design) for design in DESIGNS)
+        elif scheme not in LADDER or scheme == "auto":
+            yield scheme, None
+
+
+def _measure(
+    scheme: str, design: str | None, left: Analysis, scale: float, parts: int, mass: float
+) -> SchemeResult:
+    roll = left.spectra[ROLL.name].major
+    largest = int(roll.argmax()) if roll.size else 0
+    rolls = bool(roll.size and roll[largest] > 0)
+    force = left.peak.force.value
+    return SchemeResult(
+        scheme=scheme,
+        design=design,
+        peak_force_N=force,
+        force_share=force / scale if scale else 0.0,
+        peak_moment_Nm=left.peak.moment.value if left.moments_known else None,
+        roll_order=float(left.spectra.orders[largest]) if rolls else None,
+        roll_Nm=float(roll[largest]) if rolls else 0.0,
+        parts=parts,
+        mass_kg=mass,
+    )
+
+
+def _count_parts(found: Balance) -> tuple[int, float]:
+    """Return number and mass of a scheme's parts. An eccentric slider is a pair of equal shafts.
+    Two Oldham couplings are two weights and two blocks, each of one mass.
+    """
+    remedy = found.remedy
+    parts = len(remedy.devices)
+    mass = sum(device.mass_kg for device in found.practical)
+    if remedy.scheme == _ECCENTRIC_SLIDER:
+        return parts + 2, mass + 2 * remedy.details["fitted"]["mass_kg"]
+    if remedy.scheme == _OLDHAM:
+        return parts + 4, mass + 4 * remedy.details["mass_kg"]
+    return parts, mass
+
+
+# ------------------------------------------------------------------ tables
+_NOTE = (
+    "Force, moment: largest left over a revolution, all orders. Share: of one cylinder's first "
+    "order ({scale}). Roll: largest order that inertia leaves. kg: sum of the parts, each at its "
+    "radius. balance --scheme NAME shows one scheme, and its options change it."
+)
+
+
+def sheet(found: SchemeComparison, system: System) -> Sheet:
+    """Return the table of schemes, and the schemes left out with their reasons."""
+    rows = found.schemes
+    force = system.force.fit(max(row.peak_force_N for row in rows))
+    moments = [row.peak_moment_Nm for row in rows]
+    moment = system.moment.fit(max((value or 0.0 for value in moments), default=0.0))
+    roll = system.moment.fit(max(row.roll_Nm for row in rows))
+    columns = [
+        Column("scheme", [_name(row) for row in rows], words=True),
+        Column(f"force, {force.name}", [size_cell(row.peak_force_N, force) for row in rows]),
+        Column("share", [number(row.force_share, 5) for row in rows]),
+        Column(
+            f"moment, {moment.name}",
+            [UNKNOWN if value is None else size_cell(value, moment) for value in moments],
+        ),
+        Column(f"roll, {roll.name}", [size_cell(row.roll_Nm, roll) for row in rows]),
+        Column("order", [_tell_order(row) for row in rows]),
+        Column("parts", [str(row.parts) for row in rows]),
+        Column(system.mass.name, [number(system.mass.of(row.mass_kg), 3) for row in rows]),
+    ]
+    unit = system.force.fit(found.scale_N)
+    note = _NOTE.format(scale=f"{number(unit.of(found.scale_N))} {unit.name}")
+    parts = [Grid("", columns, note)]
+    if found.left_out:
+        reasons = [tell(unfit.reason, name_option) for unfit in found.left_out]
+        names = Column("scheme", [unfit.scheme for unfit in found.left_out], words=True)
+        parts.append(Grid("Left out", [names, Column("reason", reasons, words=True)]))
+    return Sheet(f"{found.engine.name or NAMELESS}: what every scheme leaves", tuple(parts))
+
+
+def _name(row: SchemeResult) -> str:
+    return row.scheme if row.design is None else f"{row.scheme}, design {row.design}"
+
+
+def _tell_order(row: SchemeResult) -> str:
+    return UNKNOWN if row.roll_order is None else order_name(row.roll_order)
+
+
+def list_rows(found: SchemeComparison, _system: System) -> Rows:
+    """Return CSV with a line for each scheme, in SI units."""
+    return Rows(SchemeResult._fields, found.schemes)
+
+
+RENDERER = Renderer(sheet=sheet, rows=list_rows)
