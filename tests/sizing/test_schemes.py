@@ -8,7 +8,7 @@ from balcli.sizing.sizing import SIZE
 
 
 def test_every_scheme_has_its_function():
-    assert list(SIZE) == list(SCHEMES)
+    assert SIZE.keys() == SCHEMES.keys()
     assert len(set(SIZE.values())) == len(SIZE)
 
 

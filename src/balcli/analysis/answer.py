@@ -223,7 +223,7 @@ def analyze(
         TypeError: An argument has the wrong type.
 
     Example:
-        >>> analyze(load("v8.toml"), orders=[1, 2]).spectra.moment.major
+        >>> analyze(load("v8.toml"), orders=[1, 2]).spectra["moment"].major
     """
     wanted = _choose_quantities(check_engine("analyze", engine), only)
     _check_height(guide_height)
