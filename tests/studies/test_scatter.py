@@ -1,6 +1,7 @@
 """Scatter: random variants against exact derivatives and against engines written out."""
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -181,3 +182,14 @@ def test_a_table_says_tolerances_parts_and_units_that_fit():
     assert "piston mass, rod mass, throw mass ±0.5 %; rod length ±0.2 %" in told
     assert "force.2.major, kN 19.63" in told
     assert "92.4 throw mass 1, 2, 3, 4" in told
+
+
+def test_tolerances_of_geared_engines_are_named_by_what_deviates(tmp_path: Path) -> None:
+    """An engine called "stiffness" is no stiffness."""
+    (tmp_path / "twin.toml").write_text(TWIN)
+    table = '[[engine]]\nname = "{}"\nfile = "twin.toml"\nat = [0, 0, {}]\n'
+    (tmp_path / "pair.toml").write_text(table.format("stiffness", 0) + table.format("lower", 500))
+    pair = balcli.load(tmp_path / "pair.toml")
+    told = balcli.scatter(pair, "force.1.major", mass_scatter="1%", samples=10, seed=1).text()
+    assert "Tolerances: piston mass ±1 %" in told
+    assert "lower piston mass 1" in told

@@ -52,21 +52,40 @@ class Source(NamedTuple):
     """A part that deviates independently of all others.
 
     Attributes:
-        name: Name in tables, such as `piston mass 3` or `stiffness left`.
+        kind: What deviates, such as `piston mass` or `stiffness`.
+        part: Number or name of the part, such as `3` or `left`.
         tolerance: Largest deviation, relative or in degrees.
         figures: Figures of the file that vary with the deviation, by dotted name.
         relative: True for a relative deviation, False for a deviation in degrees.
+        group: Word before the number, if other parts of this kind have other words: `throw`.
+        engine: Name of the engine, if the file has several.
     """
 
-    name: str
+    kind: str
+    part: str
     tolerance: float
     figures: Mapping[str, Line]
     relative: bool = True
+    group: str = ""
+    engine: str = ""
+
+    @property
+    def stem(self) -> str:
+        """Name in tables without the part."""
+        return " ".join(filter(None, (self.engine, self.kind, self.group)))
+
+    @property
+    def name(self) -> str:
+        """Name in tables, such as `piston mass 3`, `stiffness left` or `stiffness throw 1-2`."""
+        return f"{self.stem} {self.part}"
 
 
-def _relative(name: str, tolerance: float, figures: Mapping[str, float]) -> Source:
+def _relative(
+    kind: str, part: object, tolerance: float, figures: Mapping[str, float], group: str = ""
+) -> Source:
     """Return a source whose figures are all proportional to 1 + deviation."""
-    return Source(name, tolerance, {path: Line(value, value) for path, value in figures.items()})
+    lines = {path: Line(value, value) for path, value in figures.items()}
+    return Source(kind, str(part), tolerance, lines, group=group)
 
 
 def find_sources(
@@ -104,7 +123,7 @@ def _find_sources_of_several(
         cranks.append(own)
         for source in found:
             figures = {f"engine.{k}.{path}": line for path, line in source.figures.items()}
-            sources.append(source._replace(name=f"{name} {source.name}", figures=figures))
+            sources.append(source._replace(engine=name, figures=figures))
     return model.with_cranks(cranks), tuple(sources)
 
 
@@ -134,7 +153,7 @@ def _list_parts(model: EngineFile, within: Tolerances) -> Iterator[Source]:
         if rod.length is None and rod.ratio is None:
             continue  # a rod in harmonic motion has no length
         length = 1e3 * float(rod.length_for(parts.find_radius(n)))
-        yield _relative(f"rod length {n}", within.length, {f"cylinder.{n}.rod_length": length})
+        yield _relative("rod length", n, within.length, {f"cylinder.{n}.rod_length": length})
     for k, angle in parts.pins.throws_deg.items():
         lines = {f"crank.throws.{k + 1}": Line(float(angle), 1.0)}
         numbers = [cell.number for cell in parts.plan.cells if cell.throw == k]
@@ -143,7 +162,7 @@ def _list_parts(model: EngineFile, within: Tolerances) -> Iterator[Source]:
                 lines[f"cylinder.{n}.throw"] = Line(float(pin), 1.0)
         if 1 in numbers:
             lines |= _hold_devices(model)
-        yield Source(f"throw angle {k + 1}", within.angle_deg, lines, relative=False)
+        yield Source("throw angle", str(k + 1), within.angle_deg, lines, relative=False)
 
 
 def _list_masses(model: EngineFile, parts: Parts, mass: float) -> Iterator[Source]:
@@ -157,10 +176,10 @@ def _list_masses(model: EngineFile, parts: Parts, mass: float) -> Iterator[Sourc
             if (given := getattr(rod, key)) is not None
         }
         if any(figures.values()):
-            yield _relative(f"rod mass {n}", mass, figures)
+            yield _relative("rod mass", n, mass, figures)
     for k, given in enumerate(() if model.layout.rotary else model.crank.throw_masses, 1):
         if given:
-            yield _relative(f"throw mass {k}", mass, {f"crank.throw_mass.{k}": given})
+            yield _relative("throw mass", k, mass, {f"crank.throw_mass.{k}": given})
 
 
 def _list_pistons(model: EngineFile, mass: float) -> Iterator[Source]:
@@ -169,10 +188,10 @@ def _list_pistons(model: EngineFile, mass: float) -> Iterator[Source]:
     for n, weighed in sorted(zip(engine.numbers, engine.weighed, strict=True)):
         if weighed.piston:
             figures = {f"cylinder.{n}.piston_mass": float(weighed.piston)}
-            yield _relative(f"piston mass {n}", mass, figures)
+            yield _relative("piston mass", n, mass, figures)
         if weighed.crosshead:
             figures = {f"cylinder.{n}.crosshead_mass": float(weighed.crosshead)}
-            yield _relative(f"crosshead mass {n}", mass, figures)
+            yield _relative("crosshead mass", n, mass, figures)
 
 
 def _hold_devices(model: EngineFile) -> dict[str, Line]:
@@ -195,7 +214,7 @@ def _list_mounts(model: EngineFile, within: Tolerances) -> Iterator[Source]:
     for number, mount in enumerate(model.mount, 1):
         label = label_table(mount, number)
         figures = {f"mount.{label}.stiffness.{k}": v for k, v in enumerate(mount.stiffness, 1)}
-        yield _relative(f"stiffness {label}", tolerance, figures)
+        yield _relative("stiffness", label, tolerance, figures)
 
 
 def _spell_out_shafting(model: EngineFile) -> EngineFile:
@@ -230,17 +249,19 @@ def _list_shafting(model: EngineFile, within: Tolerances) -> Iterator[Source]:
     elastic = OF_SHAFTS if within.stiffness is None else within.stiffness
     for k, value in enumerate(torsion.throw_stiffness or (), 1):
         path = f"torsion.throw_stiffness.{k}"
-        yield _relative(f"stiffness throw {k}-{k + 1}", elastic, {path: value})
+        yield _relative("stiffness", f"{k}-{k + 1}", elastic, {path: value}, "throw")
     for k, value in enumerate(torsion.throw_inertia or (), 1):
-        yield _relative(f"inertia throw {k}", mass, {f"torsion.throw_inertia.{k}": value})
+        path = f"torsion.throw_inertia.{k}"
+        yield _relative("inertia", k, mass, {path: value}, "throw")
     if not torsion.throw_inertia and model.crank.inertia is not None:
-        yield _relative("inertia crankshaft", mass, {"crank.inertia": model.crank.inertia})
+        yield _relative("inertia", "crankshaft", mass, {"crank.inertia": model.crank.inertia})
     for key, parts in (("front", torsion.front), ("rear", torsion.rear)):
         for k, part in enumerate(parts, 1):
             path = f"torsion.{key}.{k}"
             if part.stiffness is not None and isfinite(part.stiffness):
                 figures = {f"{path}.stiffness": part.stiffness}
-                yield _relative(f"stiffness {part.name}", elastic, figures)
+                yield _relative("stiffness", part.name, elastic, figures)
             if part.inertia is not None:
-                yield _relative(f"inertia {part.name}", mass, {f"{path}.inertia": part.inertia})
+                figures = {f"{path}.inertia": part.inertia}
+                yield _relative("inertia", part.name, mass, figures)
     yield from _list_pistons(model, mass)

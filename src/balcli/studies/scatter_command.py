@@ -25,8 +25,8 @@ from .quantity_names import tell_speeds
 
 if TYPE_CHECKING:
     from ..show.units import System
-    from .scatter import Scatter, Spread
-
+    from .deviations import Source
+from .scatter import Scatter, Spread
 
 SHOWN = 6  # largest number of changes of each quantity in a table
 BOUND = "Bound: nominal value plus the magnitudes of all single changes; variants may exceed it"
@@ -60,11 +60,12 @@ def sheet(result: Scatter, system: System) -> Sheet:
     heads += [Column(name) for name in _list_sizes(next(iter(result.quantities.values())))]
     lines = []
     causes = []
+    sources = {source.name: source for source in result.parts}
     for name, spread in result.quantities.items():
         unit = unit_of_name(result.units[name]).fit(max(map(abs, (spread.max, spread.nominal))))
         head = name_with_unit(name, unit.name)
         lines.append((head, *(number(value / unit.size) for value in _list_sizes(spread).values())))
-        parts = _group_parts(spread.sensitivity, unit.size)[:SHOWN] or [("0", "any part")]
+        parts = _group_parts(spread.sensitivity, sources, unit.size)[:SHOWN] or [("0", "any part")]
         causes += [(head if k == 0 else "", *pair) for k, pair in enumerate(parts)]
     notes = (f"{_list_tolerances(result)}.", f"{BOUND}.", tell_speeds(result.quantities))
     note = " ".join(filter(None, notes))
@@ -80,22 +81,29 @@ def _list_tolerances(result: Scatter) -> str:
     """Return a sentence on the tolerances of all kinds of parts and their distribution."""
     kinds: dict[str, dict[str, None]] = {}
     for part in result.parts:
-        words = part.name.split()
-        kind = words[0] if words[0] in ("stiffness", "inertia") else " ".join(words[:2])
         size = f"{100 * part.tolerance:g} %" if part.relative else f"{part.tolerance:g} deg"
-        kinds.setdefault(size, {})[kind] = None
+        kinds.setdefault(size, {})[part.kind] = None
     told = "; ".join(f"{', '.join(names)} ±{size}" for size, names in kinds.items())
     return f"Tolerances: {told}; {_SHAPES[result.distribution]}"
 
 
-def _group_parts(changes: Mapping[str, float], unit: float) -> list[tuple[str, str]]:
-    """Return the changes other than 0, each with the parts that cause it."""
+def _group_parts(
+    changes: Mapping[str, float], sources: Mapping[str, Source], unit: float
+) -> list[tuple[str, str]]:
+    """Return the changes other than 0, each with the parts that cause it.
+
+    Args:
+        changes: Change by each part, by the part's name, in SI units.
+        sources: The parts by name.
+        unit: Size of the unit of the changes.
+    """
     groups: dict[tuple[str, str], list[str]] = {}
     for name, change in changes.items():
         if change:
-            stem, _, last = name.rpartition(" ")
-            groups.setdefault((number(change / unit, 3), stem), []).append(last)
-    return [(change, f"{stem} {', '.join(each)}") for (change, stem), each in groups.items()]
+            source = sources[name]
+            group = groups.setdefault((number(change / unit, 3), source.stem), [])
+            group.append(source.part)
+    return [(change, f"{stem} {', '.join(parts)}") for (change, stem), parts in groups.items()]
 
 
 RENDERER = Renderer(sheet=sheet, rows=rows)
