@@ -20,7 +20,7 @@ from balcli.forces.symmetry import find_textbook_units
 from balcli.limits import HIGHEST_ORDER
 
 NAMES = [file.relative_to(ENGINES).with_suffix("").as_posix() for file in ENGINE_FILES[::3]]
-STEADY = ("force", "moment", "couple", "torque", "roll", "peak")
+STEADY = (*KINDS, "peak")
 
 
 @lru_cache
