@@ -137,8 +137,9 @@ def _ask(asked: Request, engine: Engine, for_people: bool) -> Callable[..., Anal
     else:
         wanted = list(asked.quantities)
         if "verdict" in asked.parts:
-            wanted.append(COUPLE.name)
-            wanted += [] if engine.gas is None else [ROLL.name, GAS.name]  # for the verdict on roll
+            wanted += [COUPLE.name, ROLL.name]
+            if engine.gas is not None:
+                wanted.append(GAS.name)
     return partial(
         analyze,
         only=wanted,

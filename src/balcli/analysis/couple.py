@@ -13,12 +13,13 @@ from ..engine.engine import Engine
 from ..file.fields import order_number
 from ..forces.kinds import COUPLE
 from ..forces.spectrum import compute_spectra
-from ..show.sheet import NEGLIGIBLE
-from ..sizing.residual import Scales
+from ..sizing.residual import Scales, is_small
 
 CoupleCause = Literal[
     "rods", "offset_pistons", "turning_cylinders", "reference_point", "angular_acceleration"
 ]
+
+WORTH_NAMING = 0.01  # share of one cylinder's first-order force times the crank radius
 
 
 class Couple(NamedTuple):
@@ -36,8 +37,8 @@ class Couple(NamedTuple):
 
 
 def select_couple(couple: Phasors | None, scales: Scales) -> Phasors | None:
-    """Return the orders of the transverse couple that are not negligible compared with the moment
-    of one cylinder; None if there are none.
+    """Return the orders of the transverse couple that are worth naming, compared with the roll of
+    one cylinder; None if there are none.
 
     Args:
         couple: Transverse couple; None: not computed.
@@ -45,13 +46,15 @@ def select_couple(couple: Phasors | None, scales: Scales) -> Phasors | None:
     """
     if couple is None:
         return None
-    due = (couple.orders > 0) & (couple.major > NEGLIGIBLE * scales.moment)
-    return couple.select_orders(couple.orders[due]) if due.any() else None
+    sizes = couple.major.tolist()
+    due = [not is_small(size, WORTH_NAMING * scales.roll) for size in sizes]
+    orders = couple.orders[(couple.orders > 0) & np.array(due, bool)]
+    return couple.select_orders(orders) if len(orders) else None
 
 
 def find_couple(couple: Phasors | None, scales: Scales, engine: Engine) -> Couple | None:
-    """Return the order of the largest transverse couple and the causes of the couple; None if the
-    couple is negligible at all orders.
+    """Return the order of the largest transverse couple and the causes of the couple; None if no
+    order of the couple is worth naming.
 
     Args:
         couple: Transverse couple of the engine; None: not computed.
@@ -64,7 +67,7 @@ def find_couple(couple: Phasors | None, scales: Scales, engine: Engine) -> Coupl
     order = order_number(selected.orders[np.argmax(selected.major)])
     if engine.placed:
         return Couple(order)
-    return Couple(order, find_causes(engine, selected.orders, NEGLIGIBLE * scales.moment))
+    return Couple(order, find_causes(engine, selected.orders, WORTH_NAMING * scales.roll))
 
 
 def find_causes(engine: Engine, orders: Array, least: float) -> tuple[CoupleCause, ...]:

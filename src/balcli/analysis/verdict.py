@@ -20,7 +20,9 @@ from ..engine.figures import find_first_largest
 from ..file.fields import order_number
 from ..forces.spectrum import Spectra
 from ..limits import SMALL
-from ..sizing.residual import Scales, is_small
+from ..show.sheet import NEGLIGIBLE
+from ..sizing.ladder import would_take_back
+from ..sizing.residual import ResidualPart, Scales, is_small
 from .compensator_need import CompensatorNeed, find_needs
 from .couple import Couple, find_couple
 
@@ -33,6 +35,7 @@ AGAINST_CRANK = -1
 SENSES = (WITH_CRANK, AGAINST_CRANK)  # directions of rotation
 
 _ROUNDING = 1e-9  # a smaller share of the vectors that should cancel is rounding
+_ROCKS = 0.25  # share of one cylinder's first-order force times crank radius that rocks an engine
 
 
 class Cure(NamedTuple):
@@ -42,11 +45,14 @@ class Cure(NamedTuple):
         ratio: Speed of the device divided by crank speed; negative: it turns against the crank.
         on_crank: Whether a crank of the engine turns so, and can carry weights in place of a shaft.
         further: Whether the engine already has a device that turns so.
+        takes_back: True if counterweights would work against those of the file, which settles the
+            order in another way; else left out.
     """
 
     ratio: int
     on_crank: bool = False
     further: bool = False
+    takes_back: bool | None = None
 
     @property
     def sense(self) -> int:
@@ -60,13 +66,13 @@ class Finding(NamedTuple):
     Attributes:
         order: Order.
         large: Which of force and moment are not small.
-        cures: Devices that would cancel their large vectors; none at half orders and at uneven
-            speed.
+        cures: Devices that would cancel their large vectors; none if each of their vectors is
+            small; left out at half orders and at uneven speed.
     """
 
     order: float
     large: tuple[VectorKind, ...]
-    cures: tuple[Cure, ...] = ()
+    cures: tuple[Cure, ...] | None = None
 
 
 class Compensated(NamedTuple):
@@ -105,11 +111,11 @@ class Rocking(NamedTuple):
     """The order that rocks the engine most.
 
     Attributes:
-        of: What causes the roll: gas and inertia in total.
+        of: What causes the roll: inertia alone, or inertia and gas in total.
         order: Order of the largest roll; null if no order has a roll.
     """
 
-    of: Literal["total"]
+    of: Literal["inertia", "total"]
     order: float | None
 
 
@@ -122,11 +128,13 @@ class Verdict:
         compensated: Orders with moment compensators.
         balanced: Balanced orders that are worth naming.
         balanced_kinds: Kinds that are balanced at all these orders.
-        small: The largest small force and the largest small moment.
+        small: The largest small force and the largest small moment that are not negligible.
         uneven: Whether the speed is uneven. No device is named then, because most of an order may
             come from another order, and would vanish with that order.
-        couple: The largest transverse couple; left out if it is negligible or not computed.
-        rocking: The largest roll; left out if no roll with gas was computed.
+        couple: The largest transverse couple; left out if it is below 1 % of one cylinder's
+            first-order force times the crank radius, or not computed.
+        rocking: The largest roll; left out if it was not computed, and without gas if it is below a
+            quarter of one cylinder's first-order force times the crank radius.
         compensators: Orders 1 and 2 whose vertical moment is not small, with the need of
             compensators; left out unless the engine is a two-stroke engine with crossheads.
     """
@@ -155,7 +163,7 @@ def judge(
         spectra: Spectra to judge, without moments if they are not known.
         scales: Force, moment and roll of one cylinder; if a scale is 0, no vector is small.
         small: Share of one cylinder's force or moment. The force or moment of an order is small
-            if both its vectors (with the crank and against it) are below this share.
+            if its largest value is below this share.
         engine: Engine with these spectra; None: one crank without devices at steady speed.
     """
     vectors = list_vectors(spectra)
@@ -176,16 +184,18 @@ def judge(
         if engine is not None and pairs:
             compensated.append(_describe_compensated(vectors, row, pairs, engine, scales))
             continue
-        parts = [Part(order, kind) for kind in vectors]
-        large_parts = [part for part in parts if large[part]]
-        if large_parts:
-            finding = _find_cures(large_parts, large, engine)
+        kinds = tuple(kind for kind in vectors if Part(order, kind) in large)
+        if kinds:
+            due = {sense for kind in kinds for sense in large[Part(order, kind)]}
+            cures = _find_cures(order, due, engine)
+            if cures and engine is not None:
+                cures = _mark_taken_back(cures, vectors, row, engine)
             if needs is not None and order <= 2:  # compensators take the place of shafts
-                finding = finding._replace(cures=())
-            matter.append(finding)
+                cures = None
+            matter.append(Finding(order, kinds, cures))
         elif all(phasors.balanced[row] for phasors in vectors.values()):
             balanced.append(order)
-        small_parts += [part for part in parts if not large[part]]
+        small_parts += [Part(order, kind) for kind in vectors if kind not in kinds]
     largest_small = select_largest(small_parts, vectors)
     compensated_orders = [order.order for order in compensated]
     if needs is not None:
@@ -197,10 +207,10 @@ def judge(
         compensated=tuple(compensated),
         balanced=listed,
         balanced_kinds=_list_balanced_kinds(spectra, listed),
-        small=largest_small,
+        small=_drop_negligible(largest_small, vectors, scales),
         uneven=engine is not None and bool(engine.ripple),
         couple=None if engine is None else find_couple(spectra.couple, scales, engine),
-        rocking=_find_rocking(spectra),
+        rocking=_find_rocking(spectra, scales, engine),
         compensators=needs,
     )
 
@@ -217,15 +227,20 @@ def list_vectors(spectra: Spectra) -> dict[VectorKind, Phasors]:
 
 # ------------------------------------------------------------------ what is large
 def _find_large(vectors: Vectors, scales: Scales, small: float) -> dict[Part, tuple[int, ...]]:
-    """Return, for the force and the moment of each order, the directions in which its large vectors
-    turn; none if it is small.
+    """Return the forces and moments of orders that are not small, and for each the directions in
+    which its large vectors turn.
+
+    A force or moment is judged by its largest value, which is the figure that tables print. Its two
+    vectors are judged as the ladder judges them, each by itself. So both may be small although the
+    force is not. The HTML page follows the same rule.
     """
     of_one = scales._asdict()
     large: dict[Part, tuple[int, ...]] = {}
     for kind, phasors in vectors.items():
         least = small * of_one[kind]
         for row, order in enumerate(phasors.orders.tolist()):
-            large[Part(order, kind)] = _find_senses(phasors, row, least)
+            if not is_small(float(phasors.major[row]), least):
+                large[Part(order, kind)] = _find_senses(phasors, row, least)
     return large
 
 
@@ -245,31 +260,46 @@ def select_largest(parts: Iterable[Part], vectors: Vectors) -> tuple[Part, ...]:
     largest: dict[VectorKind, Part] = {}
     sizes: dict[VectorKind, float] = {}
     for part in parts:
-        phasors = vectors[part.kind]
-        row = int(np.searchsorted(phasors.orders, part.order))
-        size = float(phasors.major[row])
+        size = _find_size(part, vectors)
         if size > sizes.get(part.kind, 0.0):
             largest[part.kind] = part
             sizes[part.kind] = size
     return tuple(largest.values())
 
 
+def _drop_negligible(parts: Iterable[Part], vectors: Vectors, scales: Scales) -> tuple[Part, ...]:
+    """Return the parts that are not negligible compared with one cylinder; arguments as for
+    `select_largest`.
+    """
+    of_one = scales._asdict()
+    return tuple(
+        part
+        for part in parts
+        if not is_small(_find_size(part, vectors), NEGLIGIBLE * of_one[part.kind])
+    )
+
+
+def _find_size(part: Part, vectors: Vectors) -> float:
+    """Return the largest value of a force or moment."""
+    phasors = vectors[part.kind]
+    row = int(np.searchsorted(phasors.orders, part.order))
+    return float(phasors.major[row])
+
+
 # ------------------------------------------------------------------ what would cancel it
 def _find_cures(
-    parts: Sequence[Part], large: Mapping[Part, Collection[int]], engine: Engine | None
-) -> Finding:
-    """Return the finding on an order, with a device for each direction of rotation of its large
-    vectors.
+    order: float, due: Collection[int], engine: Engine | None
+) -> tuple[Cure, ...] | None:
+    """Return a device for each direction in which a large vector of an order turns; None if no
+    device turns so, or if devices are not named.
 
     Args:
-        parts: Large force and moment of the order.
-        large: Directions in which their large vectors turn.
+        order: Order.
+        due: Directions in which the large vectors turn.
         engine: Engine, or None as for `judge`.
     """
-    order = parts[0].order
-    kinds = tuple(part.kind for part in parts)
     if order % 1 or (engine is not None and engine.ripple):
-        return Finding(order, kinds)
+        return None
     turning = {1}
     devices: tuple[Device, ...] = ()
     if engine is not None:
@@ -277,12 +307,35 @@ def _find_cures(
         devices = engine.every_device
     cures = []
     for sense in SENSES:
-        if not any(sense in large[part] for part in parts):
+        if sense in due:
+            ratio = int(order) * sense
+            further = any(_turns(device, ratio) for device in devices)
+            cures.append(Cure(ratio, on_crank=ratio in turning, further=further))
+    return tuple(cures)
+
+
+def _mark_taken_back(
+    cures: tuple[Cure, ...], vectors: Vectors, row: int, engine: Engine
+) -> tuple[Cure, ...]:
+    """Return the cures of an order; counterweights that would take back those of the file are
+    marked.
+
+    Args:
+        cures: Devices that would cancel the order.
+        vectors: Force and moment of all orders by name.
+        row: Index of the order.
+        engine: Engine with its counterweights.
+    """
+    cancelled: dict[ResidualPart, complex] = {}
+    for cure in cures:
+        if not cure.on_crank:
             continue
-        ratio = int(order) * sense
-        further = any(_turns(device, ratio) for device in devices)
-        cures.append(Cure(ratio, on_crank=ratio in turning, further=further))
-    return Finding(order, kinds, tuple(cures))
+        for kind, phasors in vectors.items():
+            turning = phasors.forward if cure.sense == WITH_CRANK else phasors.backward
+            cancelled[ResidualPart(kind, cure.sense)] = complex(turning[row])
+    if not would_take_back(engine, cancelled):
+        return cures
+    return tuple(cure._replace(takes_back=cure.on_crank or None) for cure in cures)
 
 
 def _turns(device: Device, ratio: int) -> bool:
@@ -359,13 +412,32 @@ def _describe_compensated(
     return found
 
 
-def _find_rocking(spectra: Spectra) -> Rocking | None:
-    """Return the order with the largest roll of gas and inertia; None if it is not known."""
-    roll = spectra.roll_total
-    if roll is None or spectra.gas is None or spectra.roll is None:
+def _find_rocking(spectra: Spectra, scales: Scales, engine: Engine | None) -> Rocking | None:
+    """Return the order with the largest roll, with gas if the engine has gas; None if it is not
+    known, or if it is small and without gas.
+
+    Args:
+        spectra: Spectra with the roll.
+        scales: Force, moment and roll of one cylinder.
+        engine: Engine, or None for an engine without gas.
+    """
+    if spectra.roll_total is not None and spectra.gas is not None and spectra.roll is not None:
+        return Rocking("total", _find_largest_order(spectra.roll_total))
+    if spectra.roll is None or (engine is not None and engine.gas is not None):
         return None
+    order = _find_largest_order(spectra.roll)
+    if order is None:
+        return None
+    (size,) = spectra.roll.select_orders([order]).major
+    if is_small(float(size), _ROCKS * scales.roll):
+        return None
+    return Rocking("inertia", order)
+
+
+def _find_largest_order(roll: Phasors) -> float | None:
+    """Return the order with the largest amplitude; None if there is none."""
     sizes = np.where(roll.orders > 0, roll.major, 0.0)
     if not sizes.any():
-        return Rocking("total", None)
+        return None
     row = int(find_first_largest(sizes))
-    return Rocking("total", order_number(roll.orders[row]))
+    return order_number(roll.orders[row])

@@ -1,6 +1,6 @@
 """Put a verdict into words: a sentence for each order that matters, one on the higher orders, one
 on what is balanced or small, one on the couple and one on the roll. A sentence on an order has at
-most 25 words.
+most 25 words, or 35 if both its force and its moment are large.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from typing import NamedTuple
 from ..core.phasors import Phasors, wrap_degrees
 from ..engine.engine import Engine
 from ..file.fields import join_words, ordinal
-from ..forces.kinds import EVERY_KIND, Kind
+from ..forces.kinds import EVERY_KIND, GAS, ROLL, ROLL_TOTAL, Kind
 from ..forces.spectrum import Spectra
 from ..show.engine_facts import tell_pivot
 from ..show.sheet import NEGLIGIBLE, degrees, number, order_name, sentence, size_text
@@ -32,13 +32,14 @@ from .verdict import (
     select_largest,
 )
 
-NEARLY_ROUND = 0.01  # smaller / larger part up to which a vector turns at nearly constant size
-_MOST_WORDS = 25  # largest number of words in a sentence
+_NEARLY_ROUND = 0.9  # smallest / largest value from which a vector has no axis, but turns
+_MOST_WORDS = 25  # largest number of words in a sentence on a force or a moment
+_MOST_WORDS_OF_BOTH = 35  # the same for a sentence on a force and a moment
 _MOST_NAMED = 5  # largest number of orders that a sentence names
 _ORDERS = ("First", "Second", "Third", "Fourth", "Fifth", "Sixth", "Seventh", "Eighth")
 _AXES = {"0.0": "x", "90.0": "y"}
 _NAMED = {"moment": "longitudinal moment"}  # distinguishes it from the couple, another moment
-_SENSES = {WITH_CRANK: "with the crank", AGAINST_CRANK: "against the crank"}
+_SENSES = {WITH_CRANK: "with", AGAINST_CRANK: "against"}
 _WEIGHTS = {WITH_CRANK: "counterweights", AGAINST_CRANK: "weights on the opposite crank"}
 _UNEVEN = (
     "Uneven speed mixes the orders. Devices are sized at steady speed; a device that cancels an "
@@ -63,6 +64,17 @@ _GIVE_POWER = "Give operation.power: compensators are judged by power related un
 _EQUIVALENT_ROD = "a rod dynamically equivalent to two masses at its ends has none"
 
 
+class _Rotor(NamedTuple):
+    """Words for what turns: the crank, or the cylinders of a rotary engine."""
+
+    name: str
+    speed: str
+
+
+_CRANK = _Rotor("the crank", "crank speed")
+_CYLINDERS = _Rotor("the cylinders", "the speed of the cylinders")
+
+
 class _Vector(NamedTuple):
     """The force or moment of an order, with what its words need."""
 
@@ -70,11 +82,16 @@ class _Vector(NamedTuple):
     phasors: Phasors  # of this order alone
     unit: ShownUnit
     up_deg: float | None
+    rotor: _Rotor
 
     def find_part(self, sense: int) -> float:
         """Return the size of the vector that turns in one direction."""
         turning = self.phasors.forward if sense == WITH_CRANK else self.phasors.backward
         return float(abs(turning[0]))
+
+    def is_whole(self, sense: int) -> bool:
+        """Return whether all but a negligible part turns in one direction."""
+        return self.find_part(-sense) <= NEGLIGIBLE * self.find_part(sense)
 
     def tell_part(self, sense: int) -> str:
         """Return in words the size of the vector that turns in one direction."""
@@ -87,12 +104,17 @@ class _Vector(NamedTuple):
 
     def describe_with_direction(self) -> str:
         """Return kind, largest value and direction in words: `force of 4 N along x`, or `turning
-        with the crank` if the part that turns against it is negligible.
+        with the crank` if the size hardly changes.
         """
-        for sense, turning in _SENSES.items():
-            if self.find_part(-sense) <= NEARLY_ROUND * self.find_part(sense):
-                return f"{self.describe()} turning {turning}"
-        return f"{self.describe()} {self._tell_axis()}"
+        if self.phasors.minor[0] < _NEARLY_ROUND * self.phasors.major[0]:
+            return f"{self.describe()} {self._tell_axis()}"
+        ahead = self.find_part(WITH_CRANK) > self.find_part(AGAINST_CRANK)
+        sense = f"{_SENSES[WITH_CRANK if ahead else AGAINST_CRANK]} {self.rotor.name}"
+        order = float(self.phasors.orders[0])
+        if order == 1:
+            return f"{self.describe()} turning {sense}"
+        times = "twice" if order == 2 else f"{order:g} times"
+        return f"{self.describe()} turning at {times} {self.rotor.speed}, {sense}"
 
     def _tell_axis(self) -> str:
         """Return the direction of the largest value in words. If the file gives `frame.up`, the
@@ -144,6 +166,8 @@ class VerdictWords(NamedTuple):
         rest = "; ".join(self._write_rest(verdict))
         if rest:
             yield sentence(rest)
+        elif not (verdict.matter or verdict.compensated) and self.spectra.orders.any():
+            yield "All free forces and moments are negligible."
         if verdict.couple is not None:
             yield self.write_couple(verdict.couple)
         if verdict.rocking is not None:
@@ -163,21 +187,26 @@ class VerdictWords(NamedTuple):
     def _find_vector(self, part: Part) -> _Vector:
         kind = EVERY_KIND[part.kind]
         phasors = self.spectra[part.kind].select_orders([part.order])
-        return _Vector(kind, phasors, self.system.unit(kind), self.spectra.up_deg)
+        rotary = self.engine is not None and self.engine.rotary
+        rotor = _CYLINDERS if rotary else _CRANK
+        return _Vector(kind, phasors, self.system.unit(kind), self.spectra.up_deg, rotor)
 
     # -------------------------------------------------------------- orders
     def write_order(self, finding: Finding) -> str:
         """Return the sentence on an order: the most detailed one that is not too long."""
         vectors = [self._find_vector(Part(finding.order, kind)) for kind in finding.large]
-        directed = " and ".join(vector.describe_with_direction() for vector in vectors)
-        plain = " and ".join(vector.describe() for vector in vectors)
-        sentences = [
-            _join_order(finding, directed, tell_cures(finding, vectors, with_sizes=True)),
-            _join_order(finding, directed, tell_cures(finding, vectors)),
-            _join_order(finding, plain, tell_cures(finding, vectors)),
-        ]
+        directed = _join_vectors([vector.describe_with_direction() for vector in vectors])
+        plain = _join_vectors([vector.describe() for vector in vectors])
+        shares = tell_cures(finding, vectors, with_shares=True)
+        cures = tell_cures(finding, vectors)
+        choices = [(directed, shares), (directed, cures), (plain, cures)]
+        most = _MOST_WORDS
+        if len(vectors) > 1:  # shares are worth more than directions
+            choices.insert(1, (plain, shares))
+            most = _MOST_WORDS_OF_BOTH
+        sentences = [_join_order(finding.order, size, cure) for size, cure in choices]
         for written in sentences:
-            if len(written.split()) <= _MOST_WORDS:
+            if len(written.split()) <= most:
                 return written
         return sentences[-1]
 
@@ -204,7 +233,7 @@ class VerdictWords(NamedTuple):
         largest = select_largest(parts, list_vectors(self.spectra))
         orders = name_orders([finding.order for finding in high])
         written = f"{orders}: {self._describe_parts(largest)}"
-        if any(finding.cures for finding in high):
+        if any(finding.cures is not None for finding in high):
             written += "; usually left"
         return sentence(written)
 
@@ -278,61 +307,117 @@ class VerdictWords(NamedTuple):
         if rocking.order is None:
             pivot = "the crank axis" if self.engine is None else tell_pivot(self.engine)
             return f"No order rocks the engine about {pivot}."
-        moment = self.system.moment
         at_order = self.spectra.select_orders([rocking.order])
-        causes = []
-        for name in ("gas", "inertia"):
-            kind = "roll" if name == "inertia" else name
-            size = float(at_order[kind].major[0])
-            if size:
-                causes.append(f"{name} {size_text(size, moment)}")
-        most = size_text(float(at_order["roll_total"].major[0]), moment)
-        return (
-            f"Order {order_name(rocking.order)} rocks the engine most: roll of {most} "
-            f"({', '.join(causes)})."
-        )
+        if rocking.of == "inertia":
+            most = self._tell_moment(at_order, ROLL)
+            causes = "inertia alone"
+        else:
+            most = self._tell_moment(at_order, ROLL_TOTAL)
+            causes = ", ".join(self._tell_causes_of_roll(at_order))
+        order = order_name(rocking.order)
+        return f"Order {order} rocks the engine most: roll of {most} ({causes})."
+
+    def _tell_causes_of_roll(self, at_order: Spectra) -> Iterator[str]:
+        """Yield gas and inertia with their rolls, whichever cause a roll."""
+        for name, kind in (("gas", GAS), ("inertia", ROLL)):
+            if at_order[kind.name].major[0]:
+                yield f"{name} {self._tell_moment(at_order, kind)}"
+
+    def _tell_moment(self, at_order: Spectra, kind: Kind) -> str:
+        """Return the size of a moment in words; the spectra have a single order."""
+        return size_text(float(at_order[kind.name].major[0]), self.system.moment)
 
 
-def _join_order(finding: Finding, size: str, cure: str) -> str:
-    written = f"{name_order(finding.order)}: {size}"
-    return f"{written}; {cure}." if cure else f"{written}."
+def _join_order(order: float, size: str, cure: str) -> str:
+    """Return the sentence on an order from its parts; there may be no cure."""
+    if not cure:
+        return f"{name_order(order)}: {size}."
+    return f"{name_order(order)}: {size}; {cure}."
 
 
-def tell_cures(finding: Finding, vectors: Sequence[_Vector], *, with_sizes: bool = False) -> str:
-    """Return in words what the devices of a finding cancel; empty without devices.
+def _join_vectors(described: Sequence[str]) -> str:
+    """Return force and moment in words; a comma sets off a description that has a comma."""
+    if any("," in words for words in described):
+        return ", and ".join(described)
+    return " and ".join(described)
+
+
+# ------------------------------------------------------------------ devices
+def tell_cures(finding: Finding, vectors: Sequence[_Vector], *, with_shares: bool = False) -> str:
+    """Return in words what the devices of a finding cancel; empty if no devices are named.
 
     Args:
         finding: Order with its devices.
         vectors: Large force and moment of the order.
-        with_sizes: Whether to state the size that each of two devices cancels, if only the force
-            or only the moment is large.
+        with_shares: Whether to state how much of force and moment each of two devices cancels.
     """
-    if not finding.cures:
+    if finding.cures is None:
         return ""
     if finding.order > 2:
-        return f"usually left: its shafts would turn at {finding.order:g} times crank speed"
+        speed = vectors[0].rotor.speed
+        return f"usually left: its shafts would turn at {finding.order:g} times {speed}"
+    if not finding.cures:
+        return "none of its parts is worth a shaft"
+    if any(cure.takes_back for cure in finding.cures):
+        against = "it" if len(vectors) == 1 else "them"
+        return f"counterweights against {against} would take back those of the file"
     if len(finding.cures) == 1:
-        return _tell_cure(finding.cures[0], vectors)
+        return _tell_shares(finding.cures, vectors)
     everything = "it" if len(vectors) == 1 else "both"
     if finding.order == 2:
         further = "further " if any(cure.further for cure in finding.cures) else ""
         return f"{further}shafts at +2 and -2 cancel {everything}"
+    if with_shares:
+        return _tell_shares(finding.cures, vectors)
     first, second = finding.cures
-    if with_sizes and len(vectors) == 1:
-        ahead = vectors[0].tell_part(first.sense)
-        against = vectors[0].tell_part(second.sense)
-        return f"{name_cure(first)} cancel {ahead} of it, {name_cure(second)} the other {against}"
     return f"{name_cure(first)} and {name_cure(second)} cancel {everything}"
 
 
-def _tell_cure(cure: Cure, vectors: Sequence[_Vector]) -> str:
-    """Return in words what the only device cancels."""
-    verb = "cancel" if cure.on_crank else "cancels"
-    cancel = f"{name_cure(cure)} {verb}"
-    leaves = any(vector.find_part(-cure.sense) for vector in vectors)
-    if len(vectors) > 1:
-        return f"{cancel} what turns {_SENSES[cure.sense]}" if leaves else f"{cancel} both"
-    return f"{cancel} {vectors[0].tell_part(cure.sense)} of it" if leaves else f"{cancel} it"
+def _tell_shares(cures: Sequence[Cure], vectors: Sequence[_Vector]) -> str:
+    """Return in words how much each device cancels: `counterweights cancel the force and 40 N·m of
+    the moment, a shaft at -1 the other 10 N·m`.
+    """
+    first = cures[0]
+    verb = "cancel" if first.on_crank else "cancels"
+    share = _tell_share(first, vectors)
+    if len(cures) == 1:
+        return f"{name_cure(first)} {verb} {share}"
+    second = cures[1]
+    divided = not any(vector.is_whole(cure.sense) for vector in vectors for cure in cures)
+    if len(vectors) > 1 and divided:  # units distinguish force and moment
+        share = " and ".join(vector.tell_part(first.sense) for vector in vectors)
+    rest = _tell_rest(second, vectors)
+    return f"{name_cure(first)} {verb} {share}, {name_cure(second)} {rest}"
+
+
+def _tell_share(cure: Cure, vectors: Sequence[_Vector]) -> str:
+    """Return in words what the first device cancels."""
+    turning = _list_turning(cure, vectors)
+    if len(turning) == len(vectors) and all(vector.is_whole(cure.sense) for vector in turning):
+        return "it" if len(vectors) == 1 else "both"
+    shares = []
+    for vector in turning:
+        named = "it" if len(vectors) == 1 else f"the {vector.kind.name}"
+        if not vector.is_whole(cure.sense):
+            named = f"{vector.tell_part(cure.sense)} of {named}"
+        shares.append(named)
+    return " and ".join(shares)
+
+
+def _tell_rest(cure: Cure, vectors: Sequence[_Vector]) -> str:
+    """Return in words what the second device cancels: what the first one does not."""
+    turning = _list_turning(cure, vectors)
+    whole = [f"the {vector.kind.name}" for vector in turning if vector.is_whole(cure.sense)]
+    rest = [vector.tell_part(cure.sense) for vector in turning if not vector.is_whole(cure.sense)]
+    if rest:
+        whole.append(f"the other {' and '.join(rest)}")
+    return " and ".join(whole)
+
+
+def _list_turning(cure: Cure, vectors: Sequence[_Vector]) -> list[_Vector]:
+    """Return the force and moment of which a part worth naming turns as the device does."""
+    turning = [vector for vector in vectors if not vector.is_whole(-cure.sense)]
+    return turning or [vector for vector in vectors if vector.find_part(cure.sense)]
 
 
 def name_cure(cure: Cure) -> str:

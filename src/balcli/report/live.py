@@ -18,6 +18,7 @@ from operator import itemgetter
 from pathlib import Path
 from typing import Any
 
+from ..analysis.couple import WORTH_NAMING
 from ..core.mechanisms.linkage import Rotary
 from ..core.records import Node
 from ..engine.engine import Engine, take_model
@@ -56,7 +57,7 @@ from ..limits import (
     WORTH_A_SHAFT_OF_ORDER_2,
 )
 from ..show.figures import clean
-from ..show.sheet import NEGLIGIBLE, sentence
+from ..show.sheet import sentence
 from ..show.units import ShownUnit, System
 from ..sizing.fitting import LEFT
 from ..studies.parameters import find_places
@@ -220,7 +221,7 @@ def make_book(
             "worth2": WORTH_A_SHAFT_OF_ORDER_2,
             "fewest": FEWEST_CYLINDERS_COUNTED,
             "likely": LIKELY,
-            "negligible": NEGLIGIBLE,
+            "worthNaming": WORTH_NAMING,
         },
         "options": "" if small == SMALL else f" --small {100 * small:g}%",
         "unknown": sentence(MOMENTS_UNKNOWN),

@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Annotated, NamedTuple
 
@@ -24,7 +24,7 @@ import numpy as np
 
 from ..core.cylinders import Device, DeviceKind
 from ..core.peaks import find_largest
-from ..core.phasors import Complex
+from ..core.phasors import Array, Complex
 from ..core.records import HIDDEN
 from ..engine.engine import Engine
 from ..engine.figures import find_first_largest
@@ -54,7 +54,9 @@ from .residual import (
     FORWARD,
     MOMENT,
     EngineLength,
+    ReferencePoint,
     Residual,
+    ResidualPart,
     Scales,
     find_scales,
     find_size,
@@ -639,19 +641,61 @@ def _measure(residual: Residual, senses: Sequence[int], scales: Scales) -> _Canc
 
 
 def _takes_back(drawn: _Drawn, remedy: Remedy) -> bool:
-    """Return whether new counterweights work against those of the file: the scalar product of what
-    they add to force and moment, both as shares of one cylinder's first order, is negative.
-    """
+    """Return whether new counterweights work against those of the file."""
     before = _list_counterweights(drawn.engine)
     after = _list_counterweights(fit_devices(drawn.engine, remedy))
-    of_file = _sum_effects(drawn, before)
-    added = _sum_effects(drawn, after) - of_file
-    arm = max(measure_length(crank.engine).metres for crank in drawn.engine.cranks)
-    weights = [1 if part.kind == "force" else arm**-2 for part in _OF_WEIGHTS]
-    product = float(np.sum(weights * (added * of_file.conj()).real))
-    size_of_file = sum(_measure_unbalance(device) for device in before)
+    reference = drawn.first.reference
+    added = _sum_effects(drawn.engine, after, reference)
+    added -= _sum_effects(drawn.engine, before, reference)
     size_added = sum(map(find_unbalance, remedy.devices))
+    return _work_against_file(drawn.engine, added, size_added, reference)
+
+
+def would_take_back(engine: Engine, cancelled: Mapping[ResidualPart, complex]) -> bool:
+    """Return whether counterweights that cancel parts of order 1 would work against those of the
+    file.
+
+    Args:
+        engine: One engine, not an array of variants.
+        cancelled: Parts that the counterweights cancel, in N and N m.
+    """
+    added: Complex = np.zeros(len(_OF_WEIGHTS), complex)
+    square = float(engine.omega) ** 2
+    for part, size in cancelled.items():
+        per = 1j if part.kind == "moment" else 1
+        added[_OF_WEIGHTS.index(part)] = -size / per / square
+    size_added = float(np.sum(np.abs(added) / _list_arms(engine)))
+    x, y, z = engine.reference_m
+    reference = ReferencePoint(complex(x, y), float(z))
+    return _work_against_file(engine, added, size_added, reference)
+
+
+def _work_against_file(
+    engine: Engine, added: Complex, size_added: float, reference: ReferencePoint
+) -> bool:
+    """Return whether an effect of new counterweights is opposite to that of the file's: the scalar
+    product of force and moment, both as shares of one cylinder's first order, is negative.
+
+    Args:
+        engine: Engine with the counterweights of the file.
+        added: Effect of the new counterweights on the parts `_OF_WEIGHTS`, in units of
+            `Residual.parts`, shape (parts,).
+        size_added: Size of the new counterweights, kg m, with which rounding is compared.
+        reference: Point about which moments are taken.
+    """
+    devices = _list_counterweights(engine)
+    of_file = _sum_effects(engine, devices, reference)
+    product = float(np.sum((added * of_file.conj()).real / _list_arms(engine) ** 2))
+    size_of_file = sum(_measure_unbalance(device) for device in devices)
     return product < -_SAME_SENSE * size_of_file * size_added
+
+
+def _list_arms(engine: Engine) -> Array:
+    """Return the lengths by which forces (1) and moments are divided to compare them, shape
+    (parts of `_OF_WEIGHTS`,).
+    """
+    arm = max(measure_length(crank.engine).metres for crank in engine.cranks)
+    return np.array([1.0 if part.kind == "force" else arm for part in _OF_WEIGHTS])
 
 
 def _list_counterweights(engine: Engine) -> list[Device]:
@@ -664,15 +708,14 @@ def _measure_unbalance(device: Device) -> float:
     return abs(complex(device.forward)) + abs(complex(device.backward))
 
 
-def _sum_effects(drawn: _Drawn, devices: Iterable[Device]) -> Complex:
+def _sum_effects(engine: Engine, devices: Iterable[Device], reference: ReferencePoint) -> Complex:
     """Return what devices add to the parts `_OF_WEIGHTS`, in units of `Residual.parts`, shape
     (parts,). Moments that are not known are 0.
     """
-    reference = drawn.first.reference
     total: Complex = np.zeros(len(_OF_WEIGHTS), complex)
     for device in devices:
         total += find_effect(device, _OF_WEIGHTS, reference)
-    known = [part.kind == "force" or drawn.engine.places_known for part in _OF_WEIGHTS]
+    known = [part.kind == "force" or engine.places_known for part in _OF_WEIGHTS]
     return np.where(known, total, 0)
 
 

@@ -483,29 +483,32 @@ const Kernel = (() => {
     return [...orders].sort((a, b) => a - b);
   }
 
-  // Which of force and moment of an order are large, and a device for each direction in which a large vector turns; as `analysis.verdict` finds them.
-  function judgeOrder(engine, { steps: [{ kinds }], scale }, { small }, order) {
+  // Which of force and moment of an order are large (their largest value is not small), and a device for each direction in which a vector turns that
+  // is not small by itself; as `analysis.verdict` finds them.
+  function judgeOrder(engine, { steps: [{ kinds }], scale }, limits, order) {
     const large = [], due = new Set();
     for (const kind of engine.known ? ["force", "moment"] : ["force"]) {
-      const [forward, backward] = (kinds[kind][order] || NONE).map(size), least = small * scale[kind];
+      const [forward, backward] = (kinds[kind][order] || NONE).map(size), least = limits.small * scale[kind];
       if (!isSmall(forward, least)) due.add(1);
       if (!isSmall(backward, least)) due.add(-1);
-      if (!isSmall(Math.max(forward, backward), least)) large.push(kind);
+      if (!isSmall(forward + backward, least)) large.push(kind);
     }
-    if (engine.crossheads && order <= 2) return { order, large, cures: [] };      // compensators take the place of shafts
+    if (engine.crossheads && order <= 2) return { order, large };      // compensators take the place of shafts
+    const settles = () => takesBack({ engine, scale }, cancel({ engine, scale, limits }, findPart(engine, kinds, 1, 1)));
     const turns = (d, ratio) => d.kind !== "slider" && d.order === order && size(ratio > 0 ? d.forward : d.backward) > 0;
     const cures = [order, -order].filter((ratio) => due.has(Math.sign(ratio))).map((ratio) => ({
       ratio, on_crank: ratio === 1, further: engine.devices.some((d) => turns(d, ratio)),
+      ...(ratio === 1 && settles() ? { takes_back: true } : {}),
     }));
     return { order, large, cures };
   }
   const judge = (engine, ladder, limits, shown) =>
     shown.map((order) => judgeOrder(engine, ladder, limits, order)).filter(({ large }) => large.length);
 
-  // The order of the largest couple among these, and what causes the couple; null if it is negligible in all of them.
-  function judgeCouple(engine, { drawn, scale }, { negligible }, shown) {
-    const sizeOf = (n) => 2 * size((drawn.kinds.couple[n] || NONE)[0]), least = negligible * scale.moment;
-    const orders = shown.filter((n) => sizeOf(n) > least);
+  // The order of the largest couple among these, and what causes the couple; null if it is worth naming in none of them.
+  function judgeCouple(engine, { drawn, scale }, { worthNaming }, shown) {
+    const sizeOf = (n) => 2 * size((drawn.kinds.couple[n] || NONE)[0]), least = worthNaming * scale.force * engine.r;
+    const orders = shown.filter((n) => !isSmall(sizeOf(n), least));
     if (!orders.length) return null;
     const largest = orders.reduce((a, b) => sizeOf(b) > sizeOf(a) ? b : a);
     return { order: largest, causes: findCauses(engine, drawn, orders, least) };

@@ -233,14 +233,17 @@
     spoken = setTimeout(() => { byId("live-largest").textContent = `Largest over a revolution: ${told}`; }, 300);
   }
   // What cancels an order, as the column says it.
-  function nameCure({ ratio, on_crank, further }) {
+  function nameCure({ ratio, on_crank, further, takes_back }) {
+    if (takes_back) return "counterweights would take back those of the file";
     const device = on_crank ? "counterweights" : `shaft at ${ratio > 0 ? "+" : ""}${ratio}`;
     return further ? `further ${device}` : device;
   }
   function tellCures(finding) {
     if (!finding) return "";
-    if (engine.crossheads && finding.order <= 2) return finding.order > 1 ? "compensators" : "counterweights, compensators";
-    return finding.order > 2 ? "usually left" : finding.cures.map(nameCure).join(", ");
+    if (finding.order > 2) return "usually left";
+    if (!finding.cures) return finding.order > 1 ? "compensators" : "counterweights, compensators";
+    const told = finding.cures.some((cure) => cure.takes_back) ? finding.cures.filter((cure) => cure.takes_back) : finding.cures;
+    return told.map(nameCure).join(", ") || "no part is worth a shaft";
   }
   function fill(id, heads, rows) {
     const head = make("tr", {}, ...heads.map((text) => make("th", { scope: "col" }, text)));
