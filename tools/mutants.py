@@ -1,10 +1,12 @@
 """Make each mistake of mutations.toml in a copy of the source, and list those that no test notices.
 
-    python tools/mutants.py            # all, about ten minutes
+    python tools/mutants.py            # all, about twenty minutes
     python tools/mutants.py forces     # the mistakes in files whose path contains "forces"
 
 A mistake is a file, a text that stands in it once, what replaces it, and the tests that have to
-notice. The exit status is 1 if a mistake survives, or if its text is no longer in the file.
+notice: files or folders of which the tests run that `pytest` runs without -m. Mistakes in the
+scripts of the page (report/assets) survive where no Chromium is installed. The exit status is 1 if
+a mistake survives, or if its text is no longer in the file.
 """
 
 from __future__ import annotations
