@@ -16,6 +16,7 @@ from support.paths import ROOT
 
 from balcli import load
 from balcli.engine.engine import Engine
+from balcli.engine.firing import common_pins
 from balcli.engine.firing.common_pins import list_evenly_spaced
 from balcli.engine.firing.usual import list_tiers
 from balcli.engine.parse import parse_dict
@@ -182,6 +183,40 @@ def test_a_crank_that_nobody_builds_is_doubted_in_one_line(order, doubted):
     assert not doubted or "usual is 1-" in doubts[0]
 
 
+BY_BANK = [[1, 2, 3], [4, 5, 6]]
+ODD = [[1, 3, 5], [2, 4, 6]]
+
+
+@pytest.mark.parametrize(
+    ("order", "numbering", "doubted"),
+    [
+        *(
+            ("1-4-3-2", [[1, 2], [3, 4]], False),
+            ("1-3-2-4", [[1, 3], [2, 4]], False),
+            ("1-3-2-4", [[1, 2], [3, 4]], True),
+        ),
+        *(("1-6-2-4-3-5", BY_BANK, False), ("1-6-3-2-5-4", ODD, False), ("1-4-5-2-3-6", ODD, False)),
+        ("1-4-5-2-3-6", BY_BANK, True),
+    ],
+)
+def test_in_a_boxer_pins_of_neighbours_are_opposite(order, numbering, doubted):
+    doubts = load(tables(order, 180, numbering=numbering, **ALTERNATING)).doubts
+    assert any("nobody builds" in doubt for doubt in doubts) == doubted
+
+
+def test_a_flat_engine_with_common_pins_may_have_any_crank():
+    """A twelve has the crank of an in-line six."""
+    assert load(tables("1-9-5-12-3-8-6-10-2-7-4-11", 180)).doubts == ()
+
+
+@pytest.mark.parametrize(
+    ("angle", "doubted"), [(180, True), (179.1, True), (180.9, True), (178.9, False), (181.1, False)]
+)
+def test_a_flat_engine_is_flat_within_a_degree(angle, doubted):
+    doubts = load(tables("1-3-2-4", angle, numbering=[[1, 2], [3, 4]], **ALTERNATING)).doubts
+    assert any("nobody builds" in doubt for doubt in doubts) == doubted
+
+
 def test_a_long_wait_is_doubted():
     doubts = load(tables("1-2-3", None, throws=[0, 240, 120])).doubts
     assert len(doubts) == 1
@@ -336,6 +371,14 @@ def test_a_four_stroke_is_proposed_to_fire_together_and_no_crank():
     assert hint == " or with ".join(f"layout.firing_intervals = {each}" for each in lists)
 
 
+def test_few_cylinders_fire_together_before_many_do():
+    """All four pistons are up at once. The last firing and the first are neighbours: [0, 360, 360, 0] has two together."""
+    told = list_problems(tables("1-2-3-4", None, throws=[0, 0, 0, 0]))[0]
+    hint = told.partition("If cylinders fire together, it fits with ")[2]
+    lists = ["[0, 360, 0, 360]", "[0, 0, 360, 360]", "[0, 360, 360, 0]"]
+    assert hint == " or with ".join(f"layout.firing_intervals = {each}" for each in lists)
+
+
 def test_a_numbering_along_the_crank_may_fire_together_as_well():
     """Bank by bank, 1 and 2 would be at their dead centres a turn apart, and 3 and 4, too."""
     boxer = tables("1-2-3-4", 180, throws=[0, 180, 0, 180], rods="alternating")
@@ -410,6 +453,16 @@ def test_every_evenly_spaced_crank_is_tried(count):
         parts = Parts(parse_dict(tables("-".join(map(str, order)), angle, numbering=numbering)))
         assert set(list_evenly_spaced(parts)) == wanted, (order, angle)
     assert fitting > 3
+
+
+@pytest.mark.parametrize(("most", "found"), [(3, True), (2, False)])
+def test_cranks_of_many_pins_are_not_searched(monkeypatch, most, found):
+    """The three pins of a six, whose intervals do not alternate."""
+    monkeypatch.setattr(common_pins, "MOST_PINS", most)
+    intervals = (120, 120, 180, 120, 120, 60)
+    layout = {"bank_angle": 60, "firing_order": [1, 2, 3, 4, 5, 6], "numbering": [[1, 2, 3], [4, 5, 6]]}
+    parts = Parts(parse_dict(BASE | {"layout": layout}))
+    assert (intervals in common_pins.list_common_pin_intervals(parts)) == found
 
 
 def test_a_two_stroke_has_no_pairs_of_pins():

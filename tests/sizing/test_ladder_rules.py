@@ -164,6 +164,20 @@ def test_weights_at_every_throw_need_three_throws(throws, offered):
     assert (WEIGHTS_AT_THROWS in names) == offered
 
 
+def test_weights_at_every_throw_take_the_place_of_small_ones_at_the_ends():
+    """A four with a piston that is a little heavier: the first step is not even named, and the second has its share."""
+    ladder = find_ladder(build_text(write_engine(FOUR, rest="[cylinder.1]\npiston_mass = 0.41\n")))
+    names = {step.step for step in (*ladder.steps, *ladder.left_out)}
+    assert WEIGHTS not in names
+    assert 0 < ladder.find_step(WEIGHTS_AT_THROWS).share < 0.05
+
+
+def test_weights_at_every_throw_cancel_nothing_that_those_at_the_ends_have_cancelled():
+    ladder = find_ladder(build_text(write_engine("throws = [0, 240, 120]\nspacing = 90")))
+    assert ladder.find_step(WEIGHTS).share > 0.05
+    assert ladder.find_step(WEIGHTS_AT_THROWS).share == 0
+
+
 def find_need(engine) -> float:
     """Unbalance of the counterweight that a throw needs, g mm: revolving and half the reciprocating mass."""
     c = engine.cylinders
