@@ -31,6 +31,7 @@ def test_published_problem(path):
         )
 
 
+@pytest.mark.slow
 def test_the_corpus_is_wide_and_written_down():
     """Page and table are current; balcli's figures in the table are rounded."""
     problems = load_problems()

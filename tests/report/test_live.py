@@ -574,14 +574,16 @@ def test_bad_parts_leave_the_engine_and_the_rest(show, address, message):
 
 # ------------------------------------------------------------------ what has no live page; notebooks
 def test_engines_that_the_page_cannot_compute_say_so():
-    text = ask("report", "-", "-o", "-", stdin=RADIAL)
+    with without_pictures():
+        text = ask("report", "-", "-o", "-", stdin=RADIAL)
     assert "cannot be changed on the page: it has articulated rods" in text
     assert 'id="live"' not in text
 
 
 @live
 def test_explore_shows_the_page_in_a_frame(browser, tmp_path):
-    frame = load_example("vtwin45").explore()._repr_html_()
+    with without_pictures():
+        frame = load_example("vtwin45").explore()._repr_html_()
     browser.open(write(tmp_path / "notebook.html", f"<!doctype html><body>{frame}"))
     inside = "document.querySelector('iframe').contentDocument"
     browser.run(f"{inside}.getElementById('change').open = true; new Promise(done => setTimeout(done, 200))")

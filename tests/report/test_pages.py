@@ -12,6 +12,7 @@ from typing import get_args
 
 import numpy as np
 import pytest
+from support.cases import slow
 from support.commands import run_python
 from support.engines import GOOD, build_text, changed, inline_engine
 from support.gas_engines import FOUR as GAS_FOUR, WIEBE
@@ -66,7 +67,7 @@ def test_the_same_picture_is_the_same_bytes(form, drawn, four):
 
 @pytest.mark.parametrize("form", get_args(style.Form))
 def test_a_hostile_name_stays_text_and_warns_of_nothing(form, four):
-    subject = PageSubject(Study(replace(four, engine=replace(four.engine, name=HOSTILE))))
+    subject = PageSubject(Study(analyze(replace(four.engine, name=HOSTILE), only=QUANTITIES)))
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         data = draw_page(subject, "polar", form)
@@ -222,7 +223,11 @@ def test_in_a_page_a_name_in_a_picture_stays_as_it_is():
     assert text == f'<svg><g id="here-a" fill="var(--ink)"/><text>{name}</text></svg>'
 
 
-@pytest.mark.parametrize("what", [*OF_GAS, *OF_PARTS])
+LONG = ["main", "piston", "stars"]  # more than a second each
+SHORT = [what for what in (*OF_GAS, *OF_PARTS) if what not in LONG]
+
+
+@pytest.mark.parametrize("what", [*SHORT, *slow(*LONG)])
 def test_no_label_is_cut_off_by_the_edge_of_a_page(what):
     from matplotlib.backends.backend_agg import FigureCanvasAgg
 

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from support.cases import slow
 from support.engines import engine_text
 from support.searches import search_least
 
@@ -100,7 +101,7 @@ def test_no_angle_of_a_dense_sweep_is_better(seed: int) -> None:
 
 
 # ------------------------------------------------------------------ even firing
-@pytest.mark.parametrize("pairs", range(2, 15))
+@pytest.mark.parametrize("pairs", [*range(2, 7), *slow(*range(7, 15))])
 @pytest.mark.parametrize("over", ["bank_angle", "splay"])
 def test_the_angle_at_which_a_vee_fires_evenly(pairs: int, over: str) -> None:
     """The throws of one bank fire evenly, two intervals apart; the other bank's have to stand
