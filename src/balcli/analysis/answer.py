@@ -142,7 +142,9 @@ class Analysis(OrdersAndPeaks, Result):
     def summary(self) -> str:
         """Name of the engine and the orders shown, in words."""
         orders = ", ".join(f"{order:g}" for order in self.orders[:12])
-        return f"of {self.engine.summary}; orders {orders}{', ...' * (len(self.orders) > 12)}"
+        if len(self.orders) > 12:
+            orders += ", ..."
+        return f"of {self.engine.summary}; orders {orders}"
 
     @property
     def orders(self) -> Array:
@@ -233,8 +235,8 @@ def analyze(
         raise ArgumentError('{by} {other!r}: give "cylinder"', other=by)
     check_type("why", why, bool, "give True or False")
     check_type("beside", beside, Collection, "give engines, such as [engine]")
-    for one in beside:
-        check_engine("analyze", one)
+    for other in beside:
+        check_engine("analyze", other)
     if why or not wanted.isdisjoint(_OF_ONE_CRANK):
         refuse_geared(engine)
     asked = None if orders is None else check_orders(orders, [engine, *beside])
@@ -295,7 +297,7 @@ def list_usual_quantities(engine: Engine) -> tuple[str, ...]:
     """Return the quantities that are computed by default. For an engine with gas, they include all
     quantities of gas.
     """
-    return (*UNASKED, *(GAS_KINDS if engine.gas is not None else ()))
+    return UNASKED if engine.gas is None else (*UNASKED, *GAS_KINDS)
 
 
 def _choose_quantities(engine: Engine, only: str | Collection[str] | None) -> set[str]:
@@ -307,7 +309,9 @@ def _choose_quantities(engine: Engine, only: str | Collection[str] | None) -> se
         named = ", ".join(stranger or '""' for stranger in strangers)
         choices = ", ".join((*QUANTITIES, GAS.name, *EXTRAS))
         raise BalcliError(f"there is no quantity {named}: choose from {choices}")
-    return wanted | GAS_KINDS.keys() if GAS.name in wanted else wanted
+    if GAS.name in wanted:
+        wanted |= GAS_KINDS.keys()
+    return wanted
 
 
 def list_idle_defaults(engine: Engine, wanted: Collection[str]) -> set[str]:
@@ -321,16 +325,21 @@ def list_idle_defaults(engine: Engine, wanted: Collection[str]) -> set[str]:
     due = {*wanted}
     if engine.gas is not None and due.intersection(EXTRAS) - {"masses"}:
         due.add("gas")
-    of_throws = _WITH_THROWS | {"masses"}
+    of_throws = {*_WITH_THROWS, "masses"}
     if engine.ripple:
         of_throws |= list_with("turning")
     if any(engine.reference_m[:2]):
         of_throws |= list_with("arms")
-    idle = {k for k, of in (_DEPENDENT | {"crank.throw_mass": of_throws}).items() if not due & of}
+    idle = set()
+    for key, quantities in {**_DEPENDENT, "crank.throw_mass": of_throws}.items():
+        if due.isdisjoint(quantities):
+            idle.add(key)
     throws_inferred = any(value.path == "crank.throws" for value in engine.inferred)
     if engine.gas is not None and "gas" in idle and not throws_inferred:
         idle |= _OF_FIRING
-    return idle if engine.places_known else {*idle, "layout.stagger"}
+    if not engine.places_known:
+        idle.add("layout.stagger")
+    return idle
 
 
 def _analyze_cylinders(
@@ -341,8 +350,10 @@ def _analyze_cylinders(
     if count > MOST_RESULTS_BY_CYLINDER:
         raise BalcliError(f"by cylinder: {count} results; give at most {most} orders")
     own = compute_spectra(engine, orders, kinds, each=True)
-    rows = ((n, engine.numbers.index(n)) for n in engine.rising_numbers)
-    return tuple(CylinderShare(n, own.select_place(row)) for n, row in rows)
+    shares = []
+    for number in engine.rising_numbers:
+        shares.append(CylinderShare(number, own.select_place(engine.numbers.index(number))))
+    return tuple(shares)
 
 
 def _judge(engine: Engine, spectra: Spectra, small: float) -> Verdict:
@@ -371,8 +382,12 @@ def _find_stars(
     """Return the phasor stars of the force and, if moments are known and wanted, of the moment;
     None if the force is not wanted.
     """
-    shown = {"force"} | ({"moment"} if engine.places_known else set()) & set(kinds)
-    return tuple(find_stars(engine, orders, shown)) if "force" in kinds else None
+    if "force" not in kinds:
+        return None
+    shown = {"force"}
+    if engine.places_known and "moment" in kinds:
+        shown.add("moment")
+    return tuple(find_stars(engine, orders, shown))
 
 
 def find_inner_loads(engine: Engine, asked: Array | None = None) -> InnerLoads:

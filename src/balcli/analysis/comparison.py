@@ -6,9 +6,9 @@ import math
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from itertools import repeat
+from itertools import chain
 from math import nan
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal, NamedTuple
 
 from ..core.phasors import Array, Phasors
 from ..core.records import HIDDEN
@@ -150,8 +150,8 @@ def analyze_alike(
     analyses = tuple(analyze_one(engine, orders) for engine in engines)
     if orders is not None:
         return analyses
-    every = merge_orders(*(orders for one in analyses for orders in _list_orders(one)))
-    return tuple(analyze_one(one.engine, every) for one in analyses)
+    every = merge_orders(*chain.from_iterable(map(_list_orders, analyses)))
+    return tuple(analyze_one(analysis.engine, every) for analysis in analyses)
 
 
 def make_line(
@@ -179,17 +179,17 @@ def list_lines(analyses: Sequence[Analysis], *, every_order: bool = False) -> tu
     """
     guides = _list_guides(analyses)
     alone = "" if all(guide is None or guide.with_gas for guide in guides) else " of inertia only"
-    tables = [
-        {(kind, order): size for kind, order, size in _list_sizes(one, guide)}
-        for one, guide in zip(analyses, guides, strict=True)
-    ]
+    tables = []
+    for analysis, guide in zip(analyses, guides, strict=True):
+        sizes = _list_sizes(analysis, guide)
+        tables.append({(size.kind, size.order): size.value for size in sizes})
     lines = []
     for kind, order in tables[0]:
         if not all((kind, order) in table for table in tables):
             continue  # no bearing loads are known for a crank with one throw
         values = tuple(table[kind, order] for table in tables)
         shown = kind._replace(label=f"{kind.label}{alone}") if kind in GUIDES else kind
-        single = tuple(one.of_one_cylinder.get(kind.name, 0.0) for one in analyses)
+        single = tuple(analysis.of_one_cylinder.get(kind.name, 0.0) for analysis in analyses)
         line = make_line(shown, order, values, single)
         free = kind.name in EVERY_KIND
         due = line.low if free else order is None or order % 1 == 0
@@ -198,52 +198,66 @@ def list_lines(analyses: Sequence[Analysis], *, every_order: bool = False) -> tu
     return tuple(lines)
 
 
-def _list_orders(one: Analysis) -> Iterator[Array]:
-    yield one.orders
-    if hasattr(one, "inner"):
-        yield from (along.phasors.orders for _, along in list_loads(one.inner))
-    if hasattr(one, "guide"):
-        yield one.guide.h.orders
+def _list_orders(analysis: Analysis) -> Iterator[Array]:
+    yield analysis.orders
+    if hasattr(analysis, "inner"):
+        for _, along in list_loads(analysis.inner):
+            yield along.phasors.orders
+    if hasattr(analysis, "guide"):
+        yield analysis.guide.h.orders
 
 
-def _list_sizes(
-    one: Analysis, guide: GuideMoments | None
-) -> Iterator[tuple[Kind, float | None, float]]:
-    """Yield the figures of an analysis: kind, order (None for a peak), and size."""
+class _Size(NamedTuple):
+    """A figure of one engine; order None: a peak."""
 
-    def by_order(kind: Kind, phasors: Phasors) -> Iterator[tuple[Kind, float | None, float]]:
-        sizes = phasors.major.reshape(len(phasors.orders), -1).max(axis=1)  # largest along crank
-        yield from zip(repeat(kind), map(order_number, phasors.orders), sizes.tolist())
+    kind: Kind
+    order: float | None
+    value: float
 
-    def peaks(of: Analysis) -> Iterator[tuple[Kind, float]]:
-        for kind, peak in of.peaks:
-            yield kind, peak.value if of.moments_known or kind is not MOMENT else nan
 
-    for kind, phasors in one.spectra.with_moment_if(one.moments_known).items():
-        yield from by_order(kind, phasors)
-    yield from ((kind, None, value) for kind, value in peaks(one))
-    if hasattr(one, "inner"):
-        for kind, along in list_loads(one.inner):
-            yield from by_order(kind, along.phasors)
-            yield kind, None, max(peak.value for peak in along.peaks)
-    for kind, moment in () if guide is None else zip(GUIDES, (guide.h, guide.x), strict=True):
+def _list_sizes(analysis: Analysis, guide: GuideMoments | None) -> Iterator[_Size]:
+    """Yield the figures of an analysis."""
+    for kind, phasors in analysis.spectra.with_moment_if(analysis.moments_known).items():
+        yield from _list_by_order(kind, phasors)
+    yield from _list_peaks(analysis)
+    if hasattr(analysis, "inner"):
+        for kind, along in list_loads(analysis.inner):
+            yield from _list_by_order(kind, along.phasors)
+            yield _Size(kind, None, max(peak.value for peak in along.peaks))
+    moments = () if guide is None else zip(GUIDES, (guide.h, guide.x), strict=True)
+    for kind, moment in moments:
         if moment is not None:
-            yield from by_order(kind, moment)
-    if hasattr(one, "sizing"):
-        yield from ((LEFT[kind], None, value) for kind, value in peaks(one.sizing.after))
+            yield from _list_by_order(kind, moment)
+    if hasattr(analysis, "sizing"):
+        for peak in _list_peaks(analysis.sizing.after):
+            yield peak._replace(kind=LEFT[peak.kind])
+
+
+def _list_by_order(kind: Kind, phasors: Phasors) -> Iterator[_Size]:
+    """Yield the amplitude of each order, along the crank the largest."""
+    sizes = phasors.major.reshape(len(phasors.orders), -1).max(axis=1)
+    for order, size in zip(phasors.orders, sizes.tolist(), strict=True):
+        yield _Size(kind, order_number(order), size)
+
+
+def _list_peaks(analysis: Analysis) -> Iterator[_Size]:
+    """Yield the peaks of force and moment; a moment that is not known is nan."""
+    for kind, peak in analysis.peaks:
+        known = analysis.moments_known or kind is not MOMENT
+        yield _Size(kind, None, peak.value if known else nan)
 
 
 def _list_guides(analyses: Sequence[Analysis]) -> list[GuideMoments | None]:
     """Return each engine's guide moments: with gas if all engines have gas, else without. None if
     they were not asked for.
     """
-    if not all(hasattr(one, "guide") for one in analyses):
+    if not all(hasattr(analysis, "guide") for analysis in analyses):
         return [None] * len(analyses)
-    found = [one.guide for one in analyses]
-    if len({guide.with_gas for guide in found}) < 2:
-        return [*found]
-    engines = [one.engine for one in analyses]
-    of_inertia = partial(analyze, orders=found[0].h.orders, only="guide", beside=engines)
+    guides = [analysis.guide for analysis in analyses]
+    if len({guide.with_gas for guide in guides}) < 2:
+        return [*guides]
+    engines = [analysis.engine for analysis in analyses]
+    of_inertia = partial(analyze, orders=guides[0].h.orders, only="guide", beside=engines)
     return [of_inertia(replace(engine, gas=None)).guide for engine in engines]
 
 
@@ -375,12 +389,13 @@ def find_lines_that_matter(lines: list[Line]) -> list[Line]:
     are also kept if a value is not known.
     """
     least = NEGLIGIBLE * max((line.largest for line in lines), default=0.0)
-    return [
-        line
-        for line in lines
-        if (line.low and any(map(math.isnan, line.values)))
-        or (line.largest > least and not all(line.negligible))
-    ]
+    kept = []
+    for line in lines:
+        unknown = any(map(math.isnan, line.values))
+        matters = line.largest > least and not all(line.negligible)
+        if matters or (line.low and unknown):
+            kept.append(line)
+    return kept
 
 
 def show_sizes(line: Line, unit: ShownUnit, *, every: bool, digits: int | None = None) -> list[str]:
@@ -408,9 +423,15 @@ def _lay_out_kind(kind: Kind, lines: list[Line], result: Comparison, system: Sys
     for k, name in enumerate(result.engines):
         columns.append(Column(name, [row[k] for row in cells]))
         if k > 0:
-            ratios = [UNKNOWN if ln.negligible[0] else number(ln.ratios[k]) for ln in lines]
-            columns.append(Column("ratio", ratios))
+            columns.append(Column("ratio", [_show_ratio(line, k) for line in lines]))
     return Grid(f"{capitalized(kind.label)}, {unit.name}: largest by order", columns)
+
+
+def _show_ratio(line: Line, k: int) -> str:
+    """Return the ratio of an engine's value to that of the first engine, unless the latter is
+    negligible.
+    """
+    return UNKNOWN if line.negligible[0] else number(line.ratios[k])
 
 
 RENDERER = Renderer(sheet=sheet, rows=rows)

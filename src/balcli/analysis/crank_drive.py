@@ -18,7 +18,7 @@ swings about the piston pin has the reduced length (J + m a^2)/(m a), which is l
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import partial
 from typing import NamedTuple
@@ -33,6 +33,7 @@ from ..engine.build import build
 from ..engine.engine import Engine, refuse_geared
 from ..engine.gas import EngineGas
 from ..engine.load import FiguresOfVariants
+from ..engine.rods import CylinderMasses
 from ..errors import BalcliError
 from ..file.model import EngineFile
 from ..forces.crankshaft import find_shear_stress, place_bearings
@@ -184,7 +185,9 @@ def _find_stress(engine: Engine, torque: JournalTorque, kind: str) -> ShearStres
     given.
     """
     bearings = engine.bearings
-    diameters = None if bearings is None else bearings.pin_m if kind == "pin" else bearings.main_m
+    if bearings is None:
+        return None
+    diameters = bearings.pin_m if kind == "pin" else bearings.main_m
     if diameters is None:
         return None
     per_torque = find_shear_stress(*diameters)
@@ -202,7 +205,8 @@ def list_names(model: EngineFile) -> Iterator[str]:
     """Yield the names of the quantities of main journals and crank pins."""
     if not (model.engine or build(model).rotary):
         for kind in ("journal", "pin"):
-            yield from (f"{kind}.N.{part}" for part in ("range", "max", "min"))
+            for part in ("range", "max", "min"):
+                yield f"{kind}.N.{part}"
 
 
 def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> None:
@@ -215,15 +219,17 @@ def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> N
 
 def evaluate_engine(engine: Engine, quantities: Sequence[TargetQuantity]) -> list[float]:
     """Return the value of each quantity of one engine, N m."""
-    torques = CrankTorques.of(engine)
+    crank = CrankTorques.of(engine)
     weights = weigh_cylinders(engine)
-    places = [(_KINDS[q.kind], int(q.target)) for q in quantities]
-    found = {
-        place: torques.measure_total(weights[place]) or torques.measure(weights[place])
-        for place in dict.fromkeys(places)
-    }
-    pairs = zip(quantities, places, strict=True)
-    return [float(getattr(found[place], f"{q.part}_Nm")) for q, place in pairs]
+    torques: dict[tuple[str, int], JournalTorque] = {}
+    values = []
+    for quantity in quantities:
+        place = (_KINDS[quantity.kind], int(quantity.target))
+        if place not in torques:
+            own = weights[place]
+            torques[place] = crank.measure_total(own) or crank.measure(own)
+        values.append(float(getattr(torques[place], f"{quantity.part}_Nm")))
+    return values
 
 
 Variants = partial(FiguresOfVariants, evaluate_engine)
@@ -241,9 +247,11 @@ def lay_out_journals(journals: Sequence[Journal], engine: Engine, system: System
     with_gas = journals[0].total is not None
     title = "Torque along the crankshaft"
     if with_gas:
-        yield _grid(journals, [each.total or _NONE for each in journals], title, system, True)
+        totals = [journal.total or _NONE for journal in journals]
+        yield _grid(journals, totals, title, system, True)
         title = "Torque along the crankshaft, inertia alone"
-    last = _grid(journals, [each.inertia for each in journals], title, system, not with_gas)
+    of_inertia = [journal.inertia for journal in journals]
+    last = _grid(journals, of_inertia, title, system, not with_gas)
     if len(engine.rows_by_pin) > len(engine.joined_throws):
         last = last._replace(note=f"{last.note} {_SPLIT}".strip())
     yield last
@@ -259,25 +267,24 @@ def _grid(
     unit = system.moment.fit(max(torque.range_Nm for torque in torques))
     length = system.length
     stress = system.stress.fit(1e9)
-
-    def write(sizes: Iterable[float]) -> list[str]:
-        return [number(unit.of(size)) for size in sizes]
-
     columns = [
-        Column("place", [each.place for each in journals], words=True),
-        Column(f"z, {length.name}", [_write_place(each, length) for each in journals]),
-        Column(f"largest, {unit.name}", write(torque.max_Nm for torque in torques)),
+        Column("place", [journal.place for journal in journals], words=True),
+        Column(f"z, {length.name}", [_write_place(journal, length) for journal in journals]),
+        Column(f"largest, {unit.name}", [number(unit.of(torque.max_Nm)) for torque in torques]),
         Column("deg", [_write_angle(torque.max_deg) for torque in torques]),
-        Column("smallest", write(torque.min_Nm for torque in torques)),
+        Column("smallest", [number(unit.of(torque.min_Nm)) for torque in torques]),
         Column("deg", [_write_angle(torque.min_deg) for torque in torques]),
-        Column("range", write(torque.range_Nm for torque in torques)),
-        Column("mean", write(torque.mean_Nm for torque in torques)),
+        Column("range", [number(unit.of(torque.range_Nm)) for torque in torques]),
+        Column("mean", [number(unit.of(torque.mean_Nm)) for torque in torques]),
     ]
-    if with_stress and any(each.stress for each in journals):
-        stresses = [_write_stress(each.stress, stress) for each in journals]
+    if with_stress and any(journal.stress for journal in journals):
+        stresses = [_write_stress(journal.stress, stress) for journal in journals]
         columns.append(Column(f"stress, ±{stress.name}", stresses))
-    widest = max(zip(torques, journals, strict=True), key=lambda pair: pair[0].range_Nm)[1]
-    note = f"The range is largest in {widest.place}." if any(t.range_Nm for t in torques) else ""
+    ranges = [torque.range_Nm for torque in torques]
+    note = ""
+    if any(ranges):
+        widest = journals[ranges.index(max(ranges))]
+        note = f"The range is largest in {widest.place}."
     return Grid(title, columns, note)
 
 
@@ -305,34 +312,52 @@ def list_masses(engine: Engine) -> tuple[Masses, ...]:
     """
     c = engine.cylinders
     count = len(engine.numbers)
-    figures = [np.broadcast_to(np.ravel(v), count) for v in (c.radius, c.rod_length, c.couple)]
-    each = zip(engine.numbers, engine.weighed, *(v.tolist() for v in figures), strict=True)
-    found: dict[tuple[Masses, float], list[int]] = {}
-    for number_, weighed, radius, length, couple in sorted(each, key=lambda row: row[0]):
-        small = float(weighed.small_end)
-        big = float(weighed.big_end)
-        one = Masses(
-            cylinders=(),
-            piston_kg=float(weighed.piston),
-            crosshead_kg=float(weighed.crosshead),
-            reciprocating_kg=float(weighed.reciprocating),
-            rotating_kg=float(weighed.rotating),
-            throw_kg=float(weighed.share),
-        )
-        if (mass := small + big) > 0:
-            one = one._replace(rod_kg=mass, rod_small_end_kg=small, rod_big_end_kg=big)
-        if mass > 0 and math.isfinite(length):
-            a = length * big / mass
-            b = length * small / mass
-            inertia = mass * a * b - couple
-            one = one._replace(
-                rod_inertia_kg_m2=inertia,
-                radius_of_gyration_m=math.sqrt(max(inertia, 0.0) / mass),
-                couple_constant_kg_m2=couple,
-                reduced_length_m=(inertia + mass * a * a) / (mass * a) if a else None,
-            )
-        found.setdefault((one, radius), []).append(int(number_))
-    return tuple(one._replace(cylinders=tuple(numbers)) for (one, _), numbers in found.items())
+    radii = np.broadcast_to(np.ravel(c.radius), count).tolist()
+    lengths = np.broadcast_to(np.ravel(c.rod_length), count).tolist()
+    couples = np.broadcast_to(np.ravel(c.couple), count).tolist()
+    alike: dict[tuple[Masses, float], list[int]] = {}
+    for row in np.argsort(engine.numbers).tolist():
+        masses = _find_masses(engine.weighed[row], lengths[row], couples[row])
+        alike.setdefault((masses, radii[row]), []).append(int(engine.numbers[row]))
+    sets = []
+    for (masses, _), numbers in alike.items():
+        sets.append(masses._replace(cylinders=tuple(numbers)))
+    return tuple(sets)
+
+
+def _find_masses(weighed: CylinderMasses, length: float, couple: float) -> Masses:
+    """Return the masses of a cylinder.
+
+    Args:
+        weighed: Masses of piston and rod.
+        length: Length of the rod, m; infinite in harmonic motion.
+        couple: Couple constant of the rod, kg m^2.
+    """
+    small = float(weighed.small_end)
+    big = float(weighed.big_end)
+    masses = Masses(
+        cylinders=(),
+        piston_kg=float(weighed.piston),
+        crosshead_kg=float(weighed.crosshead),
+        reciprocating_kg=float(weighed.reciprocating),
+        rotating_kg=float(weighed.rotating),
+        throw_kg=float(weighed.share),
+    )
+    mass = small + big
+    if mass <= 0:
+        return masses
+    masses = masses._replace(rod_kg=mass, rod_small_end_kg=small, rod_big_end_kg=big)
+    if not math.isfinite(length):
+        return masses
+    a = length * big / mass
+    b = length * small / mass
+    inertia = mass * a * b - couple
+    return masses._replace(
+        rod_inertia_kg_m2=inertia,
+        radius_of_gyration_m=math.sqrt(max(inertia, 0.0) / mass),
+        couple_constant_kg_m2=couple,
+        reduced_length_m=(inertia + mass * a * a) / (mass * a) if a else None,
+    )
 
 
 _LABELS = {
@@ -359,9 +384,9 @@ def lay_out_masses(masses: Sequence[Masses], system: System) -> Grid:
         system: System of units.
     """
     labels = _LABELS.copy()
-    if not any(one.crosshead_kg for one in masses):
+    if not any(alike.crosshead_kg for alike in masses):
         del labels["crosshead_kg"]
-    heads = [Column(name_cylinders(one.cylinders)) for one in masses]
+    heads = [Column(name_cylinders(alike.cylinders)) for alike in masses]
     figures = list_columns(masses, labels, {}, system)
     rows = [(figure.head, *figure.cells) for figure in figures]
     return Grid.of_rows("Masses", [Column("", words=True), *heads], rows)
@@ -399,12 +424,12 @@ def lay_out_related(related: PowerRelatedUnbalance, system: System) -> Grid:
     """
     kind = "" if related.power_kind == "file" else f"{related.power_kind} "
     title = f"Power related unbalance ({kind}power {size_text(related.power_W, system.power)})"
-    unit = system.moment.fit(max(each.moment_Nm for each in related.orders))
-    orders = related.orders
+    moments = related.orders
+    unit = system.moment.fit(max(moment.moment_Nm for moment in moments))
     columns = [
-        Column("order", [order_name(each.order) for each in orders]),
-        Column(f"M, {unit.name}", [size_cell(each.moment_Nm, unit) for each in orders]),
-        Column("PRU, N·m/kW", [number(each.Nm_per_kW) for each in orders]),
-        Column("compensator", [each.need or UNKNOWN for each in orders], words=True),
+        Column("order", [order_name(moment.order) for moment in moments]),
+        Column(f"M, {unit.name}", [size_cell(moment.moment_Nm, unit) for moment in moments]),
+        Column("PRU, N·m/kW", [number(moment.Nm_per_kW) for moment in moments]),
+        Column("compensator", [moment.need or UNKNOWN for moment in moments], words=True),
     ]
     return Grid(title, columns, "Moments and power at the speed of the file.")

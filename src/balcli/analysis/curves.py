@@ -123,16 +123,16 @@ def _find_upright(engine: Engine, curves: Mapping[str, Array]) -> dict[str, Arra
     """Return the vertical and horizontal components of the curves of force and moment; empty if the
     file does not give `frame.up`.
     """
-    found: dict[str, Array] = {}
+    upright: dict[str, Array] = {}
     if engine.up_deg is None:
-        return found
+        return upright
     for kind in FREE:
         x, y = (curves[kind.key_along(axis)] for axis in "xy")
         turned = unit(-engine.up_deg) * compose(x, y)
         most = float(np.abs(turned).max(initial=0))
         for word, part in zip(kind.upright, (turned.real, turned.imag), strict=True):
-            found[kind.key_along(word)] = _settle(part, most)
-    return found
+            upright[kind.key_along(word)] = _settle(part, most)
+    return upright
 
 
 def compute_cylinder_curves(
@@ -149,12 +149,12 @@ def compute_cylinder_curves(
     Raises:
         BalcliError: The engine has no such cylinder.
     """
-    one, row = find_crank(engine, number)
-    return _sum_parts(
-        engine,
-        crank_deg,
-        lambda angles: _compute_cylinder_parts(one.engine, row, angles + one.phase_deg),
-    )
+    crank, row = find_crank(engine, number)
+
+    def compute(angles: Array) -> dict[str, Array]:
+        return _compute_cylinder_parts(crank.engine, row, angles + crank.phase_deg)
+
+    return _sum_parts(engine, crank_deg, compute)
 
 
 def _sum_parts(
@@ -168,26 +168,28 @@ def _sum_parts(
         compute: Function that returns the terms at some angles, by name, each of shape (terms,
             angles).
     """
-    noise = {
-        name: 8 * len(parts) * EPS * float(np.abs(parts).sum(axis=0).max())
-        for name, parts in compute(_EVERYWHERE).items()
-    }
-    sums = compute_piecemeal(
-        engine,
-        crank_deg,
-        lambda angles: {name: parts.sum(axis=0) for name, parts in compute(angles).items()},
-    )
-    return {
-        name: np.where(np.abs(curve) <= noise[name], 0.0, curve) for name, curve in sums.items()
-    }
+
+    def add_up(angles: Array) -> dict[str, Array]:
+        return {name: parts.sum(axis=0) for name, parts in compute(angles).items()}
+
+    noise = {}
+    for name, parts in compute(_EVERYWHERE).items():
+        noise[name] = 8 * len(parts) * EPS * float(np.abs(parts).sum(axis=0).max())
+    sums = compute_piecemeal(engine, crank_deg, add_up)
+    for name, curve in sums.items():
+        sums[name] = np.where(np.abs(curve) <= noise[name], 0.0, curve)
+    return sums
 
 
 def _compute_engine_parts(engine: Engine, crank_deg: Array) -> dict[str, Array]:
     """Return the terms of each curve: those of cylinders and devices of every crank, shape
     (terms, angles).
     """
-    each = [_compute_crank_parts(one, crank_deg + one.phase_deg) for one in engine.cranks]
-    return {name: np.concatenate([parts[name] for parts in each]) for name in each[0]}
+    of_cranks: dict[str, list[Array]] = {}
+    for crank in engine.cranks:
+        for name, parts in _compute_crank_parts(crank, crank_deg + crank.phase_deg).items():
+            of_cranks.setdefault(name, []).append(parts)
+    return {name: np.concatenate(parts) for name, parts in of_cranks.items()}
 
 
 def _compute_crank_parts(one: Placed, crank_deg: Array) -> dict[str, Array]:
@@ -391,26 +393,26 @@ def compute_curves_by_step(
     if orders is not None:
         if cylinder is not None:
             raise ArgumentError("{orders} needs the whole engine; leave {cylinder} out")
-        found = compute_order_curves(engine, orders, crank_deg)
+        curves = compute_order_curves(engine, orders, crank_deg)
     elif cylinder is not None:
-        found = compute_cylinder_curves(engine, cylinder, crank_deg)
-        one, row = find_crank(engine, cylinder)
-        if one.engine.gas is not None:
-            of_gas = partial(_find_cylinder_gas, one.engine, row)
-            curves = compute_piecemeal(engine, crank_deg + one.phase_deg, of_gas)
-            found |= {name: _settle(curve) for name, curve in curves.items()}
+        curves = compute_cylinder_curves(engine, cylinder, crank_deg)
+        crank, row = find_crank(engine, cylinder)
+        if crank.engine.gas is not None:
+            find_gas = partial(_find_cylinder_gas, crank.engine, row)
+            of_gas = compute_piecemeal(engine, crank_deg + crank.phase_deg, find_gas)
+            curves |= {name: _settle(curve) for name, curve in of_gas.items()}
     else:
-        found = compute_engine_curves(engine, crank_deg)
+        curves = compute_engine_curves(engine, crank_deg)
         if engine.gas is not None:
-            curves = compute_piecemeal(engine, crank_deg, partial(_find_gas_torque, engine))
-            found[GAS.key] = _settle(curves[GAS.key])
-            found[TORQUE_TOTAL.key] = found[TORQUE.key] + found[GAS.key]
-            found[ROLL_TOTAL.key] = found[ROLL.key] - _settle(curves["borne"])
+            of_gas = compute_piecemeal(engine, crank_deg, partial(_find_gas_torque, engine))
+            curves[GAS.key] = _settle(of_gas[GAS.key])
+            curves[TORQUE_TOTAL.key] = curves[TORQUE.key] + curves[GAS.key]
+            curves[ROLL_TOTAL.key] = curves[ROLL.key] - _settle(of_gas["borne"])
     return Curves(
         engine=engine.name,
         speed_rpm=float(engine.speed_rpm),
         crank_deg=crank_deg,
-        curves=found,
+        curves=curves,
         assumed=engine.list_assumed() if cylinder is None else None,
         moments_known=engine.places_known,
     )

@@ -55,29 +55,41 @@ def device_grid(remedy: Remedy, system: System) -> Grid:
 
 def _tell_turns(device: DeviceTable) -> str:
     """Return the speed of a device in multiples of the crank speed."""
-    if isinstance(device, Counterweight):
-        return "1"
-    return f"{device.ratio:+d}" if isinstance(device, Shaft) else str(device.order)
+    match device:
+        case Counterweight():
+            return "1"
+        case Shaft():
+            return f"{device.ratio:+d}"
+        case Slider():
+            return str(device.order)
 
 
 def _tell_angle(device: DeviceTable) -> str:
     """Return the angle of a device, and what it counts from unless that is x."""
     angle = degrees(device.angle)
-    if isinstance(device, Counterweight):
-        return f"{angle} from pin 1"
-    return f"{angle} along {degrees(device.direction)}" if isinstance(device, Slider) else angle
+    match device:
+        case Counterweight():
+            return f"{angle} from pin 1"
+        case Slider():
+            return f"{angle} along {degrees(device.direction)}"
+        case Shaft():
+            return angle
 
 
 def _tell_place(device: DeviceTable, unit: ShownUnit, anywhere: bool) -> str:
     """Return the place of a device's axis across the crank."""
     if isinstance(device, Counterweight):
         return f"crank of {device.engine}" if device.engine else "crank axis"
-    return "free" if anywhere else ", ".join(_length(v, unit) for v in device.at)
+    if anywhere:
+        return "free"
+    x, y = device.at
+    return f"{_length(x, unit)}, {_length(y, unit)}"
 
 
 def _explain_places(devices: Sequence[DeviceTable], free: Sequence[bool]) -> Iterator[str]:
     """Yield notes on shafts and sliders: where their angles count from, and where they may be."""
-    if any(isinstance(device, Shaft) for device in devices):
+    shafts = [device for device in devices if isinstance(device, Shaft)]
+    if shafts:
         yield (
             "Angles of shafts are those at crank angle 0, and count in the direction in which the "
             "crank turns, even if a shaft turns against the crank."
@@ -86,8 +98,8 @@ def _explain_places(devices: Sequence[DeviceTable], free: Sequence[bool]) -> Ite
         yield "Angles of sliders: phase at crank angle 0, and direction of the path from x."
     if any(free):
         yield "free: the shaft may be anywhere, because it makes only a moment."
-    shafts = zip(devices, free, strict=True)
-    if any(isinstance(d, Shaft) and not any(d.at) and not anywhere for d, anywhere in shafts):
+    on_axis = sum(not any(shaft.at) for shaft in shafts)
+    if on_axis > sum(free):
         yield (
             "At 0, 0 (on the crank axis), a shaft adds no roll about this axis; a real shaft "
             "elsewhere does."
@@ -100,7 +112,7 @@ def _length(millimetres: float, unit: ShownUnit, digits: int | None = None) -> s
 
 def list_radii(practical: Sequence[Practical], unit: ShownUnit) -> str:
     """Return in words the radii of the devices; equal radii are named once."""
-    radii = dict.fromkeys(_length(each.radius_mm, unit, 4) for each in practical)
+    radii = dict.fromkeys(_length(figures.radius_mm, unit, 4) for figures in practical)
     return f"{', '.join(radii)} {unit.name}"
 
 
@@ -124,10 +136,12 @@ def practical_grid(remedy: Remedy, practical: tuple[Practical, ...], system: Sys
     thicknesses = []
     for k, (device, p) in enumerate(zip(remedy.devices, practical, strict=True), 1):
         names.append(f"{k} {name_kind(device)}")
-        is_disc = not (isinstance(device, Slider) or p.disc_radius_mm is None)
-        radii.append(_length(p.disc_radius_mm or 0.0, length, 3) if is_disc else UNKNOWN)
-        thick = p.disc_thickness_mm or 0.0
-        thicknesses.append(_length(thick, length, 3) if is_disc else UNKNOWN)
+        if isinstance(device, Slider) or p.disc_radius_mm is None:
+            radii.append(UNKNOWN)
+            thicknesses.append(UNKNOWN)
+        else:
+            radii.append(_length(p.disc_radius_mm, length, 3))
+            thicknesses.append(_length(p.disc_thickness_mm or 0.0, length, 3))
     columns = [
         Column("device", names, words=True),
         Column("rpm", [given(p.speed_rpm) for p in practical]),
@@ -155,9 +169,12 @@ def holes_grid(
     drill = f"{number(unit.of(tools.drill or 0.0))} {unit.name}"
     why = "--radius" if tools.radius else "the crank radius; --radius changes it"
     rim = f"from a rim at {list_radii(practical, unit)} ({why})"
-    numbered = enumerate(zip(remedy.devices, practical, strict=True), 1)
-    drilled = [(k, device, p) for k, (device, p) in numbered if p.holes is not None]
-    holes = [p for _, _, p in drilled]
+    names = []
+    drilled = []
+    for k, (device, figures) in enumerate(zip(remedy.devices, practical, strict=True), 1):
+        if figures.holes is not None:
+            names.append(f"{k} {name_kind(device)}")
+            drilled.append(figures)
     if tools.slug is None:
         title = f"Holes to drill, {drill}"
         what = "Holes remove steel opposite to the weight that is needed. They are"
@@ -165,11 +182,11 @@ def holes_grid(
         title = f"Holes for slugs of {number(tools.slug / 1e3)} g/cm³, {drill}"
         what = "Slugs replace steel on the side of the weight that is needed. Holes are"
     note = f"{what} radial, {rim} inwards, and side by side along the axis."
-    depths = [_length(p.drill_depth_mm or 0.0, unit, 4) for p in holes]
+    depths = [_length(figures.drill_depth_mm or 0.0, unit, 4) for figures in drilled]
     columns = [
-        Column("for", [f"{k} {name_kind(device)}" for k, device, _ in drilled], words=True),
-        Column("holes at, deg", [degrees(p.hole_angle_deg or 0.0) for p in holes]),
-        Column("holes", [str(p.holes) for p in holes]),
+        Column("for", names, words=True),
+        Column("holes at, deg", [degrees(figures.hole_angle_deg or 0.0) for figures in drilled]),
+        Column("holes", [str(figures.holes) for figures in drilled]),
         Column(f"depth of each, {unit.name}", depths),
     ]
     return Grid(title, columns, note)

@@ -98,7 +98,9 @@ def _load_column(ladder: Ladder, system: System) -> Column:
     loads = [step.main_bearing_N or 0.0 for step in ladder.steps]
     unit = system.force.fit(max(loads))
     rounding = _ROUNDING * ladder.scale.force_N
-    cells = [size_cell(load if load > rounding else 0.0, unit) for load in loads]
+    cells = []
+    for load in loads:
+        cells.append(size_cell(load if load > rounding else 0.0, unit))
     return Column(f"main bearing, {unit.name}", cells)
 
 
@@ -236,30 +238,30 @@ def _tell_power(ladder: Ladder) -> Iterator[str]:
     if ladder.power is None:
         yield "Give operation.power: compensators are judged by power related unbalance."
         return
-    told = []
+    related = []
     for row, step in enumerate(ladder.steps):
         if step.pru_Nm_per_kW is not None:
-            told.append(f"step {row}: {number(step.pru_Nm_per_kW, 3)}")
-    if told:
+            related.append(f"step {row}: {number(step.pru_Nm_per_kW, 3)}")
+    if related:
         yield (
             "A step is fitted if its power related unbalance (PRU) is above "
-            f"{LIKELY:g} N·m/kW ({', '.join(told)})."
+            f"{LIKELY:g} N·m/kW ({', '.join(related)})."
         )
 
 
 def _tell_scale(ladder: Ladder, system: System) -> str:
     """Return a sentence on the force and moment of one cylinder, with which others are compared."""
     scale = ladder.scale
-    one = size_text(scale.force_N, system.force)
+    sizes = size_text(scale.force_N, system.force)
     if scale.moment_Nm is not None:
         moment = size_text(scale.moment_Nm, system.moment)
         if scale.length is None:
-            one = f"{one}, {moment}"
+            sizes = f"{sizes}, {moment}"
         else:
             length = size_text(scale.length.metres, system.length)
             what = ", twice the crank radius" if scale.length.of_crank else " of engine length"
-            one = f"{one}; times {length}{what}: {moment}"
-    return f"Percentages are of one cylinder's first order ({one})."
+            sizes = f"{sizes}; times {length}{what}: {moment}"
+    return f"Percentages are of one cylinder's first order ({sizes})."
 
 
 # ------------------------------------------------------------------ CSV

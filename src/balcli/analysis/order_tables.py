@@ -87,31 +87,34 @@ def direction_tables(spectra: Spectra, system: System, *, every: bool = False) -
         every: As for `order_tables`.
     """
     up = spectra.up_deg
-    vectors = [
-        (kind, phasors.turn(-(up or 0.0)), fit_largest(system.unit(kind), phasors))
-        for kind, phasors in spectra.vectors()
-    ]
+    kinds = []
+    vectors = []
+    units = []
+    for kind, phasors in spectra.vectors():
+        kinds.append(kind)
+        vectors.append(phasors.turn(-(up or 0.0)))
+        units.append(fit_largest(system.unit(kind), phasors))
     if not vectors:
         return
 
     def cells(k: int) -> Iterator[str]:
-        for _, phasors, unit in vectors:
+        for phasors, unit in zip(vectors, units, strict=True):
             for c in (phasors.x[k], phasors.y[k]):
                 yield size_cell(abs(c), unit)
                 yield degrees(float(phase_deg(c))) if c else ""
 
-    title = "Along x and y"
-    levers = _LEVERS
-    heads = [kind.symbol + axis for kind, *_ in vectors for axis in "xy"]
-    if up is not None:
+    if up is None:
+        title = "Along x and y"
+        levers = _LEVERS
+        axes = [kind.symbol + axis for kind in kinds for axis in "xy"]
+    else:
         title = f"Components with up at {up:g} deg from x"
         levers = _UPRIGHT_LEVERS
-        heads = [word for kind, *_ in vectors for word in kind.upright]
-    units = ", ".join(unit.name for _, _, unit in vectors)
+        axes = [word for kind in kinds for word in kind.upright]
     yield _table(
-        f"{title}, {units}",
-        [head for axis in heads for head in (axis, "deg")],
-        [phasors for _, phasors, _ in vectors],
+        f"{title}, {', '.join(unit.name for unit in units)}",
+        [head for axis in axes for head in (axis, "deg")],
+        vectors,
         cells,
         every,
         f"At crank angle θ: amplitude · cos(order θ − angle). {levers}",
@@ -141,7 +144,8 @@ def textbook_tables(book: Textbook, system: System, *, every: bool = False) -> I
     if built.moment is not None and not math.isnan(units.arm):
         arm = f"{number(system.length.of(units.arm))} {system.length.name}"
         note = f"a = {arm}, the smallest distance of neighbouring throws."
-        note += f" {_AS_BUILT}" * (built.force is None)
+        if built.force is None:
+            note += f" {_AS_BUILT}"
         yield _textbook_table(MOMENT, book, note, every)
 
 
@@ -175,11 +179,16 @@ def cylinder_tables(
 
 def _column(name: str, values: Complex, unit: ShownUnit) -> Column:
     """Return a column of vectors as size and angle."""
-    cells = [
-        f"{number(unit.of(abs(v)))} ∠ {degrees(math.degrees(cmath.phase(v)))}" if v else NOTHING
-        for v in values.tolist()
-    ]
+    cells = [_write_polar(vector, unit) for vector in values.tolist()]
     return Column(f"{name}, {unit.name}", cells)
+
+
+def _write_polar(vector: complex, unit: ShownUnit) -> str:
+    """Return size and angle of a vector; a word if it is 0."""
+    if not vector:
+        return NOTHING
+    angle = math.degrees(cmath.phase(vector))
+    return f"{number(unit.of(abs(vector)))} ∠ {degrees(angle)}"
 
 
 def peak_facts(
@@ -213,11 +222,10 @@ def _table(
     with `every`, a row for each order.
     """
     columns = [Column("order", words=True), *map(Column, heads)]
-    rows = [
-        (order_name(order), *cells(k))
-        for k, order in enumerate(phasors[0].orders)
-        if every or order <= 2 or not all(p.balanced[k] for p in phasors)
-    ]
+    rows = []
+    for k, order in enumerate(phasors[0].orders):
+        if every or order <= 2 or not all(p.balanced[k] for p in phasors):
+            rows.append((order_name(order), *cells(k)))
     return Grid.of_rows(title, columns, rows, note)
 
 
@@ -277,12 +285,14 @@ def _scalar_table(spectra: Spectra, unit: ShownUnit, roll: str, what: str, every
 
     def cells(k: int) -> Iterator[str]:
         order = spectra.orders[k]
-        for c in (p.x[k] for p in phasors):
+        for p in phasors:
+            c = p.x[k]
             yield number(unit.of(size_or_mean(c, order))) if c else NOTHING
             yield degrees(float(peak_deg(c, order))) if c else ""
 
-    labels = [ROLL.name if roll and kind == ROLL else kind.label for kind in kinds]
-    heads = [head for label in labels for head in (label, "peak, deg")]
+    heads: list[str] = []
+    for kind in kinds:
+        heads += [ROLL.name if roll and kind == ROLL else kind.label, "peak, deg"]
     return _table(f"About {what}, {unit.name}", heads, phasors, cells, every, roll)
 
 
@@ -300,7 +310,8 @@ def _textbook_table(kind: Kind, book: Textbook, note: str, every: bool) -> Grid:
 
     def cells(k: int) -> Iterator[str]:
         size = book.units.size(kind, order_number(built.orders[k]))
-        for value in (float(column[k]) for column in columns):
+        for column in columns:
+            value = float(column[k])
             yield number(value / size) if value else NOTHING
 
     heads = (f"largest, {book.units.name(kind)}", "with crank", "against", "as built")
@@ -339,26 +350,22 @@ def gas_grid(spectra: Spectra, system: System, pivot: str, view: View) -> Iterat
     every = (torque, gas, total, roll)
     unit = fit_largest(system.moment, *every)
     least = NEGLIGIBLE * max(float(p.major.max(initial=0)) for p in (torque, gas))
-    shown = [
-        (k, order)
-        for k, order in enumerate(spectra.orders.tolist())
-        if order in (1, 2) or view.every_order or max(p.major[k] for p in every) > least
-    ]
-
-    def write(phasors: Phasors) -> list[str]:
-        x = phasors.x
-        return [size_cell(size_or_mean(complex(x[k]), order), unit) for k, order in shown]
-
-    peaks = [float(peak_deg(roll.x[k], order)) for k, order in shown]
-    columns = [
-        Column("order", [order_name(order) for _, order in shown], words=True),
-        Column("inertia torque", write(torque)),
-        Column("gas torque", write(gas)),
-        Column("torque", write(total)),
-        Column("roll of the frame", write(roll)),
-        Column("peak, deg", ["" if math.isnan(at) else degrees(at) for at in peaks]),
+    rows = []
+    for k, order in enumerate(spectra.orders.tolist()):
+        if order in (1, 2) or view.every_order or max(p.major[k] for p in every) > least:
+            sizes = [size_or_mean(complex(p.x[k]), order) for p in every]
+            at = float(peak_deg(roll.x[k], order))
+            peak = "" if math.isnan(at) else degrees(at)
+            rows.append((order_name(order), *(size_cell(size, unit) for size in sizes), peak))
+    heads = [
+        Column("order", words=True),
+        Column("inertia torque"),
+        Column("gas torque"),
+        Column("torque"),
+        Column("roll of the frame"),
+        Column("peak, deg"),
     ]
     note = "Torque = inertia + gas."
     if view.hints:
         note += " Mean torque, flywheel and more: balcli torque."
-    yield Grid(f"About {pivot} with gas, {unit.name}", columns, note)
+    yield Grid.of_rows(f"About {pivot} with gas, {unit.name}", heads, rows, note)

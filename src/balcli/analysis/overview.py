@@ -28,12 +28,10 @@ def find_orders_that_matter(spectra: Spectra, single: dict[str, float]) -> list[
         spectra: Spectra to show.
         single: Size of each kind for one cylinder; a kind that is missing is never negligible.
     """
-    return [
-        float(order)
-        for k, order in enumerate(spectra.orders)
-        if order in (0, 1, 2)
-        or any(p.major[k] > NEGLIGIBLE * single.get(kind.name, 0.0) for kind, p in spectra.items())
-    ]
+    matters = np.isin(spectra.orders, (0, 1, 2))
+    for kind, phasors in spectra.items():
+        matters |= phasors.major > NEGLIGIBLE * single.get(kind.name, 0.0)
+    return [float(order) for order in spectra.orders[matters]]
 
 
 def vectors_grid(spectra: Spectra, shown: list[float], system: System, *, hints: bool) -> Grid:
@@ -50,10 +48,10 @@ def vectors_grid(spectra: Spectra, shown: list[float], system: System, *, hints:
     columns = [Column("order", [*map(order_name, chosen.orders)], words=True)]
     for kind, phasors in chosen.vectors():
         unit = fit_largest(system.unit(kind), phasors)
-        cells = [write_vector(phasors, k, unit, 4) for k in range(len(shown))]
-        columns.append(Column(f"{kind.name}, {unit.name}", [each.largest for each in cells]))
-        columns.append(Column("with crank", [each.ahead for each in cells]))
-        columns.append(Column("against", [each.against for each in cells]))
+        rows = [write_vector(phasors, k, unit, 4) for k in range(len(shown))]
+        columns.append(Column(f"{kind.name}, {unit.name}", [row.largest for row in rows]))
+        columns.append(Column("with crank", [row.ahead for row in rows]))
+        columns.append(Column("against", [row.against for row in rows]))
     title = "Largest by order, and its parts that turn with the crank and against it"
     return Grid(title, columns, tell_others(spectra, shown, system, hints=hints))
 
@@ -72,11 +70,10 @@ def tell_others(spectra: Spectra, shown: list[float], system: System, *, hints: 
         system: System of units.
         hints: Whether to name the option that shows more.
     """
-    others = [
-        float(order)
-        for k, order in enumerate(spectra.orders)
-        if order not in shown and any(p.major[k] > 0 for _, p in spectra.items())
-    ]
+    there = np.zeros(spectra.orders.shape, bool)
+    for _, phasors in spectra.items():
+        there |= phasors.major > 0
+    others = [float(order) for order in spectra.orders[there] if order not in shown]
     if not others:
         return ""
     sizes = []
@@ -84,10 +81,11 @@ def tell_others(spectra: Spectra, shown: list[float], system: System, *, hints: 
         if largest := float(np.nan_to_num(phasors.major).max()):  # not known (nan): counts as 0
             sizes.append(f"{name_column(kind)} {size_text(largest, system.unit(kind))}")
     names = ", ".join(map(order_name, others[:6]))
-    more = ", …" if len(others) > 6 else ""
-    plural = "s" * (len(others) > 1)
-    told = f"Negligible: order{plural} {names}{more} (at most {', '.join(sizes)})."
-    return f"{told} --all shows them." if hints else told
+    if len(others) > 6:
+        names += ", …"
+    noun = "orders" if len(others) > 1 else "order"
+    text = f"Negligible: {noun} {names} (at most {', '.join(sizes)})."
+    return f"{text} --all shows them." if hints else text
 
 
 def roll_and_peaks(result: Analysis, system: System, *, every_order: bool) -> Facts:
@@ -104,8 +102,8 @@ def roll_and_peaks(result: Analysis, system: System, *, every_order: bool) -> Fa
     title = "Largest over a revolution" if peaks else f"About {tell_pivot(result.engine)}"
     if roll is None:
         return Facts(peaks, title)
-    told = _tell_roll(result, roll, system, every_order=every_order)
-    return Facts(((name, told), *peaks), title)
+    sizes = _tell_roll(result, roll, system, every_order=every_order)
+    return Facts(((name, sizes), *peaks), title)
 
 
 def _tell_roll(result: Analysis, roll: Phasors, system: System, *, every_order: bool) -> str:
@@ -113,11 +111,13 @@ def _tell_roll(result: Analysis, roll: Phasors, system: System, *, every_order: 
     `roll_and_peaks`.
     """
     least = NEGLIGIBLE * result.of_one_cylinder[ROLL.name]
-    rows = [k for k, size in enumerate(roll.major) if size > least]
     largest = float(roll.major.max(initial=0))
-    if not rows:
-        nothing = small_text(largest, system.moment)
-        return f"{nothing} in the orders shown" if every_order else nothing
     unit = system.moment.fit(largest)
-    sizes = (f"{order_name(roll.orders[k])}: {number(unit.of(float(roll.major[k])))}" for k in rows)
-    return f"order {', '.join(sizes)} {unit.name}"
+    sizes = []
+    for order, size in zip(roll.orders, roll.major, strict=True):
+        if size > least:
+            sizes.append(f"{order_name(order)}: {number(unit.of(float(size)))}")
+    if sizes:
+        return f"order {', '.join(sizes)} {unit.name}"
+    nothing = small_text(largest, system.moment)
+    return f"{nothing} in the orders shown" if every_order else nothing

@@ -48,17 +48,24 @@ def find_parts(
         counterweights: The `[[counterweight]]` tables of the engine.
     """
     refuse_geared(engine)
-    skirt = None if engine.model is None else engine.model.piston.skirt
-    lowest = None
-    if skirt is not None and not engine.rotary:  # rotary: counterweights turn with the cylinders
-        innermost = float(find_innermost(engine.cylinders).min())
-        lowest = innermost - skirt / 1e3 if math.isfinite(innermost) else None
     omega = float(engine.omega)
-    groups = group_eccentrics(shafts)
-    return BalanceParts(
-        tuple(_describe_shaft(name, [*entries.values()], omega) for name, entries in groups),
-        tuple(_describe_counterweight(one, lowest) for one in counterweights),
-    )
+    lowest = _find_lowest_edge(engine)
+    described = []
+    for name, entries in group_eccentrics(shafts):
+        described.append(_describe_shaft(name, [*entries.values()], omega))
+    weights = tuple(_describe_counterweight(table, lowest) for table in counterweights)
+    return BalanceParts(tuple(described), weights)
+
+
+def _find_lowest_edge(engine: Engine) -> float | None:
+    """Return the smallest distance of any piston's lowest edge from the crank axis, m; None if the
+    file gives no skirt, or if counterweights turn with the cylinders.
+    """
+    skirt = None if engine.model is None else engine.model.piston.skirt
+    if skirt is None or engine.rotary:
+        return None
+    innermost = float(find_innermost(engine.cylinders).min())
+    return innermost - skirt / 1e3 if math.isfinite(innermost) else None
 
 
 # ------------------------------------------------------------------ shafts
@@ -120,14 +127,19 @@ def _share(loads: Complex, places: Array, planes: Array) -> Complex:
         planes: Positions z of the bearings, m, shape (2,).
     """
     other = planes[::-1]
-    found: Complex = ((other[:, None] - places) / (other - planes)[:, None]) @ loads
-    return np.where(np.abs(found) <= _ROUNDING * np.abs(loads).sum(), 0, found)
+    shares: Complex = ((other[:, None] - places) / (other - planes)[:, None]) @ loads
+    return np.where(np.abs(shares) <= _ROUNDING * np.abs(loads).sum(), 0, shares)
 
 
 def _describe_bearing(position_mm: float, turning: complex, fixed: complex) -> ShaftBearing:
-    sizes = abs(turning), abs(fixed), abs(turning) + abs(fixed)
-    directions = (measure_direction(load) if load else None for load in (turning, fixed))
-    return ShaftBearing(position_mm, *sizes, *directions)
+    return ShaftBearing(
+        position_mm,
+        abs(turning),
+        abs(fixed),
+        abs(turning) + abs(fixed),
+        measure_direction(turning) if turning else None,
+        measure_direction(fixed) if fixed else None,
+    )
 
 
 def _find_bending(
@@ -201,8 +213,8 @@ def lay_out_parts(parts: BalanceParts, system: System) -> Iterator[Grid | Facts 
         pairs = tuple((shaft.name, _tell_shaft(shaft, system)) for shaft in parts.shafts)
         yield Facts(pairs, "Bending, inertia and drag of shafts")
     if bare := [shaft.name for shaft in parts.shafts if not shaft.bearings]:
-        told = f"Loads are not known: the file gives no bearings for {', '.join(bare)}."
-        yield Text("Balancer shafts", (told,))
+        unknown = f"Loads are not known: the file gives no bearings for {', '.join(bare)}."
+        yield Text("Balancer shafts", (unknown,))
     if parts.counterweights:
         yield _lay_out_counterweights(parts.counterweights, system)
     if not (parts.shafts or parts.counterweights):
@@ -242,24 +254,28 @@ def list_columns(
 
 def _tell_shaft(shaft: BalancerShaft, system: System) -> str:
     """Return in words ratio, bending, inertia and drag of a shaft."""
-    told = [f"ratio {shaft.ratio:+d}"]
+    words = [f"ratio {shaft.ratio:+d}"]
     if shaft.bending_Nm is not None:
-        told.append(f"bending {size_text(shaft.bending_Nm, system.moment)}")
-    if shaft.bending_position_mm is not None:
-        told[-1] += f" at z = {size_text(shaft.bending_position_mm / 1e3, system.length)}"
+        bending = f"bending {size_text(shaft.bending_Nm, system.moment)}"
+        if shaft.bending_position_mm is not None:
+            bending += f" at z = {size_text(shaft.bending_position_mm / 1e3, system.length)}"
+        words.append(bending)
     if inertia := shaft.inertia_at_crank_kg_m2:
-        told.append(f"inertia at the crank {size_text(inertia, system.of_parts['kg·m²'])}")
+        words.append(f"inertia at the crank {size_text(inertia, system.of_parts['kg·m²'])}")
     if shaft.gear is not None:
-        told.append(f"drag {size_text(shaft.gear.power_W, system.heat)}")
-    return ", ".join(told)
+        words.append(f"drag {size_text(shaft.gear.power_W, system.heat)}")
+    return ", ".join(words)
 
 
 def _lay_out_counterweights(parts: Sequence[CounterweightPart], system: System) -> Grid:
     unit_ = system.unbalance.fit(max(abs(part.unbalance_kg_m) for part in parts))
     numbers = Column("no.", [str(k) for k in range(1, len(parts) + 1)], words=True)
     columns = [numbers, *list_columns(parts, _WEIGHT, {"kg·m": unit_}, system)]
-    notes = [_RADIUS_NOTE] * any(part.mass_kg is not None for part in parts)
-    notes += [_CLEARANCE_NOTE] * any(part.clearance_m is not None for part in parts)
+    notes = []
+    if any(part.mass_kg is not None for part in parts):
+        notes.append(_RADIUS_NOTE)
+    if any(part.clearance_m is not None for part in parts):
+        notes.append(_CLEARANCE_NOTE)
     return Grid("Counterweights", columns, " ".join(notes))
 
 

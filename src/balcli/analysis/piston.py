@@ -9,10 +9,10 @@ velocity is the integral of this series. The extremes are computed from both ser
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import Annotated, Literal
+from typing import Annotated, Literal, NamedTuple
 
 import numpy as np
 
@@ -200,6 +200,7 @@ def piston(engine: Engine) -> Pistons:
         lam = float(np.broadcast_to(c.lam, len(numbers))[first])
         centred = c.linkage is None and lam and not np.broadcast_to(c.eps, len(numbers))[first]
         series = np.asarray(harmonics["piston"].c[:, int(kind.real)], complex)
+        velocity = _find_extremes(orders, series / (1j * orders), radius * omega)
         mechanisms.append(
             PistonMotion(
                 cylinders=tuple(sorted(numbers[rows].tolist())),
@@ -211,7 +212,7 @@ def piston(engine: Engine) -> Pistons:
                 inward_stroke_deg=inward,
                 outward_stroke_deg=360 - inward,
                 mean_speed_m_per_s=stroke * omega / math.pi,
-                velocity=Velocity(*_find_extremes(orders, series / (1j * orders), radius * omega)),
+                velocity=Velocity(*velocity),
                 acceleration=_find_acceleration(orders, series, radius * omega**2),
                 two_term=_use_two_terms(lam, radius, omega) if centred else None,
             )
@@ -236,8 +237,11 @@ def choose_cylinder(result: Pistons, number: int) -> Pistons:
         BalcliError: The engine has no such cylinder.
     """
     find_row(result.engine, number)
-    chosen = [each for each in result.mechanisms if number in each.cylinders]
-    return replace(result, mechanisms=tuple(replace(each, cylinders=(number,)) for each in chosen))
+    chosen = []
+    for motion in result.mechanisms:
+        if number in motion.cylinders:
+            chosen.append(replace(motion, cylinders=(number,)))
+    return replace(result, mechanisms=tuple(chosen))
 
 
 def _find_acceleration(orders: Array, series: Complex, scale: float) -> Acceleration:
@@ -265,16 +269,23 @@ def _use_two_terms(lam: float, radius: float, omega: float) -> TwoTerm:
     The acceleration in units of r omega^2 is `cos psi + lam cos 2 psi`. Its minimum is at
     `cos psi = -1/(4 lam)` if there is such an angle psi, otherwise at 180 deg.
     """
-    psi, value = fastest_two_term(lam)
+    fastest, speed = fastest_two_term(lam)
     scale = radius * omega**2
-    two = lam > _TWO_TERM_LIMIT
+    if lam > _TWO_TERM_LIMIT:
+        lowest = lam + 1 / (8 * lam)
+        lowest_deg = math.degrees(math.acos(-1 / (4 * lam)))
+        kind = 2
+    else:
+        lowest = 1 - lam
+        lowest_deg = 180.0
+        kind = 1
     return TwoTerm(
-        velocity_max_m_per_s=radius * omega * float(value),
-        velocity_max_own_deg=math.degrees(float(psi)),
+        velocity_max_m_per_s=radius * omega * float(speed),
+        velocity_max_own_deg=math.degrees(float(fastest)),
         acceleration_max_m_per_s2=scale * (1 + lam),
-        acceleration_min_m_per_s2=-scale * (lam + 1 / (8 * lam) if two else 1 - lam),
-        acceleration_min_own_deg=math.degrees(math.acos(-1 / (4 * lam))) if two else 180.0,
-        type=2 if two else 1,
+        acceleration_min_m_per_s2=-scale * lowest,
+        acceleration_min_own_deg=lowest_deg,
+        type=kind,
     )
 
 
@@ -287,28 +298,44 @@ def list_names(model: EngineFile) -> Iterator[str]:
     if model.engine:
         return
     for stem in ("piston", "piston.N"):
-        yield from (f"{stem}.{part}" for part in _PARTS)
+        for part in _PARTS:
+            yield f"{stem}.{part}"
 
 
 def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> None:
     """Raise BalcliError if a quantity names a cylinder that the engine does not have."""
     refuse_geared(model)
-    there = list(map(str, sorted(build(model).numbers)))
-    for q in (q for q in quantities if q.target):
-        refuse_stranger(q, there)
+    cylinders = list(map(str, sorted(build(model).numbers)))
+    for quantity in quantities:
+        if quantity.target:
+            refuse_stranger(quantity, cylinders)
 
 
 def evaluate_engine(engine: Engine, quantities: Sequence[TargetQuantity]) -> list[float]:
     """Return the value of each quantity of one engine in SI units."""
-    found = piston(engine).mechanisms
-    of_cylinder = {number: one for one in found for number in one.cylinders}
+    of_cylinder: dict[int, PistonMotion] = {}
+    for motion in piston(engine).mechanisms:
+        of_cylinder |= dict.fromkeys(motion.cylinders, motion)
     return [_read_quantity(of_cylinder[int(q.target or 1)], q.part) for q in quantities]
 
 
 def _read_quantity(motion: PistonMotion, part: str) -> float:
-    speed = max(motion.velocity.max_m_per_s, -motion.velocity.min_m_per_s)
-    found = motion.mean_speed_m_per_s, speed, motion.acceleration.max_m_per_s2, motion.stroke_m
-    return dict(zip(_PARTS, found, strict=True))[part]
+    match part:
+        case "mean_speed":
+            return motion.mean_speed_m_per_s
+        case "max_speed":
+            return max(motion.velocity.max_m_per_s, -motion.velocity.min_m_per_s)
+        case "max_acceleration":
+            return motion.acceleration.max_m_per_s2
+        case _:
+            return motion.stroke_m
+
+
+class _FigureColumn(NamedTuple):
+    """A column of the table of figures: its heading, and the cells by the names of the figures."""
+
+    head: str
+    cells: dict[str, str]
 
 
 Variants = partial(FiguresOfVariants, evaluate_engine)
@@ -323,34 +350,51 @@ def sheet(result: Pistons, system: System) -> Sheet:
         result: Motion of the pistons.
         system: System of units.
     """
-    columns: list[tuple[str, dict[str, str]]] = []
+    columns = []
     notes = []
-    for each in result.mechanisms:
-        found = {
-            name: UNKNOWN if value is None else _write(name, float(value), system)
-            for name, value, _ in list_figures(to_document(each), ("cylinders", "two_term"))
-        }
-        columns.append((name_cylinders(each.cylinders), found))
-        if each.two_term is not None:
-            terms = to_document(each.two_term)
-            terms["acceleration_type"] = terms.pop("type")
-            keys = {name: name.replace(".", "_") for name in found}
-            two = {n: _write(n, terms[key], system) for n, key in keys.items() if key in terms}
-            columns.append(("two-term", two))
-            if each.two_term.type != each.acceleration.type:
+    for motion in result.mechanisms:
+        exact = _write_figures(motion, system)
+        columns.append(_FigureColumn(name_cylinders(motion.cylinders), exact))
+        if motion.two_term is not None:
+            two_term = _write_two_term(motion.two_term, exact, system)
+            columns.append(_FigureColumn("two-term", two_term))
+            if motion.two_term.type != motion.acceleration.type:
                 notes.append(
                     f"The acceleration has two minima above a rod ratio of {TYPE_LIMIT:.4f}; by the"
                     f" two-term formula, above {_TWO_TERM_LIMIT}."
                 )
-    names = dict.fromkeys(name for _, cells in columns for name in cells)
-    labels = Column("", [_label(name, system) for name in names], words=True)
-    figures = [Column(head, [cells.get(name, "") for name in names]) for head, cells in columns]
+    names = dict.fromkeys(name for column in columns for name in column.cells)
+    table = [Column("", [_label(name, system) for name in names], words=True)]
+    for column in columns:
+        table.append(Column(column.head, [column.cells.get(name, "") for name in names]))
     facts = Facts((("speed", tell_speed(result.engine, steady=True)),))
     speed = choose_unit("mean_speed_m_per_s", system)
     high_speed = f"{number(speed.of(_HIGH_SPEED))} {speed.name}"
     notes.append(_USUAL.format(1 / 3.8, 1 / 3.2, high_speed))
-    grid = Grid("Piston motion", [labels, *figures], " ".join(dict.fromkeys(notes)))
+    grid = Grid("Piston motion", table, " ".join(dict.fromkeys(notes)))
     return Sheet(result.engine.name or NAMELESS, (facts, *assumed_facts(result.assumed), grid))
+
+
+def _write_figures(motion: PistonMotion, system: System) -> dict[str, str]:
+    """Return the exact figures of a mechanism as text, by their names."""
+    cells = {}
+    for name, value, _ in list_figures(to_document(motion), ("cylinders", "two_term")):
+        cells[name] = UNKNOWN if value is None else _write(name, float(value), system)
+    return cells
+
+
+def _write_two_term(motion: TwoTerm, exact: Iterable[str], system: System) -> dict[str, str]:
+    """Return two-term figures as text, by the names of the exact figures beside which they
+    stand.
+    """
+    figures = to_document(motion)
+    figures["acceleration_type"] = figures.pop("type")
+    cells = {}
+    for name in exact:
+        key = name.replace(".", "_")
+        if key in figures:
+            cells[name] = _write(name, figures[key], system)
+    return cells
 
 
 def choose_unit(name: str, system: System) -> ShownUnit:

@@ -249,23 +249,24 @@ def draw_piston(fig: Figure, engine: Engine, number: int, system: System) -> Non
     """
     steady = replace(engine, ripple=())
     row = find_row(engine, number)
-    found = choose_cylinder(piston(steady), number).mechanisms[0]
+    motion = choose_cylinder(piston(steady), number).mechanisms[0]
     own_deg = np.arange(0.0, 360 + _STEP / 2, _STEP)
     turned = own_deg - float(np.ravel(engine.cylinders.angle_deg)[row])
     curves = compute_cylinder_curves(steady, number, turned)
-    outer = found.outer_dead_center_own_deg % 360
-    inner = found.inner_dead_center_own_deg
-    v = found.velocity
-    a = found.acceleration
+    outer = motion.outer_dead_center_own_deg % 360
+    inner = motion.inner_dead_center_own_deg
+    v = motion.velocity
+    a = motion.acceleration
     extremes = (
-        ((inner, found.stroke_m), (outer, 0.0)),
+        ((inner, motion.stroke_m), (outer, 0.0)),
         ((v.max_own_deg, v.max_m_per_s), (v.min_own_deg, v.min_m_per_s)),
         ((a.max_own_deg, a.max_m_per_s2), (a.min_own_deg, a.min_m_per_s2)),
     )
     cycle = None if engine.gas is None else compute_curves_by_step(steady, number, _STEP)
-    known = cycle is not None and "rod_force_N" in cycle.curves
-    fig.set_figheight(0.6 + 2.4 * (3 + known))
-    axes = fig.subplots(3 + known, 1)
+    with_forces = cycle is not None and "rod_force_N" in cycle.curves
+    count = 4 if with_forces else 3
+    fig.set_figheight(0.6 + 2.4 * count)
+    axes = fig.subplots(count, 1)
     for ax, (name, title), peaks in zip(axes, _MOTIONS.items(), extremes, strict=False):
         unit = choose_unit(name, system)
         points = [(angle, value / unit.size) for angle, value in peaks]
@@ -276,7 +277,7 @@ def draw_piston(fig: Figure, engine: Engine, number: int, system: System) -> Non
     put_legend_above(axes[0])
     places = f"dead centres, {outer:.4g} and {inner:.4g}"
     axes[2].set_xlabel(f"crank angle from the cylinder's axis, deg; dotted: {places}")
-    if cycle is not None and known:
+    if cycle is not None and with_forces:
         forces = {name: cycle.curves[f"{name.replace(' ', '_')}_N"] for name in _FORCES}
         draw_curves(axes[3], np.radians(cycle.crank_deg), forces, "force", system.force)
         axes[3].set_title("Side thrust and rod force over the cycle")

@@ -66,18 +66,22 @@ _LABELS = {  # labels of loads by name, in the order of `InnerLoads` and `LoadsW
     "block_shear": "shear force in the block with gas",
     "block_bending": "bending moment in the block with gas",
 }
-LOADS = tuple(
-    Kind(name, label, "", f"{name}_Nm", vector=True)
-    if name.endswith("bending")
-    else Kind(name, label, "", f"{name}_N", vector=True, dimension="force")
-    for name, label in _LABELS.items()
-)
+
+
+def _make_kind(name: str, label: str) -> Kind:
+    """Return the kind of a load along the crank: a bending moment, or a force."""
+    if name.endswith("bending"):
+        return Kind(name, label, "", f"{name}_Nm", vector=True)
+    return Kind(name, label, "", f"{name}_N", vector=True, dimension="force")
+
+
+LOADS = tuple(_make_kind(name, label) for name, label in _LABELS.items())
 
 
 def list_loads(inner: InnerLoads) -> list[tuple[Kind, AlongCrank]]:
     """Return each load along the crank that is known, with its kind."""
-    found = zip(LOADS, (*inner[:3], *(inner.with_gas or ())), strict=False)
-    return [(kind, along) for kind, along in found if along is not None]
+    loads = zip(LOADS, (*inner[:3], *(inner.with_gas or ())), strict=False)
+    return [(kind, along) for kind, along in loads if along is not None]
 
 
 def sheet_parts(inner: InnerLoads, system: System) -> Iterator[Grid | Facts | Text]:
@@ -90,15 +94,17 @@ def sheet_parts(inner: InnerLoads, system: System) -> Iterator[Grid | Facts | Te
     with_gas = inner.with_gas is not None
     bending = f"{_TOGETHER} {_OPEN_END}" if with_gas else _OPEN_END
     notes = {"shear": _BEHIND, "bending": bending, "bearing": _CUT, "main": _CUT}
+    moments = []
     for kind, along in list_loads(inner):
         title = capitalized(kind.label)
         if with_gas and kind in LOADS[:2]:
             title = title.replace("crankshaft", "crankshaft and block together")
         if not (with_gas and kind.name == "bearing"):  # the table with gas replaces it
             yield _grid(along, title, system.unit(kind), system.length, notes.get(kind.name, ""))
-    moments = [along for kind, along in list_loads(inner) if kind.name.endswith("bending")]
-    places = ("largest inner moment", "in the crankshaft", "in the block")[: len(moments)]
-    yield Facts(tuple(zip(places, (_tell_largest(one, system) for one in moments), strict=True)))
+        if kind.name.endswith("bending"):
+            moments.append(_tell_largest(along, system))
+    places = ("largest inner moment", "in the crankshaft", "in the block")
+    yield Facts(tuple(zip(places, moments, strict=False)))
     if inner.obstacle:
         yield Text("", (f"{_TOGETHER} Loads with gas are not known: {inner.obstacle}.",))
 
@@ -204,10 +210,10 @@ def list_guide(guide: GuideMoments, system: System) -> Iterator[FigureRow]:
 
 def _heights(height_m: Array, system: System) -> str:
     """Return in words the height of all guides, or the lowest and the highest."""
-    found = (float(height_m.min()), float(height_m.max()))
-    if not np.isfinite(found).all():  # the rods of harmonic motion have no length
+    ends = (float(height_m.min()), float(height_m.max()))
+    if not np.isfinite(ends).all():  # the rods of harmonic motion have no length
         return UNKNOWN
-    texts = dict.fromkeys(number(system.length.of(height)) for height in found)
+    texts = dict.fromkeys(number(system.length.of(height)) for height in ends)
     return f"{' to '.join(texts)} {system.length.name}"
 
 
@@ -219,11 +225,11 @@ def list_strokes(travel: Sequence[Stroke], system: System) -> Iterator[FigureRow
         system: System of units.
     """
     length = system.length
-    for one in travel:
-        about = one.cylinder, "travel", None
-        yield FigureRow(*about, "stroke", length.of(one.stroke_m), length.name)
-        yield FigureRow(*about, "top_deg", one.top_deg, "deg")
-        yield FigureRow(*about, "bottom_deg", one.bottom_deg, "deg")
+    for stroke in travel:
+        about = stroke.cylinder, "travel", None
+        yield FigureRow(*about, "stroke", length.of(stroke.stroke_m), length.name)
+        yield FigureRow(*about, "top_deg", stroke.top_deg, "deg")
+        yield FigureRow(*about, "bottom_deg", stroke.bottom_deg, "deg")
 
 
 UNITS = (
@@ -253,18 +259,16 @@ def lay_out_stars(stars: Sequence[Star], system: System) -> Grid:
         stars: Vectors of each order, of which there is at least one.
         system: System of units.
     """
-    every: list[Star | Bank] = [*stars, *(bank for star in stars for bank in star.banks)]
-    force = system.force.fit(max(abs(one.force) for one in every))
-    moment = system.moment.fit(max(abs(one.moment or 0.0) for one in every))
+    every: list[Star | Bank] = [*stars]
+    for star in stars:
+        every += star.banks
+    force = system.force.fit(max(abs(vectors.force) for vectors in every))
+    moment = system.moment.fit(max(abs(vectors.moment or 0.0) for vectors in every))
     rows = []
     for star in stars:
         about = order_name(star.order), _TURNS[star.turns]
         for bank in star.banks:
-            directions = (
-                f"{degrees(angle)}: {', '.join(map(str, numbers))}"
-                for angle, numbers in bank.directions.items()
-            )
-            rows.append(_Sum(star, bank, *about, "; ".join(directions)))
+            rows.append(_Sum(star, bank, *about, _tell_directions(bank)))
             about = "", ""
         if len(star.banks) > 1:
             rows.append(_Sum(star, star, "", "", "all banks"))
@@ -277,6 +281,14 @@ def lay_out_stars(stars: Sequence[Star], system: System) -> Grid:
     if stars[0].moment is not None:
         columns.append(Column(f"moment, {moment.name}", [row.write_moment(moment) for row in rows]))
     return Grid("Phasor stars", columns, _STARS)
+
+
+def _tell_directions(bank: Bank) -> str:
+    """Return each direction of a bank's vectors with its cylinders."""
+    directions = []
+    for angle, numbers in bank.directions.items():
+        directions.append(f"{degrees(angle)}: {', '.join(map(str, numbers))}")
+    return "; ".join(directions)
 
 
 class _Sum(NamedTuple):
@@ -303,10 +315,10 @@ class _Sum(NamedTuple):
 
     def write_moment(self, unit: ShownUnit) -> str:
         """Return the size of the moment; a word if it is 0, a dash if no cylinder has one."""
-        moment = self.vectors.moment
         rays = [ray for bank in self.star.banks for ray in bank.cylinders]
         if not any(ray.moment for ray in rays):
             return UNKNOWN
+        moment = self.vectors.moment
         return number(unit.of(abs(moment))) if moment else "closes"
 
 
@@ -321,6 +333,6 @@ def list_symmetry(why: Symmetry) -> Iterator[FigureRow]:
         if reason.reciprocating is not None:
             yield FigureRow(*about, "why_reciprocating", clean(reason.reciprocating), reason.unit)
             yield FigureRow(*about, "why_built", reason.built, reason.unit)
-    for name, told in (("scope", why.scope), ("firing", why.firing)):
-        if told:
-            yield FigureRow(0, name, None, "why", told, "")
+    for name, reason_of_all in (("scope", why.scope), ("firing", why.firing)):
+        if reason_of_all:
+            yield FigureRow(0, name, None, "why", reason_of_all, "")

@@ -218,86 +218,94 @@ def find_marine_sheet(
         words.append("pru")
     ask = partial(analyze, only=words, guide_height=guide_height_m)
     speeds = [float(speed) for speed in speeds_rpm] or [float(engine.speed_rpm)]
-    found = analyze_alike([engine.at_speed(speed) for speed in speeds], orders, ask)
-    listed = [_list_amplitudes(one, torque.name) for one in found]
+    analyses = analyze_alike([engine.at_speed(speed) for speed in speeds], orders, ask)
+    listed = [_list_amplitudes(analysis, torque.name) for analysis in analyses]
+    first = analyses[0]
     return MarineSheet(
         engine=engine.at_speed(speeds[0]),
         includes=name_included(engine.gas is not None),
-        height_m=found[0].guide.height_m,
-        assumed=found[0].assumed,
+        height_m=first.guide.height_m,
+        assumed=first.assumed,
         speeds=tuple(map(MarineSpeed, speeds, listed)),
-        lines=_list_lines(found, listed),
-        related=found[0].power_related_unbalance if "pru" in words else None,
+        lines=_list_lines(analyses, listed),
+        related=first.power_related_unbalance if "pru" in words else None,
         every_order=every_order or orders is not None,
     )
 
 
 def _list_lines(
-    found: Sequence[Analysis], listed: Sequence[Sequence[MarineOrder]]
+    analyses: Sequence[Analysis], listed: Sequence[Sequence[MarineOrder]]
 ) -> tuple[Line, ...]:
     """Return amplitudes by order and figure. Forces and moments are compared with those of one
     cylinder, other figures with their largest amplitude at any order.
+
+    Args:
+        analyses: Analysis at each speed.
+        listed: Amplitudes at each speed by order.
     """
-    figures = np.array([[astuple(one)[1:] for one in orders] for orders in listed])
+    figures = np.array([[astuple(order)[1:] for order in orders] for orders in listed])
     single = np.nan_to_num(figures).max(axis=1)  # shape (speeds, figures)
     single[:, 4:6] = single[:, 4:6].max(axis=1, keepdims=True)
-    for k, one in enumerate(found):
-        single[k, :4] = np.repeat([one.of_one_cylinder["force"], one.of_one_cylinder["moment"]], 2)
-    return tuple(
-        make_line(kind, one.order, tuple(figures[:, k, i].tolist()), tuple(single[:, i].tolist()))
-        for k, one in enumerate(listed[0])
-        for i, kind in enumerate(FIGURES)
-    )
+    for k, analysis in enumerate(analyses):
+        of_one = analysis.of_one_cylinder
+        single[k, :4] = np.repeat([of_one["force"], of_one["moment"]], 2)
+    lines = []
+    for k, order in enumerate(listed[0]):
+        for i, kind in enumerate(FIGURES):
+            values = tuple(figures[:, k, i].tolist())
+            lines.append(make_line(kind, order.order, values, tuple(single[:, i].tolist())))
+    return tuple(lines)
 
 
-def _list_amplitudes(one: Analysis, torque: str) -> tuple[MarineOrder, ...]:
+def _list_amplitudes(analysis: Analysis, torque: str) -> tuple[MarineOrder, ...]:
     """Return amplitudes at one speed by order."""
-    spectra = one.spectra.with_moment_if(one.moments_known)
+    spectra = analysis.spectra.with_moment_if(analysis.moments_known)
     force = spectra["force"]
     moment = spectra["moment"]
-    guides = (one.guide.h, one.guide.x) if hasattr(one, "guide") else (None, None)
-    unknown = np.full(one.orders.shape, np.nan)
-    columns = (
-        *(np.abs(component) for component in (force.x, force.y, moment.y, moment.x)),
-        *(unknown if guide is None else guide.major for guide in guides),
-        np.abs(spectra[torque].x),
-    )
-    listed = (column.tolist() for column in columns)
-    return tuple(map(MarineOrder, map(order_number, one.orders), *listed))
+    guides = (analysis.guide.h, analysis.guide.x) if hasattr(analysis, "guide") else (None, None)
+    columns = [np.abs(component) for component in (force.x, force.y, moment.y, moment.x)]
+    for guide in guides:
+        unknown = np.full(analysis.orders.shape, np.nan)
+        columns.append(unknown if guide is None else guide.major)
+    columns.append(np.abs(spectra[torque].x))
+    listed = [column.tolist() for column in columns]
+    return tuple(map(MarineOrder, map(order_number, analysis.orders), *listed))
 
 
-def sheet(one: NamedResult[SpeedSeries], system: System) -> Sheet:
+def sheet(named: NamedResult[SpeedSeries], system: System) -> Sheet:
     """Return the sheet of an engine at several speeds.
 
     Args:
-        one: Analyses with the engine's name.
+        named: Analyses with the engine's name.
         system: System of units.
     """
-    engine = one.result.analyses[0].engine
-    return Sheet(engine.name or NAMELESS, tuple(_parts(one, system)))
+    engine = named.result.analyses[0].engine
+    return Sheet(engine.name or NAMELESS, tuple(_parts(named, system)))
 
 
-def rows(one: NamedResult[SpeedSeries], system: System) -> Rows:
+def rows(named: NamedResult[SpeedSeries], system: System) -> Rows:
     """Return the rows of CSV: those of each analysis, after the engine's name and the speed.
 
     Args:
-        one: Analyses with the engine's name.
+        named: Analyses with the engine's name.
         system: System of units.
     """
-    named = one.view.parts
-    every = [analysis_show.rows(each, system, named=named) for each in one.result.analyses]
-    lines = (
-        (name_cell(one.name), speed, *line)
-        for speed, rows_of_one in zip(one.result.speeds_rpm, every, strict=True)
-        for line in rows_of_one.lines
-    )
-    return Rows(("engine", "speed_rpm", *every[0].header), lines)
+    name = name_cell(named.name)
+    header: Sequence[str] = ()
+    lines: list[Sequence[object]] = []
+    series = named.result
+    for speed, analysis in zip(series.speeds_rpm, series.analyses, strict=True):
+        at_speed = analysis_show.rows(analysis, system, named=named.view.parts)
+        header = at_speed.header
+        for line in at_speed.lines:
+            lines.append((name, speed, *line))
+    return Rows(("engine", "speed_rpm", *header), lines)
 
 
-def _parts(one: NamedResult[SpeedSeries], system: System) -> Iterator[Facts | Grid | Text]:
-    series = one.result
-    view = one.view
-    speeds = one.result.speeds_rpm
+def _parts(named: NamedResult[SpeedSeries], system: System) -> Iterator[Facts | Grid | Text]:
+    series = named.result
+    view = named.view
+    speeds = series.speeds_rpm
     first = series.analyses[0]
     if not view.parts or view.whole:
         yield engine_facts(first.engine, system, whole=view.whole, speeds_rpm=speeds)
@@ -310,9 +318,9 @@ def _parts(one: NamedResult[SpeedSeries], system: System) -> Iterator[Facts | Gr
     for kind in kinds:
         own = [line for line in series.lines if line.kind == kind]
         yield _kind_part(kind, own, speeds, system, whole=view.whole or view.every_order)
-    for each in series.analyses:
-        if hasattr(each, "ladder"):
-            yield ladder_grid(each.ladder, each.engine, system)
+    for analysis in series.analyses:
+        if hasattr(analysis, "ladder"):
+            yield ladder_grid(analysis.ladder, analysis.engine, system)
     if hasattr(first, "why"):
         yield sections.lay_out_symmetry(first.why)
 
@@ -326,8 +334,10 @@ def _kind_part(
     shown = lines if whole else find_lines_that_matter(lines)
     if not shown:
         largest = max(line.largest for line in lines)
-        most = f" (at most {size_text(largest, system.unit(kind), 2)})" if largest else ""
-        return Text("", (f"{'Negligible' if largest else 'Balanced'}: {kind.label}{most}.",))
+        if not largest:
+            return Text("", (f"Balanced: {kind.label}.",))
+        most = size_text(largest, system.unit(kind), 2)
+        return Text("", (f"Negligible: {kind.label} (at most {most}).",))
     unit = fit_unit(kind, shown, system)
     columns = [Column("rpm", [given(speed) for speed in speeds_rpm])]
     columns += [Column(line.label, show_sizes(line, unit, every=whole)) for line in shown]
@@ -345,15 +355,15 @@ _NAMES = (
 )
 
 
-def lay_out_marine(one: NamedResult[MarineSheet], system: System) -> Sheet:
+def lay_out_marine(named: NamedResult[MarineSheet], system: System) -> Sheet:
     """Return the printed marine sheet: the engine, forces and moments on its frame and on its
     crank, and the meaning of the names.
 
     Args:
-        one: Marine sheet with the engine's name.
+        named: Marine sheet with the engine's name.
         system: System of units.
     """
-    result = one.result
+    result = named.result
     head = engine_facts(result.engine, system, whole=False, speeds_rpm=result.speeds_rpm)
     alone = "of inertia only, without gas"
     of_what = alone if result.engine.gas is None else "of inertia and gas"
@@ -376,22 +386,22 @@ def lay_out_marine(one: NamedResult[MarineSheet], system: System) -> Sheet:
     return Sheet(result.engine.name or NAMELESS, (*parts, Text("", notes)))
 
 
-def list_marine(one: NamedResult[MarineSheet], system: System) -> Rows:
+def list_marine(named: NamedResult[MarineSheet], system: System) -> Rows:
     """Return the rows of CSV: a line for each speed and order, a column for each figure.
 
     Args:
-        one: Marine sheet with the engine's name.
+        named: Marine sheet with the engine's name.
         system: System of units.
     """
     units = [system.unit(kind) for kind in FIGURES]
-    heads = (
-        f"{k.name}_{unit.name.replace('·', '')}" for k, unit in zip(FIGURES, units, strict=True)
-    )
+    heads = []
+    for kind, unit in zip(FIGURES, units, strict=True):
+        heads.append(f"{kind.name}_{unit.name.replace('·', '')}")
     lines = []
-    for speed in one.result.speeds:
+    for speed in named.result.speeds:
         for order, *figures in map(astuple, speed.orders):
-            values = (clean(unit.of(v)) for unit, v in zip(units, figures, strict=True))
-            lines.append((name_cell(one.name), speed.speed_rpm, order, *values))
+            values = [clean(unit.of(size)) for unit, size in zip(units, figures, strict=True)]
+            lines.append((name_cell(named.name), speed.speed_rpm, order, *values))
     return Rows(("engine", "speed_rpm", "order", *heads), lines)
 
 
@@ -404,18 +414,26 @@ def _grid_by_order(title: str, kinds: Sequence[Kind], result: MarineSheet, syste
     orders = []
     for order in dict.fromkeys(line.order for line in result.lines):
         row = [lines[kind, order] for kind in kinds]
-        there = any(line.largest if every else not all(line.negligible) for line in row)
-        if there or order in (0, 1, 2):
+        if every:
+            matters = any(line.largest for line in row)
+        else:
+            matters = not all(all(line.negligible) for line in row)
+        if matters or order in (0, 1, 2):
             orders.append(order)
     columns = [Column("order", [order_name(order or 0) for order in orders], words=True)]
     for kind in kinds:
-        alike = [each for each in kinds if each.dimension == kind.dimension]
-        unit = fit_unit(kind, (line for line in result.lines if line.kind in alike), system)
+        alike = [line for line in result.lines if _share_unit(line.kind, kind, kinds)]
+        unit = fit_unit(kind, alike, system)
         cells = []
         for order in orders:
             cells += show_sizes(lines[kind, order], unit, every=every, digits=4)  # of the one speed
         columns.append(Column(f"{kind.symbol}, {unit.name}", cells))
     return Grid(title, columns)
+
+
+def _share_unit(kind: Kind, other: Kind, kinds: Sequence[Kind]) -> bool:
+    """Return whether a kind is in this table, in the unit of another kind."""
+    return kind in kinds and kind.dimension == other.dimension
 
 
 MARINE = Renderer(sheet=lay_out_marine, document=write_named, rows=list_marine)

@@ -5,6 +5,7 @@ the series of the piston acceleration.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import NamedTuple
 
 from ..forces.kinds import FORCE
 from ..forces.symmetry import TextbookUnits
@@ -20,6 +21,14 @@ _ROUNDING = 1e-9  # a smaller share of a force is rounding
 _SERIES = "A2 = λ + λ³/4 + 15λ⁵/128 + …"
 
 
+class _Line(NamedTuple):
+    """Largest force of one order, N: exact, and in textbooks."""
+
+    order: float
+    exact: float
+    book: float
+
+
 def one_cylinder_grids(units: TextbookUnits, system: System) -> Iterator[Grid]:
     """Yield a table of the largest force of one cylinder by order: exact, and as textbooks compute
     it; nothing if no force of the orders is known.
@@ -28,18 +37,21 @@ def one_cylinder_grids(units: TextbookUnits, system: System) -> Iterator[Grid]:
         units: Units of textbooks, which are these forces.
         system: System of units.
     """
-    orders = [float(order) for order in units.orders if units.size(FORCE, order) > 0]
-    if not orders:
+    lines = []
+    for order in map(float, units.orders):
+        exact = units.size(FORCE, order)
+        if exact > 0:
+            lines.append(_Line(order, exact, _find_textbook_force(units, order)))
+    if not lines:
         return
     unit = system.force.fit(units.force)
-    exact = [units.size(FORCE, order) for order in orders]
-    books = [_find_textbook_force(units, order) for order in orders]
+    names = [_NAMES.get(line.order, order_name(line.order)) for line in lines]
     columns = [
-        Column("order", [_NAMES.get(order, order_name(order)) for order in orders], words=True),
-        Column("An", [number(size / units.force) for size in exact]),
-        Column(f"Fn, {unit.name}", [number(unit.of(size)) for size in exact]),
-        Column(f"textbooks, {unit.name}", [number(unit.of(book)) for book in books]),
-        Column("they miss", [_tell_missing(*pair) for pair in zip(exact, books, strict=True)]),
+        Column("order", names, words=True),
+        Column("An", [number(line.exact / units.force) for line in lines]),
+        Column(f"Fn, {unit.name}", [number(unit.of(line.exact)) for line in lines]),
+        Column(f"textbooks, {unit.name}", [number(unit.of(line.book)) for line in lines]),
+        Column("they miss", [_tell_missing(line) for line in lines]),
     ]
     who = "one cylinder" if units.equal else f"cylinder {units.cylinder}"
     title = f"Largest force of {who} by order, Fn = An m r ω²"
@@ -51,9 +63,9 @@ def _find_textbook_force(units: TextbookUnits, order: float) -> float:
     return units.force * {1.0: 1.0, 2.0: units.crank_ratio}.get(order, 0.0)
 
 
-def _tell_missing(exact: float, book: float) -> str:
+def _tell_missing(line: _Line) -> str:
     """Return the share of the exact force that textbooks miss; a dash if they miss nothing."""
-    missing = (exact - book) / exact
+    missing = (line.exact - line.book) / line.exact
     return f"{number(100 * missing, 2)} %" if abs(missing) > _ROUNDING else UNKNOWN
 
 
