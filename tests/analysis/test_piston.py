@@ -173,6 +173,20 @@ def test_pistons_of_different_offsets_are_different_mechanisms(of_first, of_seco
         assert (each.two_term is None) == (offset != 0)
 
 
+def test_one_of_two_pistons_is_chosen_by_its_number():
+    found = piston(load(TWO | {"crank": TWO["crank"] | {"stroke": [80, 120]}}))
+    for number, stroke in ((1, 0.08), (2, 0.12)):
+        (chosen,) = choose_cylinder(found, number).mechanisms
+        assert chosen.cylinders == (number,)
+        assert chosen.stroke_m == pytest.approx(stroke)
+
+
+def test_without_a_bore_no_volume_is_known():
+    found = piston(load(TWO | {"piston": {"mass": 1}}))
+    assert found.swept_volume_m3 is None
+    assert found.mechanisms[0].swept_volume_m3 is None
+
+
 STROKES = ["piston.stroke", "piston.1.stroke", "piston.2.stroke"]
 
 

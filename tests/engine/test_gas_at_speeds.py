@@ -78,7 +78,7 @@ CYCLES = [
     ("otto", {"heat": (500.0, 900.0)}),
     ("wiebe", {"imep": (6.0, 11.0), "burn_start": (-12.0, 4.0), "burn_duration": (40.0, 55.0)}),
     ("wiebe", {"bmep": (6.0, 11.0), "mechanical_efficiency": 0.85, "exhaust": (1.05, 1.6)}),
-    ("wiebe", {"max_pressure": (45.0, 70.0)}),
+    pytest.param("wiebe", {"max_pressure": (45.0, 70.0)}, marks=pytest.mark.slow),
     ("diesel", {"cut_off": (1.4, 2.0)}),
     ("dual", {"imep": (8.0, 12.0), "max_pressure": (65.0, 75.0)}),
 ]

@@ -83,6 +83,25 @@ def test_mass_and_speed_on_the_track_follow_from_the_sizes_of_the_wheel(radius, 
     assert wheel.lift_km_h / wheel.lift_rpm == pytest.approx(0.06 * math.pi * diameter / 1e3)
 
 
+def test_the_table_has_both_ends_of_the_rail_load_and_the_size_of_each_unbalance(tmp_path):
+    file = tmp_path / "locomotive.toml"
+    file.write_text(tomli_w.dumps(TABLES))
+    wheel = balance().wheels[0]
+    told = ask("locomotive", file)
+    row = next(line.split() for line in told.splitlines() if line.startswith("driving"))
+    assert f"{wheel.least_rail_load_N / 1e3:.4g}…{wheel.most_rail_load_N / 1e3:.4g}" in row
+    assert f"{abs(wheel.unbalance):.4g}" in row
+    assert "Angles count from cylinder 1's crank pin" in told
+    assert "No factor is given" not in told
+
+
+def test_without_a_factor_the_table_says_so(tmp_path):
+    file = tmp_path / "locomotive.toml"
+    file.write_text(tomli_w.dumps(change(locomotive={"factor": None})))
+    told = " ".join(ask("locomotive", file).split())
+    assert "No factor is given: the figures are those of the counterweights in the file." in told
+
+
 # ------------------------------------------------------------------ which of two places holds
 @pytest.mark.parametrize(
     ("of_all", "own", "wanted"), [(4e4, None, 4e4), (4e4, 5e4, 5e4), (None, 5e4, 5e4), (None, None, None)]

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from support.commands import ask, ask_json, run_here
 from support.engines import build_text
+from support.gas_engines import FOUR as FOUR_WITH_GAS, WIEBE
 from support.paths import ROOT, write
 
 from balcli import load
@@ -385,6 +386,19 @@ def test_the_largest_roll_is_that_of_the_analysis(name):
     assert roll.of == ("inertia" if engine.gas is None else "total")
     assert roll.order == phasors.orders[1:][int(np.argmax(sizes))]
     assert roll.amplitude_Nm == pytest.approx(max(sizes))
+
+
+def test_the_mean_torque_is_no_order_of_the_roll():
+    """Of a twelve, it is three times as large as the largest order."""
+    twelve = FOUR_WITH_GAS.replace("[0, 180, 180, 0]", "[0, 240, 120, 120, 240, 0]").replace(
+        "firing_order = [1, 3, 4, 2]", "bank_angle = 60\nfiring_order = [1, 7, 5, 11, 3, 9, 6, 12, 2, 8, 4, 10]"
+    )
+    engine = build_text(twelve + WIEBE)
+    roll = find_ladder(engine).roll
+    mean, sixth = compute_spectra(engine, [0, 6], ("roll_total",)).roll_total.major
+    assert mean > 2 * sixth
+    assert (roll.of, roll.order) == ("total", 6)
+    assert roll.amplitude_Nm == pytest.approx(sixth)
 
 
 def test_an_engine_without_reciprocating_masses_has_no_roll():
