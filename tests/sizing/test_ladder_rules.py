@@ -446,6 +446,18 @@ def test_no_two_places_take_the_roll(name, why):
 
 
 # ------------------------------------------------------------------ words
+def test_negligible_bearing_loads_are_no_figures():
+    """Weights in the planes of the two throws of a radial leave 2 N of 60 kN."""
+    lines = ask("analyze", ROOT / "engines" / "aero" / "pratt_whitney_r1830.toml", "--only", "ladder").splitlines()
+    (row,) = (line.split() for line in lines if line.startswith("1 counterweights"))
+    assert row[2:] == ["balanced", "<0.1", "%", "<0.1", "%", "2", "–", "42.8"]
+
+
+def test_opposed_pistons_with_crossheads_get_no_shafts_and_weights():
+    ladder = find_ladder(load(ROOT / "engines" / "historic" / "doxford_1913.toml"))
+    assert [step.step for step in ladder.steps] == ["as drawn"]
+
+
 def test_the_last_line_says_what_one_cylinder_is():
     told = " ".join(ask("analyze", ROOT / "engines" / "i3.toml", "--only", "ladder").split())
     assert "one cylinder's first order (6.539 kN; times 164 mm of engine length: 1072 N·m)." in told

@@ -28,7 +28,7 @@ from ..sizing.ladder import SINGLE_SHAFTS, Ladder, LeftOut, Step
 
 if TYPE_CHECKING:
     from ..engine.engine import Engine
-    from ..show.units import System
+    from ..show.units import ShownUnit, System
 
 _ROUNDING = 1e-12  # a smaller share of one cylinder's value is rounding
 _HARDLY = 0.05  # a smaller share of one cylinder's first order, %, would be printed as 0.0
@@ -84,23 +84,26 @@ def _size_column(kind: Kind, sizes: list[float], of_one: float, system: System) 
         system: System of units.
     """
     unit = system.unit(kind).fit(max(sizes))
-    cells = []
-    for size in sizes:
-        if _ROUNDING * of_one < size < NEGLIGIBLE * of_one:
-            cells.append(_HARDLY_ANYTHING)
-        else:
-            cells.append(size_cell(size if size > _ROUNDING * of_one else 0.0, unit))
+    cells = [_size_cell(size, of_one, unit) for size in sizes]
     return Column(f"{kind.name}, {unit.name}", cells)
+
+
+def _size_cell(size: float, of_one: float, unit: ShownUnit) -> str:
+    """Return the cell of a size: a number, or `<0.1 %` if it is negligible compared with that of
+    one cylinder.
+    """
+    if size <= _ROUNDING * of_one:
+        return size_cell(0.0, unit)
+    if size < NEGLIGIBLE * of_one:
+        return _HARDLY_ANYTHING
+    return size_cell(size, unit)
 
 
 def _load_column(ladder: Ladder, system: System) -> Column:
     """Return the column of the largest main bearing loads."""
     loads = [step.main_bearing_N or 0.0 for step in ladder.steps]
     unit = system.force.fit(max(loads))
-    rounding = _ROUNDING * ladder.scale.force_N
-    cells = []
-    for load in loads:
-        cells.append(size_cell(load if load > rounding else 0.0, unit))
+    cells = [_size_cell(load, ladder.scale.force_N, unit) for load in loads]
     return Column(f"main bearing, {unit.name}", cells)
 
 
