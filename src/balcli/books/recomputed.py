@@ -251,8 +251,16 @@ class Print(NamedTuple):
                     supposed = ((each, each.rows[i][j]) for each in explanations)
                     category, kind = _explain(value, text, supposed)
                     errata.append(Erratum(i, columns[j], text, value, kind, label, category))
-        shape = tuple(columns), tuple(rows), tuple(printed)
-        return Table(*self[:3], *shape, tuple(errata), stub)
+        return Table(
+            name=self.name,
+            title=self.title,
+            source=self.source,
+            columns=tuple(columns),
+            exact=tuple(rows),
+            printed=tuple(printed),
+            errata=tuple(errata),
+            stub=stub,
+        )
 
     def compare_answers(
         self, answers: Sequence[float], others: Sequence[tuple[ErratumClass, str, int, float]]
@@ -285,8 +293,16 @@ def tabulate_statements(printed: Print, ranges: Ranges) -> Table:
         Erratum(i, STATEMENT, wrong, right, known, f"{source}, {place}", cast("ErratumClass", name))
         for i, (source, place, wrong, right, name, known) in enumerate(rows)
     ]
-    columns = ("source", "place", STATEMENT, "class", "known")
-    return Table(*printed[:3], columns, tuple(cells), tuple(words), tuple(errata), stub=2)
+    return Table(
+        name=printed.name,
+        title=printed.title,
+        source=printed.source,
+        columns=("source", "place", STATEMENT, "class", "known"),
+        exact=tuple(cells),
+        printed=tuple(words),
+        errata=tuple(errata),
+        stub=2,
+    )
 
 
 def read_data(file: str) -> str:

@@ -86,4 +86,13 @@ def tabulate_published(printed: Print, ranges: Ranges) -> Table:
             category = cast("ErratumClass", kind)
             errata.append(Erratum(i, ANSWER, text, own[i], remark, label, category))
     words = tuple((*line[:-1], None) for line in printed.rows)
-    return Table(*printed[:4], tuple(rows), words, tuple(errata), len(printed.columns) - 1)
+    return Table(
+        name=printed.name,
+        title=printed.title,
+        source=printed.source,
+        columns=printed.columns,
+        exact=tuple(rows),
+        printed=words,
+        errata=tuple(errata),
+        stub=len(printed.columns) - 1,
+    )

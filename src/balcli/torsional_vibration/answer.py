@@ -315,10 +315,25 @@ def _tabulate(
             mode=asked.mode,
             node=system.nodes[first],
         ).within(system.file)
-    columns = (column.tolist() for column in (chain.inertia, *table[:5]))
-    rows = tuple(map(HolzerRow, system.nodes, *columns))
-    hertz, left = omega / (2 * np.pi), table.residual
-    return HolzerTable(mode=asked.mode, frequency_Hz=hertz, rows=rows, residual_Nm=left, end=end)
+    rows = []
+    for k, node in enumerate(system.nodes):
+        row = HolzerRow(
+            node=node,
+            inertia_kg_m2=float(chain.inertia[k]),
+            angle=float(table.angle[k]),
+            torque_Nm=float(table.torque[k]),
+            sum_Nm=float(table.total[k]),
+            stiffness_Nm_per_rad=float(table.stiffness[k]),
+            twist=float(table.twist[k]),
+        )
+        rows.append(row)
+    return HolzerTable(
+        mode=asked.mode,
+        frequency_Hz=omega / (2 * np.pi),
+        rows=tuple(rows),
+        residual_Nm=table.residual,
+        end=end,
+    )
 
 
 # ------------------------------------------------------------------ options of the command

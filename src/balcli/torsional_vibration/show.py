@@ -219,14 +219,14 @@ def _show_modes(result: TorsionAnalysis) -> Grid | Text:
 
 
 def _show_shapes(result: TorsionAnalysis, system: System) -> Grid:
-    names, inertias, gears = zip(*result.nodes, strict=True)
-    known = [inertia or math.nan for inertia in inertias]
+    nodes = result.nodes
+    inertias = [node.inertia_kg_m2 or math.nan for node in nodes]
     columns = [
-        Column("node", names, words=True),
-        Column(system.inertia.name, [number(system.inertia.of(each)) for each in known]),
+        Column("node", [node.name for node in nodes], words=True),
+        Column(system.inertia.name, [number(system.inertia.of(each)) for each in inertias]),
     ]
-    if any(gear != 1 for gear in gears):
-        columns.append(Column("gear", [number(gear) for gear in gears]))
+    if any(node.gear != 1 for node in nodes):
+        columns.append(Column("gear", [number(node.gear) for node in nodes]))
     for mode in result.modes[:_MOST_MODES]:
         angles = [f"{angle + 0.0:.4f}" for angle in mode.shape.round(4).tolist()]
         columns.append(Column(f"mode {mode.number}", angles))
@@ -283,22 +283,31 @@ def _name_left_out(system: TorsionalSystem, end: str) -> str:
 
 
 def _show_holzer(result: TorsionAnalysis, table: HolzerTable, system: System) -> Grid:
-    inertia, stiffness = system.inertia, system.torsional_stiffness
-    names, inertias, angles, torques, sums, springs, twists = zip(*table.rows, strict=True)
+    inertia = system.inertia
+    stiffness = system.torsional_stiffness
+    rows = table.rows
+    angles = [row.angle for row in rows]
+    torques = [row.torque_Nm for row in rows]
+    sums = [row.sum_Nm for row in rows]
     unit = system.moment.fit(max(map(abs, (*torques, *sums))))
-    known = [k or math.nan for k in springs]  # the last node has no shaft
-    rigidities = [number(stiffness.of(k)).replace("inf", "rigid") for k in known]
-    twisted = [number(x if k else math.nan) for x, k in zip(twists, springs, strict=True)]
+    rigidities = []
+    twists = []
+    for row in rows:
+        has_shaft = row.stiffness_Nm_per_rad != 0  # the last node has none
+        rigidity = row.stiffness_Nm_per_rad if has_shaft else math.nan
+        rigidities.append(number(stiffness.of(rigidity)).replace("inf", "rigid"))
+        twists.append(number(row.twist if has_shaft else math.nan))
     columns = [
-        Column("node", names, words=True),
-        Column(f"J, {inertia.name}", [number(inertia.of(each)) for each in inertias]),
+        Column("node", [row.node for row in rows], words=True),
+        Column(f"J, {inertia.name}", [number(inertia.of(row.inertia_kg_m2)) for row in rows]),
         Column("angle", [number(_settle(angle, angles), 6) for angle in angles]),
         Column("J ω² angle", [number(unit.of(_settle(torque, torques))) for torque in torques]),
         Column("sum", [number(unit.of(_settle(size, torques))) for size in sums]),
         Column(f"k, {stiffness.name}", rigidities),
-        Column("twist", twisted),
+        Column("twist", twists),
     ]
-    what, omega = f"mode {table.mode}" if table.mode else "trial", 2 * np.pi * table.frequency_Hz
+    what = f"mode {table.mode}" if table.mode else "trial"
+    omega = 2 * np.pi * table.frequency_Hz
     title = f"Holzer's table, {what}: {number(omega, 7)} rad/s; torques in {unit.name}"
     left = f"{size_text(_settle(table.residual_Nm, torques), system.moment, 5)}."
     if result.system.chain.clamped[table.end]:
