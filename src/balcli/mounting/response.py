@@ -25,6 +25,7 @@ from ..engine.engine import Engine
 from ..engine.figures import find_first_largest
 from ..errors import ArgumentError, BalcliError
 from ..file.fields import order_number
+from ..forces.kinds import FREE
 from ..forces.spectrum import compute_spectra, follow_gas, list_gas_orders
 from ..limits import HIGHEST_GAS_ORDER_UNASKED, HIGHEST_ORDER_UNASKED, MOST_MOUNT_RESULTS
 from ..show.figures import silent_entries
@@ -53,7 +54,7 @@ _LOOKED_AT = 24  # number of speeds at which this sum is computed
 _NEAR = 0.8
 _OF_MOUNT: tuple[type, type, type] = (MountForce, ForceOfOrder, WorstForce)
 _OF_POINT: tuple[type, type, type] = (PointMotion, MotionOfOrder, WorstMotion)
-_COMPONENTS = (*(f"force_{axis}_N" for axis in "xyz"), *(f"moment_{axis}_Nm" for axis in "xyz"))
+_COMPONENTS = tuple(kind.key_along(axis) for kind in FREE for axis in "xyz")
 
 
 class RunningBody(NamedTuple):

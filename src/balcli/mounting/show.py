@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from itertools import product
 from typing import NamedTuple
 
 import numpy as np
 
+from ..core.vibration import Real
 from ..engine.figures import find_first_largest
+from ..forces.kinds import FREE, MOMENT, Kind as LoadKind
 from ..show.engine_facts import list_silent
 from ..show.figures import clean, silent_entries
 from ..show.formats import Renderer, Rows, name_cell
@@ -245,6 +248,42 @@ def _grid_speeds(result: MountReport, response: BodyResponse, force: Kind) -> Gr
     return Grid(title, columns)
 
 
+class _RigidLoad(NamedTuple):
+    """Component of the load of one order on rigid mounts, by speed.
+
+    Attributes:
+        order: Order.
+        kind: Force or moment.
+        axis: Axis of the component.
+        amplitude: Amplitude on rigid mounts.
+        through: Amplitude through the mounts of the file.
+    """
+
+    order: float
+    kind: LoadKind
+    axis: str
+    amplitude: Real
+    through: Real
+
+    @property
+    def name(self) -> str:
+        """Name in tables."""
+        if self.kind == MOMENT and self.axis == "z":
+            return "roll z"
+        return f"{self.kind.name} {self.axis}"
+
+
+def _list_rigid_loads(response: BodyResponse) -> Iterator[_RigidLoad]:
+    """Yield the components that are not 0, order by order."""
+    none = np.zeros(len(response.speeds_rpm))
+    for passed in response.passed:
+        for kind, axis in product(FREE, "xyz"):
+            key = kind.key_along(axis)
+            if key in passed.rigid:
+                through = passed.on_mounts.get(key, none)
+                yield _RigidLoad(passed.order, kind, axis, passed.rigid[key], through)
+
+
 def _grid_passed(response: BodyResponse, system: System) -> Grid:
     rpm = response.speeds_rpm
     speeds = _pick(len(rpm), _COLUMNS - 1)
@@ -254,17 +293,15 @@ def _grid_passed(response: BodyResponse, system: System) -> Grid:
         Column(f"rigid, {number(float(rpm[-1]), 4)} rpm"),
         *(Column(f"{number(rpm[s], 4)} rpm") for s in speeds),
     ]
-    loads = [(each, key, load) for each in response.passed for key, load in each.rigid.items()]
+    loads = list(_list_rigid_loads(response))
     rows = []
-    for passed, key, load in loads:
-        kind, axis, _ = key.split("_")
-        unit = system.force if kind == "force" else system.moment
-        if load[-1] > _SHARE * max(each[-1] for _, other, each in loads if kind in other):
-            name = "roll z" if key == "moment_z_Nm" else f"{kind} {axis}"
-            through = passed.on_mounts.get(key, np.zeros(len(rpm)))
-            size = f"{number(unit.of(load[-1]), 4)} {unit.name}"
-            shares = (f"{through[s] / load[s]:.1%}" for s in speeds)
-            rows.append((order_name(passed.order), name, size, *shares))
+    for load in loads:
+        most = max(other.amplitude[-1] for other in loads if other.kind == load.kind)
+        if load.amplitude[-1] > _SHARE * most:
+            unit = system.unit(load.kind)
+            size = f"{number(unit.of(load.amplitude[-1]), 4)} {unit.name}"
+            shares = (f"{load.through[s] / load.amplitude[s]:.1%}" for s in speeds)
+            rows.append((order_name(load.order), load.name, size, *shares))
     note = (
         "Load through the mounts, as a share of the load of the same engine on rigid mounts; "
         "moments about the centre of gravity."
