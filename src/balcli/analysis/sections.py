@@ -56,32 +56,38 @@ _CUT = (
 ORDERS_SHOWN = 6  # largest number of orders in a table, which has a column for each
 
 
-_LABELS = {  # labels of loads by name, in the order of `InnerLoads` and `LoadsWithGas`
-    "shear": "shear force in the crankshaft",
-    "bending": "bending moment in the crankshaft",
-    "bearing": "load of a main bearing",
-    "shaft_shear": "shear force in the crankshaft with gas",
-    "shaft_bending": "bending moment in the crankshaft with gas",
-    "main": "load of a main bearing with gas",
-    "block_shear": "shear force in the block with gas",
-    "block_bending": "bending moment in the block with gas",
-}
-
-
-def _make_kind(name: str, label: str) -> Kind:
-    """Return the kind of a load along the crank: a bending moment, or a force."""
-    if name.endswith("bending"):
-        return Kind(name, label, "", f"{name}_Nm", vector=True)
+def _name_force(name: str, label: str) -> Kind:
     return Kind(name, label, "", f"{name}_N", vector=True, dimension="force")
 
 
-LOADS = tuple(_make_kind(name, label) for name, label in _LABELS.items())
+def _name_moment(name: str, label: str) -> Kind:
+    return Kind(name, label, "", f"{name}_Nm", vector=True)
+
+
+LOADS = (  # along the crank, by inertia alone and with gas
+    _name_force("shear", "shear force in the crankshaft"),
+    _name_moment("bending", "bending moment in the crankshaft"),
+    _name_force("bearing", "load of a main bearing"),
+    _name_force("shaft_shear", "shear force in the crankshaft with gas"),
+    _name_moment("shaft_bending", "bending moment in the crankshaft with gas"),
+    _name_force("main", "load of a main bearing with gas"),
+    _name_force("block_shear", "shear force in the block with gas"),
+    _name_moment("block_bending", "bending moment in the block with gas"),
+)
 
 
 def list_loads(inner: InnerLoads) -> list[tuple[Kind, AlongCrank]]:
     """Return each load along the crank that is known, with its kind."""
-    loads = zip(LOADS, (*inner[:3], *(inner.with_gas or ())), strict=False)
-    return [(kind, along) for kind, along in loads if along is not None]
+    loads = {"shear": inner.shear, "bending": inner.bending, "bearing": inner.bearings}
+    gas = inner.with_gas
+    if gas is not None:
+        loads["shaft_shear"] = gas.shear
+        loads["shaft_bending"] = gas.bending
+        loads["main"] = gas.bearings
+        loads["block_shear"] = gas.block_shear
+        loads["block_bending"] = gas.block_bending
+    known = {name: along for name, along in loads.items() if along is not None}
+    return [(kind, known[kind.name]) for kind in LOADS if kind.name in known]
 
 
 def sheet_parts(inner: InnerLoads, system: System) -> Iterator[Grid | Facts | Text]:
@@ -97,11 +103,11 @@ def sheet_parts(inner: InnerLoads, system: System) -> Iterator[Grid | Facts | Te
     moments = []
     for kind, along in list_loads(inner):
         title = capitalized(kind.label)
-        if with_gas and kind in LOADS[:2]:
+        if with_gas and kind.name in ("shear", "bending"):
             title = title.replace("crankshaft", "crankshaft and block together")
         if not (with_gas and kind.name == "bearing"):  # the table with gas replaces it
             yield _grid(along, title, system.unit(kind), system.length, notes.get(kind.name, ""))
-        if kind.name.endswith("bending"):
+        if kind.dimension == "moment":
             moments.append(_tell_largest(along, system))
     places = ("largest inner moment", "in the crankshaft", "in the block")
     yield Facts(tuple(zip(places, moments, strict=False)))
