@@ -12,7 +12,7 @@ from __future__ import annotations
 import math
 import re
 import tomllib
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import suppress
 from operator import itemgetter
 from pathlib import Path
@@ -22,7 +22,6 @@ from ..analysis.couple import WORTH_NAMING
 from ..core.mechanisms.linkage import Rotary
 from ..core.records import Node
 from ..engine.engine import Engine, take_model
-from ..engine.figures import RodFigures
 from ..engine.firing.usual import list_numbers
 from ..engine.layout import Cell
 from ..engine.load import SPEED
@@ -100,23 +99,31 @@ def explain_still(engine: Engine) -> str:
     """Return the reason why the page cannot compute an engine itself; empty if it can."""
     if engine.placed:
         return "it has several cranks"
+    return next(_list_obstacles(engine), "")
+
+
+def _list_obstacles(engine: Engine) -> Iterator[str]:
+    """Yield what the page cannot compute of a single engine."""
     c = engine.cylinders
     model = take_model(engine)
     of_throws = (model.crank.stroke, model.crank.throw_mass)
     weights = (*model.counterweight, *model.shaft)
-    reasons = {
-        "its cylinders turn": isinstance(c.linkage, Rotary),
-        "it has articulated rods": c.linkage is not None,
-        "its pistons have harmonic motion": c.harmonic,
-        "it is a locomotive": model.locomotive is not None,
-        "its throws differ": len(c.radius) > 1 or any(isinstance(v, tuple) for v in of_throws),
-        "a counterweight or shaft has no unbalance in the file": any(
-            weight.unbalance is None and weight.mass is None for weight in weights
-        ),
-        "it has moment compensators": any(device.compensates for device in engine.devices),
-        "its speed is uneven": engine.ripple,
-    }
-    return next((reason for reason, there in reasons.items() if there), "")
+    if isinstance(c.linkage, Rotary):
+        yield "its cylinders turn"
+    if c.linkage is not None:
+        yield "it has articulated rods"
+    if c.harmonic:
+        yield "its pistons have harmonic motion"
+    if model.locomotive is not None:
+        yield "it is a locomotive"
+    if len(c.radius) > 1 or any(isinstance(figure, tuple) for figure in of_throws):
+        yield "its throws differ"
+    if any(weight.unbalance is None and weight.mass is None for weight in weights):
+        yield "a counterweight or shaft has no unbalance in the file"
+    if any(device.compensates for device in engine.devices):
+        yield "it has moment compensators"
+    if engine.ripple:
+        yield "its speed is uneven"
 
 
 def describe_engine(model: EngineFile, engine: Engine, text: str) -> Node:
@@ -130,12 +137,14 @@ def describe_engine(model: EngineFile, engine: Engine, text: str) -> Node:
     """
     parts = Parts(model)
     numbers = list(_list_numbers(model))
+    values = {number["name"]: number["value"] for number in numbers}
     speed = float(engine.speed_rpm)
     throws: dict[int, int] = {}  # by throw, the cylinder whose firing sets the throw's angle
     if not parts.throws_given and parts.order is not None:
-        fired = (cell for cell in reversed(parts.plan.cells) if cell.number in parts.order)
-        throws = {cell.throw: cell.number for cell in fired}
-    forms = _find_forms(model, parts, throws, {each["name"]: each["value"] for each in numbers})
+        for cell in reversed(parts.plan.cells):
+            if cell.number in parts.order:
+                throws[cell.throw] = cell.number
+    forms = _find_forms(model, parts, throws, values)
     return {
         "name": model.name,
         "text": text if _is_plain(text) else _write_plainly(text),
@@ -157,7 +166,9 @@ def describe_engine(model: EngineFile, engine: Engine, text: str) -> Node:
                 "number": cell.number,
                 "throw": cell.throw,
                 "bank": cell.bank,
-                **{key: forms[key][k] for key in ("axis", "lead", "z")},
+                "axis": forms["axis"][k],
+                "lead": forms["lead"][k],
+                "z": forms["z"][k],
                 "by": _find_leader(parts, cell, throws),
                 **_list_masses(model, parts, cell),
             }
@@ -268,8 +279,9 @@ def _list_orders_of_gas(engine: Engine) -> list[int]:
     if engine.gas is None:
         return []
     of_gas = list_gas_orders(engine)
-    found = compute_spectra(engine, merge_orders(find_relevant_orders(engine), of_gas), GAS_KINDS)
-    return [int(order) for order in choose_orders(found, of_gas) if order > 0 and not order % 1]
+    every = merge_orders(find_relevant_orders(engine), of_gas)
+    spectra = compute_spectra(engine, every, GAS_KINDS)
+    return [int(order) for order in choose_orders(spectra, of_gas) if order > 0 and not order % 1]
 
 
 # ------------------------------------------------------------------ the text of the file
@@ -291,23 +303,25 @@ def _sort_changeable(tables: Iterable[tuple[str, Node]]) -> list[tuple[str, Node
 
 def _read_lines(body: str) -> Node:
     """Return the keys that have a line of their own."""
-    found: Node = {}
+    keys: Node = {}
     for line in body.splitlines():
         with suppress(tomllib.TOMLDecodeError):
-            found |= tomllib.loads(line)
-    return found
+            keys |= tomllib.loads(line)
+    return keys
 
 
 def _list_tables(data: Mapping[str, Any]) -> Iterator[tuple[str, Node]]:
     """Yield header and content of each table of a file; keys above all tables have no header."""
-    yield "", {k: v for k, v in data.items() if not isinstance(v, (dict, list))}
-    for name, found in data.items():
+    yield "", {key: value for key, value in data.items() if not isinstance(value, (dict, list))}
+    for name, content in data.items():
         if name == "cylinder":
-            yield from ((f"[cylinder.{number}]", own) for number, own in found.items())
-        elif isinstance(found, list):
-            yield from ((f"[[{name}]]", table) for table in found)
-        elif isinstance(found, dict):
-            yield f"[{name}]", found
+            for number, own in content.items():
+                yield f"[cylinder.{number}]", own
+        elif isinstance(content, list):
+            for table in content:
+                yield f"[[{name}]]", table
+        elif isinstance(content, dict):
+            yield f"[{name}]", content
 
 
 def _write_plainly(text: str) -> str:
@@ -343,9 +357,9 @@ def _find_forms(
     not include the shift of top dead centre by the piston offset: the page adds this shift.
     """
     start = _measure(parts, throws)
-    forms: dict[str, list[Node]] = {
-        key: [{"value": value, "by": {}} for value in values] for key, values in start.items()
-    }
+    forms: dict[str, list[Node]] = {}
+    for key, values in start.items():
+        forms[key] = [{"value": value, "by": {}} for value in values]
     for name, value in numbers.items():
         if not (name.startswith(_MOVING) or name.endswith((".bank", ".throw", ".position"))):
             continue
@@ -365,13 +379,15 @@ def _measure(parts: Parts, throws: Mapping[int, int]) -> dict[str, list[float]]:
     cells = parts.plan.cells
     pins = parts.pins
     places = parts.places
-    tops = {n: float(pins.tops_deg[n] - axis) for n, axis in pins.axes_deg.items()}
     first = next(cell for cell in cells if cell.number == 1)
 
+    def find_shift(cell: Cell) -> float:
+        """Return the shift of top dead centre of the cylinder that sets this cell's pin."""
+        leader = _find_leader(parts, cell, throws)
+        return 0.0 if leader is None else float(pins.tops_deg[leader] - pins.axes_deg[leader])
+
     def find_lead(cell: Cell) -> float:
-        ends = (_find_leader(parts, each, throws) for each in (cell, first))
-        own, of_first = (0.0 if end is None else tops[end] for end in ends)
-        return float(pins.leads_deg[cell.number]) - own + of_first
+        return float(pins.leads_deg[cell.number]) - find_shift(cell) + find_shift(first)
 
     return {
         "axis": [float(pins.axes_deg[cell.number]) for cell in cells],
@@ -386,7 +402,9 @@ def _find_leader(parts: Parts, cell: Cell, throws: Mapping[int, int]) -> int | N
     """Return the cylinder whose top dead centre determines the crank pin of a cylinder; None if the
     file gives the pin's angle.
     """
-    return None if parts.override(cell.number, "throw") is not None else throws.get(cell.throw)
+    if parts.override(cell.number, "throw") is not None:
+        return None
+    return throws.get(cell.throw)
 
 
 # ------------------------------------------------------------------ masses
@@ -406,6 +424,13 @@ def _list_masses(model: EngineFile, parts: Parts, cell: Cell) -> Node:
     if own is not None and own.piston_mass is not None:
         pistons = [f"cylinder.{number}.piston_mass"]
     place = parts.find_rod(number)
+    rod: Node = {}
+    for key in _OF_ROD:
+        if getattr(place.rod, key) is not None:
+            rod[key] = name(f"rod_{key}", f"rod.{key}")
+    if place.rod.pendulum is not None:
+        rod["period"] = float(place.rod.pendulum.period)
+        rod["pivot"] = place.rod.pendulum.pivot
     crosshead = name("crosshead_mass", "crosshead.mass")
     return {
         "piston": [*pistons, crosshead],
@@ -413,12 +438,5 @@ def _list_masses(model: EngineFile, parts: Parts, cell: Cell) -> Node:
         "offset": name("piston_offset", "piston.offset"),
         "share": 1 / parts.plan.rods_on_throw,
         "extra": float(weighed.rod_bearing + weighed.oil),
-        "rod": _describe_rod(place.rod, lambda key: name(f"rod_{key}", f"rod.{key}")),
+        "rod": rod,
     }
-
-
-def _describe_rod(rod: RodFigures, name: Callable[[str], str]) -> Node:
-    found: Node = {key: name(key) for key in _OF_ROD if getattr(rod, key) is not None}
-    if rod.pendulum is not None:
-        found |= {"period": float(rod.pendulum.period), "pivot": rod.pendulum.pivot}
-    return found

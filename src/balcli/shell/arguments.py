@@ -106,24 +106,24 @@ def check_speeds(function: str, speeds: ArrayLike | None) -> Array | None:
         given = np.asarray(speeds)
         if given.dtype.kind not in "iufO":  # numpy would convert texts to numbers
             raise TypeError
-        found = np.unique(given.astype(float).ravel())
+        rising = np.unique(given.astype(float).ravel())
     except (TypeError, ValueError):
         raise wrong_type(function, speeds, "give speeds in rpm, such as [1500, 2000]") from None
     except OverflowError:  # an integer with hundreds of digits
-        found = np.array([math.inf])
+        rising = np.array([math.inf])
     if given.ndim > 1:
         raise ArgumentError(
             "{speeds}: has the shape {shape}; give speeds along one axis", shape=given.shape
         )
-    if found.size > MOST_SPEEDS:
+    if rising.size > MOST_SPEEDS:
         raise ArgumentError(
             "{speeds}: {count} speeds; at most {most} are computed",
-            count=found.size,
+            count=rising.size,
             most=MOST_SPEEDS,
         )
-    if not found.size or not np.all((found >= SMALLEST_POSITIVE) & (found < 1e9)):
+    if not rising.size or not np.all((rising >= SMALLEST_POSITIVE) & (rising < 1e9)):
         raise ArgumentError("{speeds}: give crank speeds above 0 in rpm, such as [1500, 2000]")
-    return found
+    return rising
 
 
 def check_torsion_orders(orders: Iterable[float] | None) -> Array | None:

@@ -78,15 +78,15 @@ def format_option(formats: Iterable[Format], text: str) -> object:
         text: Help of the option.
     """
 
-    named = {str(one): one for one in formats}
+    named = {str(form): form for form in formats}
 
     def parse(name: str) -> Format:
         small = name.lower()
-        found = named.get(_SHORT.get(small, small))
-        if found is None:
-            known = ", ".join(f"'{one}'" for one in named)
-            raise typer.BadParameter(f"'{name}' is not one of {known}.")
-        return found
+        form = named.get(_SHORT.get(small, small))
+        if form is None:
+            choices = ", ".join(f"'{choice}'" for choice in named)
+            raise typer.BadParameter(f"'{name}' is not one of {choices}.")
+        return form
 
     return optional("|".join(named), text, "--format", "-f", parser=parse)
 

@@ -240,7 +240,8 @@ def name_engines(names: Sequence[str], paths: Sequence[str]) -> list[str]:
         names: Names of the engines; may be empty.
         paths: Files of the engines.
     """
-    return [
-        name if name and names.count(name) == 1 else legible(name_file(path))
-        for name, path in zip(names, paths, strict=True)
-    ]
+    distinct = []
+    for name, path in zip(names, paths, strict=True):
+        is_own = name and names.count(name) == 1
+        distinct.append(name if is_own else legible(name_file(path)))
+    return distinct

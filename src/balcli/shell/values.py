@@ -87,10 +87,10 @@ def read_inertia(argument: str, text: str, units: Units = Units.SI) -> float:
     """Return a moment of inertia, kg m2. If the text is not such a figure, or not above 0, raise
     ArgumentError with the argument and the text.
     """
-    found = read_figure(argument, text, INERTIA, units) / 1e6
-    if not 0 < found < LARGEST_INERTIA:
+    inertia = read_figure(argument, text, INERTIA, units) / 1e6
+    if not 0 < inertia < LARGEST_INERTIA:
         raise _refuse(argument, text, f"{wanted(INERTIA)}, above 0")
-    return found
+    return inertia
 
 
 def as_bare_angles(argument: str, text: str) -> str:
@@ -101,11 +101,10 @@ def as_bare_angles(argument: str, text: str) -> str:
         ArgumentError: A text is not an angle; the error names the text and the argument.
     """
     parts = re.split(r"([:,])", text)
-    with_unit = [any(map(str.isalpha, part.replace("e", ""))) or "°" in part for part in parts]
-    return "".join(
-        f"{read_figure(argument, part, ANGLE):.15g}" if said else part
-        for part, said in zip(parts, with_unit, strict=True)
-    )
+    for k, part in enumerate(parts):
+        if "°" in part or any(map(str.isalpha, part.replace("e", ""))):
+            parts[k] = f"{read_figure(argument, part, ANGLE):.15g}"
+    return "".join(parts)
 
 
 def read_number(argument: str, text: str, needed: str) -> float:

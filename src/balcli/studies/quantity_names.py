@@ -199,5 +199,8 @@ def tell_speeds(names: Iterable[str], varied: Iterable[str] = ()) -> str:
     if "operation.speed" in varied:
         return ""
     asked = [name for name in names if not name.endswith(".static")]
-    notes = (note for starts, note in _RANGES.items() if any(n.startswith(starts) for n in asked))
-    return " ".join(f"{note}." for note in notes)
+    notes = []
+    for starts, note in _RANGES.items():
+        if any(name.startswith(starts) for name in asked):
+            notes.append(f"{note}.")
+    return " ".join(notes)

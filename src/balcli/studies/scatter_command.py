@@ -66,7 +66,9 @@ def sheet(result: Scatter, system: System) -> Sheet:
         head = name_with_unit(name, unit.name)
         lines.append((head, *(number(value / unit.size) for value in _list_sizes(spread).values())))
         parts = _group_parts(spread.sensitivity, sources, unit.size)[:SHOWN] or [("0", "any part")]
-        causes += [(head if k == 0 else "", *pair) for k, pair in enumerate(parts)]
+        for change, part in parts:
+            causes.append((head, change, part))
+            head = ""  # only the first row of a quantity names it
     notes = (f"{_list_tolerances(result)}.", f"{BOUND}.", tell_speeds(result.quantities))
     note = " ".join(filter(None, notes))
     title = f"Spread of {count_name(result.samples)} random {result.varied}"

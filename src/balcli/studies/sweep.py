@@ -83,12 +83,14 @@ class Sweep:
     @property
     def columns(self) -> list[str]:
         """Names of the parameters and quantities."""
-        return [*(p.path for p in self.parameters), *(q.name for q in self.quantities)]
+        paths = [parameter.path for parameter in self.parameters]
+        return paths + [quantity.name for quantity in self.quantities]
 
     @property
     def units(self) -> dict[str, str]:
         """Unit of each column, by its name."""
-        return {p.path: p.unit for p in self.parameters} | {q.name: q.unit for q in self.quantities}
+        units = {parameter.path: parameter.unit for parameter in self.parameters}
+        return units | {quantity.name: quantity.unit for quantity in self.quantities}
 
     @cached_property
     def evaluator(self) -> Evaluator:
@@ -129,14 +131,17 @@ class Sweep:
         """Return a sweep of the variants in a box of the grid. The box has a slice, or the indices
         of some values, for each parameter.
         """
-        cuts = zip(self.parameters, box, strict=True)
-        return replace(self, parameters=tuple(replace(p, values=p.values[cut]) for p, cut in cuts))
+        parameters = []
+        for parameter, cut in zip(self.parameters, box, strict=True):
+            parameters.append(replace(parameter, values=parameter.values[cut]))
+        return replace(self, parameters=tuple(parameters))
 
     @property
     def figures(self) -> dict[str, Array]:
         """Values of the varied figures, each along its own axis."""
-        grids = np.meshgrid(*(p.values for p in self.parameters), indexing="ij", sparse=True)
-        return dict(zip((p.path for p in self.parameters), grids, strict=True))
+        paths = [parameter.path for parameter in self.parameters]
+        values = [parameter.values for parameter in self.parameters]
+        return dict(zip(paths, np.meshgrid(*values, indexing="ij", sparse=True), strict=True))
 
     def engine(self) -> Engine:
         """Return all variants as one engine with an axis for each parameter.
@@ -148,8 +153,8 @@ class Sweep:
             return self.evaluator.build(self.figures, len(self.shape))
         except InputError:
             if self.variants == 1:
-                one = {p.path: float(p.values[0]) for p in self.parameters}
-                with naming_file(f"{self.name}: {tell_variant(one)}"):
+                variant = {p.path: float(p.values[0]) for p in self.parameters}
+                with naming_file(f"{self.name}: {tell_variant(variant)}"):
                     raise
             for half in divide_grid(self.shape, math.ceil(self.variants / 2)):
                 self.cut(half).engine()
@@ -247,13 +252,12 @@ def divide_grid(shape: tuple[int, ...], most: int) -> Iterator[Box]:
         axis -= 1
     longest = max(most // math.prod(shape[axis + 1 :]), 1)
     step = math.ceil(shape[axis] / math.ceil(shape[axis] / longest))
+    last = [slice(0, length) for length in shape[axis + 1 :]]
     for fixed in np.ndindex(shape[:axis]):
+        first = [slice(k, k + 1) for k in fixed]
         for start in range(0, shape[axis], step):
-            yield (
-                *(slice(k, k + 1) for k in fixed),
-                slice(start, min(start + step, shape[axis])),
-                *(slice(0, n) for n in shape[axis + 1 :]),
-            )
+            part = slice(start, min(start + step, shape[axis]))
+            yield (*first, part, *last)
 
 
 def evaluate_chunks(sweep: Sweep, share: Share = map) -> Iterator[Chunk]:
@@ -300,9 +304,9 @@ def run_in_order(
     to_do = iter(items)
     waiting = deque(submit(work, item) for item in islice(to_do, ahead))
     while waiting:
-        found = waiting.popleft().result()
+        outcome = waiting.popleft().result()
         waiting.extend(submit(work, item) for item in islice(to_do, 1))
-        yield found
+        yield outcome
 
 
 def split_columns(sweep: Sweep, chunk: Chunk) -> list[Array]:

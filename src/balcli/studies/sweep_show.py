@@ -5,6 +5,7 @@ parameters.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import cycle
@@ -96,7 +97,8 @@ def _lines(sweep: Sweep, chunk: Chunk, nothing: str) -> Iterator[str]:
     back to the same value.
     """
     for row in np.column_stack(split_columns(sweep, chunk)).tolist():
-        yield ",".join([repr(value) if value == value else nothing for value in row])
+        cells = [nothing if math.isnan(value) else repr(value) for value in row]
+        yield ",".join(cells)
 
 
 def make_sheet(sweep: Sweep, figures: Array) -> Sheet:
@@ -112,7 +114,10 @@ def make_sheet(sweep: Sweep, figures: Array) -> Sheet:
         largest = float(np.nanmax(np.abs(values), initial=0))
         unit = unit_of_name(sweep.units[name]).fit(largest)
         sizes = (values / unit.size).tolist()
-        cells = [given(size, 8) for size in sizes] if name in varied else [*map(number, sizes)]
+        if name in varied:
+            cells = [given(size, 8) for size in sizes]
+        else:
+            cells = [number(size) for size in sizes]
         is_first = not shown
         shown.append(Column(name_with_unit(name, unit.name), cells, words=is_first))
     note = tell_speeds((q.name for q in sweep.quantities), sweep.columns)

@@ -34,21 +34,24 @@ _EQUAL = 1e-9  # objectives that differ by less than this ratio are equally good
 def columns(result: Search) -> Columns:
     """Return one row for each arrangement; throws and firing orders are texts with hyphens."""
     first = result.results[0]
-    found: dict[str, Values] = {}
+    values: dict[str, Values] = {}
     for key, value in first.design.items():
-        settings = [one.design[key] for one in result.results]
-        found[key] = list(map(_exactly, settings)) if isinstance(value, list) else settings
-    found["objective"] = [one.objective for one in result.results]
-    found |= {name: [one.quantities[name] for one in result.results] for name in first.quantities}
-    units = {q.name: q.unit for q in result.objective.quantities}
-    set_in = {key: number.unit for key, number in result.ranges.items() if number.unit}
-    return Columns(found, units | set_in)
+        settings = [arrangement.design[key] for arrangement in result.results]
+        values[key] = list(map(_exactly, settings)) if isinstance(value, list) else settings
+    values["objective"] = [arrangement.objective for arrangement in result.results]
+    for name in first.quantities:
+        values[name] = [arrangement.quantities[name] for arrangement in result.results]
+    units = {quantity.name: quantity.unit for quantity in result.objective.quantities}
+    for key, number_ in result.ranges.items():
+        if number_.unit:
+            units[key] = number_.unit
+    return Columns(values, units)
 
 
 def rows(result: Search, _system: System) -> Rows:
     """Return CSV with one arrangement in each line, in SI units."""
-    found = columns(result).values
-    return Rows([*found], [*zip(*found.values(), strict=True)])
+    values = columns(result).values
+    return Rows([*values], [*zip(*values.values(), strict=True)])
 
 
 def sheet(result: Search, _system: System) -> Sheet:
@@ -73,10 +76,15 @@ def sheet(result: Search, _system: System) -> Sheet:
 
 def _title(result: Search) -> str:
     """Return the title of the table, which states whether the rows are equally good."""
-    costs = [one.objective for one in result.results]
-    equal = len(costs) > 1 and max(costs) - min(costs) <= _EQUAL * max(map(abs, costs))
-    word = "No best" if result.constant else "Equally good" if equal else "Best"
-    return f"{word} {_in_words(result.over)}{' with even firing' if result.even_firing else ''}"
+    costs = [arrangement.objective for arrangement in result.results]
+    largest = max(map(abs, costs))
+    word = "Best"
+    if result.constant:
+        word = "No best"
+    elif len(costs) > 1 and max(costs) - min(costs) <= _EQUAL * largest:
+        word = "Equally good"
+    title = f"{word} {_in_words(result.over)}"
+    return f"{title} with even firing" if result.even_firing else title
 
 
 def _in_words(over: str) -> str:
@@ -85,11 +93,11 @@ def _in_words(over: str) -> str:
 
 
 def _notes(result: Search) -> Iterator[str]:
-    ends = [
-        f"{_in_words(key)} {number.values[0]:g} to {number.values[1]:g} deg"
-        for key, number in result.ranges.items()
-        if "." not in key  # the user gave no range, so the note tells it
-    ]
+    ends = []
+    for key, number_ in result.ranges.items():
+        if "." not in key:  # the user gave no range, so the note tells it
+            low, high = number_.values[:2]
+            ends.append(f"{_in_words(key)} {low:g} to {high:g} deg")
     if ends:
         yield f"Searched: {', '.join(ends)}."
     if result.refused:
@@ -106,7 +114,9 @@ def _notes(result: Search) -> Iterator[str]:
 
 def _setting(value: float | list[float]) -> str:
     """Return a number, or several numbers separated by hyphens, as text."""
-    return "-".join(f"{v:.6g}" for v in value) if isinstance(value, list) else f"{value:.9g}"
+    if isinstance(value, list):
+        return "-".join(f"{angle:.6g}" for angle in value)
+    return f"{value:.9g}"
 
 
 def _exactly(value: float | list[float]) -> str:
@@ -178,8 +188,8 @@ def search(
     goal = designs.parse_objective(minimise, limit or (), maximise=maximise, with_gas=with_gas)
     watching = reporting if any("=" in one for one in over) else reporting_until_stopped
     with watching("arrangements") as progress, naming_file(name):
-        found = answer.search_arrangements(model, over, goal, top, bool(require), progress)
-    show([found], RENDERER, form, output)
+        result = answer.search_arrangements(model, over, goal, top, bool(require), progress)
+    show([result], RENDERER, form, output)
     if write is not None:
-        write_file(designs.write_design(text, found.results[0].design, name), write)
+        write_file(designs.write_design(text, result.results[0].design, name), write)
     exit_if_cut_short(progress, "these are the best of them")

@@ -57,15 +57,15 @@ class Slots:
             BalcliError: There are more than MOST_EVEN_CRANKS cranks.
         """
         first = self.first.throw
-        throws = [first, *({c.throw for c in self.cells} - {first})]
-        every = self._place_throws({}, throws, Counter(self._slots))
-        found = list(islice(every, MOST_EVEN_CRANKS + 1))
-        if len(found) > MOST_EVEN_CRANKS:
+        others = {cell.throw for cell in self.cells} - {first}
+        every = self._place_throws({}, [first, *others], Counter(self._slots))
+        cranks = list(islice(every, MOST_EVEN_CRANKS + 1))
+        if len(cranks) > MOST_EVEN_CRANKS:
             raise BalcliError(
                 f"more than {MOST_EVEN_CRANKS} cranks of {len(self.cells)} cylinders have even "
                 "firing orders; give crank.throws, or search over throws"
             )
-        return found
+        return cranks
 
     def _place_throws(
         self, throws: dict[int, float], free: Sequence[int], left: Counter[int]
@@ -75,15 +75,17 @@ class Slots:
         `left` counts the unused slots at each crank position.
         """
         if not free:
-            yield tuple(throws[t] for t in sorted(throws))
+            yield tuple(throws[throw] for throw in sorted(throws))
             return
-        cells = [c for c in self.cells if c.throw == free[0]]
-        lead = self.top[cells[0].number] - self.top[self.first.number]
-        turns = [self.sense * 180.0 * slot / len(self.cells) for slot in sorted(left)]
-        angles = [(lead - turn) % 360.0 for turn in turns]
-        for angle in angles if throws else [0.0]:
-            taken = Counter(self._find_slot(c, angle) for c in cells)
-            if all(left[slot] >= count for slot, count in taken.items()):
+        cells = [cell for cell in self.cells if cell.throw == free[0]]
+        angles = [0.0]
+        if throws:
+            lead = self.top[cells[0].number] - self.top[self.first.number]
+            turns = [self.sense * 180.0 * slot / len(self.cells) for slot in sorted(left)]
+            angles = [(lead - turn) % 360.0 for turn in turns]
+        for angle in angles:
+            taken = Counter(self._find_slot(cell, angle) for cell in cells)
+            if taken <= left:
                 yield from self._place_throws(throws | {free[0]: angle}, free[1:], left - taken)
 
     def find_orders(self, throws: Sequence[float]) -> Iterator[tuple[int, ...]]:
@@ -95,12 +97,13 @@ class Slots:
         for cell in self.cells:
             slot = self._find_slot(cell, throws[cell.throw] - start)
             ready.setdefault(slot, []).append(cell.number)
-        if {slot: len(numbers) for slot, numbers in ready.items()} == Counter(self._slots):
-            for chosen in product(*map(permutations, ready.values())):
-                turns = dict(zip(ready, map(iter, chosen), strict=True))
-                order = tuple(next(turns[slot]) for slot in self._slots)
-                if order[0] == self.first.number:
-                    yield order
+        if {slot: len(numbers) for slot, numbers in ready.items()} != Counter(self._slots):
+            return
+        for chosen in product(*map(permutations, ready.values())):
+            turns = dict(zip(ready, map(iter, chosen), strict=True))
+            order = tuple(next(turns[slot]) for slot in self._slots)
+            if order[0] == self.first.number:
+                yield order
 
     @cached_property
     def _slots(self) -> list[int]:
