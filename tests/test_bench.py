@@ -8,7 +8,8 @@ from balcli.bench import find_exactly, list_cases
 
 LAM = 0.28  # of the cylinder and the V8
 ROUNDING = 1e-13  # of the first order: errors below it are rounding, and differ from machine to machine
-SECOND, EIGHTH = "one cylinder, order 2", "one cylinder, order 8"
+SECOND = "one cylinder, order 2"
+EIGHTH = "one cylinder, order 8"
 ORDERS = {SECOND: 2, EIGHTH: 8, "one V8, force and moment": 8}  # the smallest of each task
 
 
@@ -61,7 +62,8 @@ PAGE = DOCS / "accuracy.md"
 
 def shown() -> dict[tuple[str, str], str]:
     """Errors on the page, by task (heading) and method (first cell of a row; the last one is the error)."""
-    rows, task = {}, ""
+    rows = {}
+    task = ""
     for line in PAGE.read_text(encoding="utf-8").splitlines():
         if line.startswith("## "):
             task = line[3:].strip()
@@ -73,6 +75,7 @@ def shown() -> dict[tuple[str, str], str]:
 
 @pytest.mark.stress
 def test_the_page_shows_every_row_and_its_true_error() -> None:
-    page, found = shown(), errors()
+    page = shown()
+    found = errors()
     told = {key: "rounding" if error < rounding(key[0]) else f"{error:.1e}" for key, error in found.items()}
     assert page == told

@@ -24,7 +24,8 @@ from balcli.show.formats import Format
 
 I4 = str(ENGINES / "i4.toml")
 V8 = str(ENGINES / "v8_crossplane.toml")
-POUND_FORCE, FOOT = 0.45359237 * 9.80665, 0.3048  # N, m by definition
+POUND_FORCE = 0.45359237 * 9.80665
+FOOT = 0.3048  # N, m by definition
 unix = pytest.mark.skipif(sys.platform == "win32", reason="needs a shell and signals")
 ESCAPE = re.compile(r"\x1b\[[0-9;?]*[A-Za-z]")
 
@@ -64,7 +65,8 @@ def test_wrong_usage_shows_how_a_command_is_used(balcli, args, command, message)
 
 def test_an_option_given_twice_is_told_so(balcli, good):
     """Its last value counts, as ever; options that take several say nothing."""
-    once, told = ask("analyze", good, "--only", "moment"), "warning: --{} is given 2 times; the last one is used\n"
+    once = ask("analyze", good, "--only", "moment")
+    told = "warning: --{} is given 2 times; the last one is used\n"
     twice = ("analyze", good, "--only", "force", "--only", "moment")
     assert balcli(*twice) == (0, once, told.format("only"))
     assert ask(*twice, "-q") == once
@@ -143,7 +145,8 @@ def test_imperial_figures_are_the_metric_ones_in_other_units(balcli, good):
             if r["unit"] not in ("deg", "")
         }
 
-    metric, imperial = values(), values("--units", "imperial")
+    metric = values()
+    imperial = values("--units", "imperial")
     assert metric.keys() == imperial.keys()
     for key, (value, unit) in metric.items():
         size, name = {"N": (POUND_FORCE, "lbf"), "N·m": (POUND_FORCE * FOOT, "lbf·ft")}[unit]

@@ -27,7 +27,8 @@ STRESSED = [pytest.param(path, marks=[pytest.mark.stress] * (path != README)) fo
 
 @pytest.mark.parametrize("document", STRESSED, ids=name_document)
 def test_everything_shown_is_what_is_printed(document: Path, tmp_path: Path) -> None:
-    text, folder = document.read_text(encoding="utf-8"), guide.project(tmp_path)
+    text = document.read_text(encoding="utf-8")
+    folder = guide.project(tmp_path)
     for name, content in guide.files(text).items():
         (folder / name).write_text(content, encoding="utf-8")
     wrong = [
@@ -51,7 +52,8 @@ def test_every_python_example_of_the_tour_shows_what_it_prints() -> None:
 
 def test_comparison_sees_a_changed_figure_and_passes_over_what_is_left_out() -> None:
     found = ["force", "1  2.5", "2  0.5", "", "end"]
-    same, other = ["force", "…", "2  0.5", "…"], ["force", "…", "2  0.6", "…"]
+    same = ["force", "…", "2  0.5", "…"]
+    other = ["force", "…", "2  0.6", "…"]
     assert all(guide.agrees(shown, found) for shown in (found, same))
     assert not any(guide.agrees(shown, found) for shown in (other, ["force", "1  2.5"], ["1  2.5", "…"]))
     assert guide.agrees(["0.12345678901,0.0"], ["0.12345678902,-1.23456789012e-16"])
@@ -126,7 +128,8 @@ def test_picture_of_the_readme_is_what_its_command_draws(tmp_path: Path) -> None
     command = re.search(rf"`(balcli plot .+{picture.name})`", text)[1]
     shutil.copy(guide.ROOT / "engines" / "i3.toml", tmp_path)
     guide.printed(guide.Shown(command, [], 0, 0), tmp_path)
-    kept, drawn = picture.read_text("utf-8"), (tmp_path / picture.name).read_text("utf-8")
+    kept = picture.read_text("utf-8")
+    drawn = (tmp_path / picture.name).read_text("utf-8")
     labels = re.findall(">([^<]+)</text>", kept)
     assert len(labels) > 10
     assert labels == re.findall(">([^<]+)</text>", drawn)

@@ -89,9 +89,11 @@ def test_a_dict_is_the_document_that_the_command_writes(name):
 @pytest.mark.parametrize("name", ANSWERS)
 def test_rows_are_the_same_everywhere(name, tmp_path):
     """With the same keys, no nan and one type a column; numbers stay numbers where some are missing."""
-    pandas, parquet = pytest.importorskip("pandas"), pytest.importorskip("pyarrow.parquet")
+    pandas = pytest.importorskip("pandas")
+    parquet = pytest.importorskip("pyarrow.parquet")
     answer = ANSWERS[name][0]()
-    rows, frame = answer.rows(), answer.to_pandas()
+    rows = answer.rows()
+    frame = answer.to_pandas()
     assert {tuple(row) for row in rows} == {tuple(frame)}
     for column in tuple(frame):
         values = [row[column] for row in rows if row[column] is not None]
@@ -115,7 +117,8 @@ def read_page(shown: Result) -> str:
 @pytest.mark.parametrize("name", [name for name in ANSWERS if name not in ("Curves", "Swept")])
 def test_a_notebook_shows_what_the_command_prints(name):
     """Every word, in tables whose tags are closed."""
-    page, plain = read_page(ANSWERS[name][0]()), print_answer(name, "markdown")
+    page = read_page(ANSWERS[name][0]())
+    plain = print_answer(name, "markdown")
     words = re.sub(r"[\\|*#]|^- |--+:?", " ", plain, flags=re.MULTILINE).split()
     assert [word for word in words if word.rstrip(":") not in page] == []
 

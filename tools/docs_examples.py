@@ -126,7 +126,9 @@ def _inside(command: str, folder: Path) -> tuple[object, str]:
     """A command without a shell's help, in this process, which is quicker."""
     from balcli.cli import main
 
-    output, argv, sys.argv = StringIO(), sys.argv, shlex.split(command)
+    output = StringIO()
+    argv = sys.argv
+    sys.argv = shlex.split(command)
     try:
         with chdir(folder), redirect_stdout(output), redirect_stderr(output), WIDTH:
             main()

@@ -47,7 +47,8 @@ def on_config(config: Any) -> Any:
     """MkDocs asks for its settings: where the project lives."""
     settings = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
     addresses = settings["tool"]["hatch"]["metadata"]["hooks"]["custom"]
-    config.site_url, repository = addresses["documentation"], addresses["repository"]
+    config.site_url = addresses["documentation"]
+    repository = addresses["repository"]
     # not as repo_url, for which the theme would ask the host for stars at every visit
     config.extra["repository"] = repository
     config.extra["social"] = [{"icon": "material/git", "link": repository, "name": "Source"}]
@@ -84,7 +85,8 @@ def link_here(text: str, repository: str) -> str:
     """Links of a page at the root: to the pages of the site; what is none, to the repository."""
 
     def target(found: re.Match[str]) -> str:
-        path, heading = found[1], found[2] or ""
+        path = found[1]
+        heading = found[2] or ""
         if path.startswith("docs/"):
             return f"]({path.removeprefix('docs/').replace('.ipynb', '.md')}{heading})"
         if path in PAGES or path == "README.md":

@@ -23,7 +23,8 @@ from balcli.file.schema import describe_engine_file
 from balcli.file.table import FileTable, document_keys
 
 DOCUMENT = Path(__file__).resolve().parent.parent / "docs" / "engine-file.md"
-BEGIN, END = "<!-- tables: python tools/engine_file_reference.py -->\n", "<!-- end of tables -->\n"
+BEGIN = "<!-- tables: python tools/engine_file_reference.py -->\n"
+END = "<!-- end of tables -->\n"
 
 
 def tables() -> str:
@@ -77,7 +78,8 @@ def _part(
 
 
 def _row(key: str, table: type[FileTable], definition: dict[str, Any]) -> str:
-    shown, document = definition["properties"][key], document_keys(table)[key]
+    shown = definition["properties"][key]
+    document = document_keys(table)[key]
     unit = shown.get("unit") or shown.get("items", {}).get("unit", "")
     meaning = document.description
     if options := shown.get("enum"):

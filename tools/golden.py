@@ -320,7 +320,8 @@ def run(case: str, code: str | None) -> dict[str, object]:
             for name, content in files(document.read_text(encoding="utf-8")).items():
                 (folder / name).write_text(content, encoding="utf-8")
         before = {p for p in folder.rglob("*") if p.is_file()}
-        out, err = Path(temporary) / "out", Path(temporary) / "err"
+        out = Path(temporary) / "out"
+        err = Path(temporary) / "err"
         child = os.fork()
         if not child:
             _child(case, code, folder, out, err)
@@ -419,7 +420,8 @@ def numbers_differ(old: object, new: object) -> str | None:
                 largest[path] = max(largest.get(path, 0), abs(value))
             yield path, path, value
 
-    olds, news = list(walk(old, "")), list(walk(new, ""))
+    olds = list(walk(old, ""))
+    news = list(walk(new, ""))
     for (path, _, a), (other, _, b) in zip(olds, news, strict=False):
         if path != other:
             return f"{path} became {other}"
@@ -455,7 +457,8 @@ def csv_differs(old: str, new: str) -> str | None:
             rows.append(line)
         return rows
 
-    one, other = cells(old), cells(new)
+    one = cells(old)
+    other = cells(new)
     if len(one) != len(other):
         return f"{len(one)} rows became {len(other)}"
     for a, b in zip(one, other, strict=True):

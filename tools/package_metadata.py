@@ -19,7 +19,8 @@ class ProjectAddresses(MetadataHookInterface):
 
     def update(self, metadata: dict[str, Any]) -> None:
         """Hatchling's: metadata with a version in, readme and urls added."""
-        repository, documentation = self.config["repository"], self.config["documentation"]
+        repository = self.config["repository"]
+        documentation = self.config["documentation"]
         readme = (Path(self.root) / "README.md").read_text(encoding="utf-8")
         metadata["urls"] = {
             "Documentation": documentation,

@@ -179,7 +179,11 @@ def _cut_series(power: int) -> Coefficients:
         n: [(p, float(c)) for p, c in power_series.piston(n, power).items() if p <= power]
         for n in range(1, 65)
     }
-    return lambda orders, lam: np.array([sum(c * lam**p for p, c in terms[n]) for n in orders])
+
+    def add_up(orders: list[int], lam: float) -> Array:
+        return np.array([sum(c * lam**p for p, c in terms[n]) for n in orders])
+
+    return add_up
 
 
 def _accelerate(psi: Array, lam: float) -> Array:

@@ -55,7 +55,8 @@ def test_rows_and_print_have_one_shape():
 @pytest.mark.parametrize("name", [n for n in NAMES if n not in ("series", "statements", "published", "layouts")])
 def test_errata_are_the_figures_that_rounding_does_not_give(name):
     """The rule once more, from the values and texts alone."""
-    table, wrong = recompute(name), set()
+    table = recompute(name)
+    wrong = set()
     for i, (row, words) in enumerate(zip(table.exact, table.printed, strict=True)):
         for column, value, text in zip(table.columns, row, words, strict=True):
             if isinstance(value, float) and text is not None and "/" not in text:
@@ -165,7 +166,8 @@ def test_errors_of_two_terms():
     for _ in range(3):
         error = np.abs(two - place)
         wanted += [error.max(), 100 * error.max() / np.abs(place).max()]
-        place, two = np.gradient(place, psi, edge_order=2), np.gradient(two, psi, edge_order=2)
+        place = np.gradient(place, psi, edge_order=2)
+        two = np.gradient(two, psi, edge_order=2)
     found = [row[1] for row in recompute("tsinghua-two-terms", lambda_="0.25").exact]
     assert [found[n] for n in (0, 1, 4, 5, 8, 9)] == pytest.approx(wanted, rel=1e-3)
     assert found[9] == pytest.approx(0.66, abs=0.005)

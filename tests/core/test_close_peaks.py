@@ -13,7 +13,9 @@ def find_each(function, low, high):
 
 def test_a_parabola_is_found_exactly_and_an_end_is_an_end():
     """The third falls all the way."""
-    places, low, high = np.array([0.1, 7.0, -3.0]), np.array([0.0, 5, -3]), np.array([1.0, 8, -2])
+    places = np.array([0.1, 7.0, -3.0])
+    low = np.array([0.0, 5, -3])
+    high = np.array([1.0, 8, -2])
     at, heights = find_each(lambda x, k: 4 - (x - places[k]) ** 2, low, high)
     assert at[:2] == pytest.approx(places[:2], rel=1e-12)
     assert heights[:2] == pytest.approx(4, rel=1e-15)
@@ -22,7 +24,8 @@ def test_a_parabola_is_found_exactly_and_an_end_is_an_end():
 
 def test_resonances_as_wide_as_the_interval():
     """|1 / (w0^2 - w^2 + 2 i d w0 w)| is largest at w0 sqrt(1 - 2 d^2)."""
-    own, damping = np.array([1.0, 40.0]), np.array([0.05, 0.3])
+    own = np.array([1.0, 40.0])
+    damping = np.array([0.05, 0.3])
 
     def amplify(w, k):
         return 1 / np.abs(own[k] ** 2 - w**2 + 2j * damping[k] * own[k] * w)

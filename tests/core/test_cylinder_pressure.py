@@ -43,7 +43,8 @@ def test_an_offset_mechanism_has_its_own_dead_centres(offset):
 def test_the_angle_of_a_travel(offset):
     piston = slider_crank_piston(*LENGTHS, offset)
     for travel in np.linspace(0, piston.stroke, 7):
-        down, up = piston.angle_of(travel), piston.angle_of(travel, upward=True)
+        down = piston.angle_of(travel)
+        up = piston.angle_of(travel, upward=True)
         assert 0 <= down <= piston.bottom <= up <= 2 * np.pi
         assert piston.travel(np.array([down, up])) == pytest.approx([travel, travel], abs=1e-16)
 
@@ -59,7 +60,8 @@ def hung_on_a_master_rod(psi, lead, crank=60.0, rod=240.0, knuckle=52.0, slave=1
 
 def test_pistons_of_a_radial_with_a_master_rod():
     found = pistons(load(ENGINES / "radial7_articulated.toml").cylinders, 0.01)
-    angle, strokes = np.linspace(0, 2 * np.pi, 721), []
+    angle = np.linspace(0, 2 * np.pi, 721)
+    strokes = []
     for row, piston in enumerate(found):
         place = partial(hung_on_a_master_rod, lead=row * 360 / 7, **({} if row else {"knuckle": 0.0, "slave": 240.0}))
         top = place(np.array(piston.top))
@@ -78,7 +80,8 @@ def test_pistons_of_a_radial_with_a_master_rod():
 def test_a_constant_pressure_has_the_harmonics_of_the_piston(offset):
     """-s''/r is Re sum c_n e^{i n psi}, so -s' is r Re sum c_n/(i n) e^{i n psi}."""
     radius, rod, bore = LENGTHS
-    piston, cycle = slider_crank_piston(*LENGTHS, offset), np.array([0, 4 * np.pi])
+    piston = slider_crank_piston(*LENGTHS, offset)
+    cycle = np.array([0, 4 * np.pi])
     found = press(piston, polyline(cycle, [7e5, 7e5]), cycle).harmonics(HALVES)
     n = np.arange(1, 25)
     mechanism = find_harmonics(n, np.array([radius / rod]), np.array([offset / rod]))

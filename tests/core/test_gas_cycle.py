@@ -14,7 +14,8 @@ OF_THE_LARGEST = 1e-12  # harmonics
 RELATIVE = 1e-12  # imep
 LENGTHS = 0.045, 0.15, 0.086  # radius, rod, bore
 HALVES = [0, 1, 2, 3, 8, 31, 48]
-SPARK, DIESEL = {"compression_ratio": 10.5}, {"compression_ratio": 17.0}
+SPARK = {"compression_ratio": 10.5}
+DIESEL = {"compression_ratio": 17.0}
 LATE = {"exhaust_opens": 140.0, "intake_closes": 580.0}
 PORTS = {"exhaust_opens": 110.0, "strokes": 2}
 
@@ -26,7 +27,11 @@ def _digits():
 
 
 def reference(process, heat, offset):
-    p, angle = process, lambda degrees: mp.radians(mp.mpf(degrees))
+    p = process
+
+    def angle(degrees):
+        return mp.radians(mp.mpf(degrees))
+
     kind = {
         "wiebe": ("wiebe", angle(p.burn_start), angle(p.burn_duration), mp.mpf(p.burn_shape)),
         "otto": ("otto",),
@@ -50,7 +55,8 @@ def reference(process, heat, offset):
     )
 
 
-OTTO, DIESELS = {"cycle": "otto"}, {"cycle": "diesel"}
+OTTO = {"cycle": "otto"}
+DIESELS = {"cycle": "diesel"}
 
 
 def wiebe(start, duration, **shape):

@@ -18,7 +18,8 @@ def exact(matrix, target, weights=None) -> np.ndarray:
     """The least squares in fifty digits: by the normal equations of a matrix of full rank."""
     with mpmath.workdps(50):
         scale = mpmath.diag([mpmath.mpf(w) for w in (np.ones(len(target)) if weights is None else weights)])
-        a, b = scale * mpmath.matrix(matrix.tolist()), scale * mpmath.matrix(target.tolist())
+        a = scale * mpmath.matrix(matrix.tolist())
+        b = scale * mpmath.matrix(target.tolist())
         x = mpmath.lu_solve(a.H * a, a.H * b)
         return np.array([complex(v) for v in x])
 
@@ -32,7 +33,8 @@ def residual_in_fifty_digits(matrix, x, target) -> np.ndarray:
 @pytest.mark.parametrize("seed", range(2))
 @pytest.mark.parametrize(("readings", "unknowns"), [(1, 1), (3, 3), (4, 2), (12, 5)])
 def test_complex_unknowns_as_in_fifty_digits(readings, unknowns, seed):
-    matrix, target = random(seed, readings, unknowns), random(seed + 100, readings)
+    matrix = random(seed, readings, unknowns)
+    target = random(seed + 100, readings)
     found = solve(matrix, target)
     assert found.x == pytest.approx(exact(matrix, target), rel=1e-13 * found.condition, abs=0)
     left = residual_in_fifty_digits(matrix, found.x, target)
@@ -42,7 +44,8 @@ def test_complex_unknowns_as_in_fifty_digits(readings, unknowns, seed):
 
 
 def test_weights_multiply_the_residuals():
-    matrix, target = random(3, 5, 2), random(4, 5)
+    matrix = random(3, 5, 2)
+    target = random(4, 5)
     weights = np.array([1e6, 1.0, 1e-6, 0.0, 2.0])
     found = solve(matrix, target, weights)
     assert found.x == pytest.approx(exact(matrix, target, weights), rel=1e-9)
@@ -68,7 +71,8 @@ def test_what_can_be_cancelled_is_cancelled_to_rounding(condition, seed):
 def test_columns_of_very_different_size():
     """Kilograms beside micrograms."""
     sizes = np.array([1.0, 1e-6, 1e-9])
-    matrix, x = random(5, 8, 3) * sizes, np.array([1 + 2j, 3e6j, -1e9])
+    matrix = random(5, 8, 3) * sizes
+    x = np.array([1 + 2j, 3e6j, -1e9])
     found = solve(matrix, matrix @ x)
     assert found.x * sizes == pytest.approx(x * sizes, rel=1e-12)
     assert found.rank == 3
@@ -76,18 +80,22 @@ def test_columns_of_very_different_size():
 
 def test_of_many_solutions_the_smallest():
     """Two equal columns share what one would do alone, as in fifty digits."""
-    columns, target = random(8, 6, 2), random(9, 6)
+    columns = random(8, 6, 2)
+    target = random(9, 6)
     matrix = columns[:, [0, 1, 0]]
-    found, two = solve(matrix, target), exact(columns, target)
+    found = solve(matrix, target)
+    two = exact(columns, target)
     assert found.x == pytest.approx([two[0] / 2, two[1], two[0] / 2], rel=1e-13)
     assert (found.rank, found.condition) == (2, np.inf)
 
 
 def test_more_unknowns_than_readings():
     """The smallest x is `A* (A A*)^-1 b`."""
-    matrix, target = random(10, 2, 5), random(11, 2)
+    matrix = random(10, 2, 5)
+    target = random(11, 2)
     with mpmath.workdps(50):
-        a, b = mpmath.matrix(matrix.tolist()), mpmath.matrix(target.tolist())
+        a = mpmath.matrix(matrix.tolist())
+        b = mpmath.matrix(target.tolist())
         smallest = [complex(v) for v in a.H * mpmath.lu_solve(a * a.H, b)]
     found = solve(matrix, target)
     assert found.x == pytest.approx(smallest, rel=1e-12)

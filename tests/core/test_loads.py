@@ -136,7 +136,8 @@ def test_errors_of_a_curve_stay_within_the_bounds_of_the_forces(name, size):
     few, which = c.linkage.find_distinct_harmonics(LOW, c.lam, c.eps, SERIES)
     exact = select_cylinders(few, which)
     exact["piston"] = Series(0 * exact["piston"].c)
-    along, across = exact["along"].c, exact["across"].c
+    along = exact["along"].c
+    across = exact["across"].c
     curve = {"along": Series(along, size * np.ones(1)), "across": Series(across, 3 * size)}
     for turn in (1, -1, 1j, -1j):
         off = {"along": Series(along + size), "across": Series(across + 3 * turn * size)}

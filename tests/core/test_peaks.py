@@ -66,7 +66,8 @@ def test_after_which_angle_a_curve_repeats_its_size(parts, every):
 
 def test_a_narrow_peak_between_samples():
     """All orders in step at an angle that no regular sampling meets: their sum there, and the angle itself."""
-    orders, at = np.arange(1, 41), 1.2345678
+    orders = np.arange(1, 41)
+    at = 1.2345678
     found = find_peak(curve(*[(n, 0.5 * np.exp(-1j * n * at), 0.5 * np.exp(1j * n * at)) for n in orders]))
     assert found.value == pytest.approx(40, rel=RELATIVE)
     assert found.theta == pytest.approx(at, abs=1e-9)

@@ -86,7 +86,8 @@ def test_longest_vector(components):
 
 
 def test_ellipse_of_a_circle_and_of_a_line():
-    circle, line = np.array([3, 3j, 0]), np.array([3, 0, 4]) * np.exp(1.2j)
+    circle = np.array([3, 3j, 0])
+    line = np.array([3, 0, 4]) * np.exp(1.2j)
     assert largest_of_ellipse(np.array([circle, line])) == pytest.approx([3, 5])
 
 

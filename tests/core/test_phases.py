@@ -11,7 +11,8 @@ from balcli.core.mechanisms.closed_form import Series
 from balcli.core.phases import Phases, SeparatePhases
 
 ORDERS = np.array([0.0, 1.0, 2.0, 5.0])
-AXES, PINS = [-20.0, 70.0], [0.0, 130.0, 250.0, 10.0, 140.0]
+AXES = [-20.0, 70.0]
+PINS = [0.0, 130.0, 250.0, 10.0, 140.0]
 BANKS = [0, 0, 0, 1, 1]
 ARMS = np.array([-0.2, 0.0, 0.1, 0.3, 0.5])
 ROUNDING = 1e-14
@@ -44,10 +45,12 @@ def turned(n: float, cylinder: int, first: int) -> tuple[complex, complex, compl
 @pytest.mark.parametrize("arms", [None, ARMS])
 def test_vectors_and_scalars_are_turned_and_added_up(columns, arms, first):
     """Equal vectors are taken out of the sum, others not; the result is the same."""
-    forward, mirrored = random(1, columns), random(2, columns)
+    forward = random(1, columns)
+    mirrored = random(2, columns)
     vectors = Series(np.array((forward, mirrored)), np.zeros((len(ORDERS), 1)))
     phases = Phases(cylinders(first), ORDERS)
-    found, scalar = phases.add_vectors(vectors, arms, arms), phases.add_scalars(Series(forward))
+    found = phases.add_vectors(vectors, arms, arms)
+    scalar = phases.add_scalars(Series(forward))
     for row, n in enumerate(ORDERS):
         ahead = astern = about = 0j
         for k in range(5):

@@ -85,7 +85,8 @@ def test_components_along_x_and_y(forward, backward):
 
 # ------------------------------------------------------------------ scalars and means
 def test_a_scalar_is_a_real_curve():
-    orders, c = np.array([0.0, 1.0, 4.0]), np.array([2 + 0j, 3 - 1j, -0.5j])
+    orders = np.array([0.0, 1.0, 4.0])
+    c = np.array([2 + 0j, 3 - 1j, -0.5j])
     phasors = Phasors.from_scalar(orders, c, np.zeros(3))
     curve = sum((c[k] * np.exp(1j * n * THETA)).real for k, n in enumerate(orders))
     assert phasors.values(THETA).real == pytest.approx(curve, abs=1e-14)
@@ -97,7 +98,8 @@ def test_a_scalar_is_a_real_curve():
 
 # ------------------------------------------------------------------ arithmetic
 def test_sums_scales_and_turns_are_those_of_the_curve():
-    a, b = one(3 + 4j, 1 - 2j, noise=1e-3), one(-1j, 2, noise=2e-3)
+    a = one(3 + 4j, 1 - 2j, noise=1e-3)
+    b = one(-1j, 2, noise=2e-3)
     assert (a + b).values(THETA) == pytest.approx(a.values(THETA) + b.values(THETA), abs=1e-13)
     assert (a - b).values(THETA) == pytest.approx(a.values(THETA) - b.values(THETA), abs=1e-13)
     assert (2j * a).values(THETA) == pytest.approx(2j * a.values(THETA), abs=1e-13)

@@ -31,7 +31,8 @@ def test_harmonics_of_a_smooth_function(breaks):
 def test_harmonics_so_high_that_a_panel_holds_many_waves_of_them():
     """|sin x| has 4/(pi (1 - k^2)) in the even k, and nothing in the odd ones."""
     curve = resolved(lambda x: np.abs(np.sin(x)), [0, np.pi, TURN])
-    found, k = curve.harmonics(np.arange(802)), np.arange(2, 801, 2)
+    found = curve.harmonics(np.arange(802))
+    k = np.arange(2, 801, 2)
     np.testing.assert_allclose(found[2::2], 4 / (np.pi * (1 - k**2.0)), rtol=0, atol=5e-14)
     assert np.abs(found[1::2]).max() < 5e-14
 
@@ -45,7 +46,8 @@ def test_a_harmonic_alone_is_that_of_the_whole_row():
 
 
 def test_values_mean_and_integral():
-    curve, angle = resolved(smooth, [0, 1, TURN]), np.linspace(-20, 20, 501).reshape(3, 167)
+    curve = resolved(smooth, [0, 1, TURN])
+    angle = np.linspace(-20, 20, 501).reshape(3, 167)
     np.testing.assert_allclose(curve.at(angle), smooth(angle), rtol=1e-13)
     assert curve.period == pytest.approx(TURN)
     assert curve.mean == pytest.approx(bessel(0), rel=RELATIVE)
@@ -126,14 +128,16 @@ def test_a_breakpoint_is_itself_however_many_turns_off_and_however_rounded(turns
 
 
 def test_breakpoints_of_a_sum():
-    a, b = np.array([-1.0, 0.0, 2.0, 3.0]), np.array([0.0, 1.0, 4.0])
+    a = np.array([-1.0, 0.0, 2.0, 3.0])
+    b = np.array([0.0, 1.0, 4.0])
     assert merged_breaks([(a, 0.0)], 4.0).tolist() == [0, 2, 3, 4]
     assert merged_breaks([(a, 0.5), (b, 1e-13), (b, 3.0)], 4.0) == pytest.approx([0, 0.5, 1, 2.5, 3, 3.5, 4])
 
 
 def test_nothing_but_rounding_errors_has_an_end():
     """Twenty-four cylinders without gas: halving panels for ever filled the memory."""
-    random, asked = np.random.default_rng(1), []
+    random = np.random.default_rng(1)
+    asked = []
 
     def noise(angle):
         asked.append(angle.size)

@@ -142,7 +142,8 @@ def test_largest_in_polygons(case):
 
 def test_one_unknown_in_a_wedge():
     """By hand: -1 is nearest to 0 among all weights at 0 and 60 deg, 1j to its edge at 60 deg."""
-    wedge, one = [find_region(np.array([0.0, 60]), np.inf)], np.ones(1)
+    wedge = [find_region(np.array([0.0, 60]), np.inf)]
+    one = np.ones(1)
     matrix = np.ones((1, 1), dtype=complex)
     edge = np.cos(np.pi / 6) * np.exp(1j * np.pi / 3)
     for largest in (False, True):

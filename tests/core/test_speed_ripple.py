@@ -64,7 +64,9 @@ def test_two_sided_coefficients_of_the_speed(lines):
 @pytest.mark.parametrize("lines", LINES.values(), ids=LINES.keys())
 def test_force_couple_and_torque(lines, what):
     """-W (W G)'; the same of the moment of momentum with its mean; -(1/2 I W^2)', 1/2 I likewise with its mean."""
-    w, mean, last = partial(speed, lines), 0.0 if what == "force" else 3.0, what == "torque"
+    w = partial(speed, lines)
+    mean = 0.0 if what == "force" else 3.0
+    last = what == "torque"
 
     def carried(theta):
         return momentum(theta) if what == "force" else mean + momentum(theta, np.conj(FORWARD)).real
@@ -104,7 +106,8 @@ def test_the_bound_holds_for_errors_of_the_parts(lines, mean):
     """Errors of the size that the parts' noise tells, with signs as they come, move no order by
     more than the bound; and the bound knows of lines no more than their sizes.
     """
-    w, level = (ripple.find_speed(lines), ripple.find_speed([(order, size, 0.0) for order, size, _ in lines]))
+    w = ripple.find_speed(lines)
+    level = ripple.find_speed([(order, size, 0.0) for order, size, _ in lines])
     random = np.random.default_rng(7)
     for of_torque in (False, True):
         noise = 1e-9 * random.uniform(1, 2, 15)
@@ -146,7 +149,8 @@ def test_a_speed_of_half_orders_mixes_into_half_orders_as_the_curves_over_the_an
 def test_orders_of_the_time(lines, step):
     """Phasors of a curve over equal steps of time: mean, halves where there are some, in both senses of rotation."""
     turns = round(1 / step)
-    over_angle, orders = np.arange(0, 8 + step, step), np.arange(0, 12 + step, step)
+    over_angle = np.arange(0, 8 + step, step)
+    orders = np.arange(0, 12 + step, step)
     rng = np.random.default_rng(5)
     forward, backward = rng.normal(size=(2, len(over_angle), 2)) @ [1, 1j]
     backward[0] = 0

@@ -111,7 +111,8 @@ def test_of_an_inertia_that_nearly_vanishes_rounding_errors_are_not_resolved():
     a = 1e-6
     free = resolved(lambda angle: 0 * angle, [0, TURN])
     found = speed_variation(free, lambda angle: (2 + a - np.cos(angle) ** 2) - 1, MEAN)
-    low, high = np.sqrt(a), np.sqrt(1 + a)
+    low = np.sqrt(a)
+    high = np.sqrt(1 + a)
     exact = float(mp.agm(low, high)) * (1 / low - 1 / high)
     assert found.fluctuation == pytest.approx(exact, rel=1e-6)
     assert len(found.speed.breaks) < 20_000

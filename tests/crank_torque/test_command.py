@@ -255,7 +255,8 @@ def test_sweeps_of_gas_and_torque_are_what_torque_says(four, tmp_path):
     assert row[5] == pytest.approx(found["mean_torque_Nm"], rel=1e-12)
     assert row[6] == pytest.approx(found["torque"]["max_Nm"], rel=1e-12)
     assert row[7] == pytest.approx(found["flywheel"]["fluctuation"], rel=1e-9)
-    bare, asked = write(tmp_path / "bare.toml", FOUR), ("--vary", "rod.length=140,150", "--quantity")
+    bare = write(tmp_path / "bare.toml", FOUR)
+    asked = ("--vary", "rod.length=140,150", "--quantity")
     assert ask("sweep", bare, *asked, "torque.2.amplitude").startswith("rod.length,torque.2.amplitude")
     assert refusal("sweep", bare, *asked, "gas.2.amplitude") == f"{bare}: gas.2.amplitude: the engine file has no [gas]"
 
@@ -293,7 +294,8 @@ def test_what_names_a_file_beside_it_is_written_beside_it(tmp_path):
 @pytest.mark.parametrize("only", ["gas", "inner", "guide"])
 def test_engines_of_different_cycles_are_compared_by_the_orders_of_both(tmp_path, only):
     """A misfire makes half orders, which a two-stroke engine does not have."""
-    four, two = tmp_path / "four.toml", tmp_path / "two.toml"
+    four = tmp_path / "four.toml"
+    two = tmp_path / "two.toml"
     four.write_text(FOUR + WIEBE + "[cylinder.3]\ngas = 0\n")
     two.write_text(FOUR.replace("firing_order = [1, 3, 4, 2]", "strokes = 2") + WIEBE)
     found = ask_json("compare", four, two, "--only", only)

@@ -86,7 +86,8 @@ def test_inertia_that_cancels_makes_no_torque(strokes):
     for number in engine.numbers:
         engine = silence(engine, number)
     found = torque(engine)
-    lowest, highest = found.torque.min_Nm, found.torque.max_Nm
+    lowest = found.torque.min_Nm
+    highest = found.torque.max_Nm
     assert found.energy.work_J == 0
     if strokes == 2:
         assert (lowest, highest, found.energy.surplus_J) == (0, 0, 0)
@@ -101,9 +102,11 @@ def speed_by_steps(found, first: float, steps: int = 24):
     `I omega omega' + 1/2 I' omega^2 = T - mean`, from the speed at angle 0; I' by differences.
     """
     torque = find_torque_curves(found).gas
-    moving, still = find_moving_inertia(found), found.flywheel_inertia
+    moving = find_moving_inertia(found)
+    still = found.flywheel_inertia
     breaks = torque.breaks
-    angle, end = [], []
+    angle = []
+    end = []
     for low, high in pairwise(breaks):
         width = (high - low) / steps
         angle += [low + k * width / 2 for k in range(2 * steps)]
@@ -112,14 +115,16 @@ def speed_by_steps(found, first: float, steps: int = 24):
     inside = torque.at(angle) - torque.mean
     before = torque.at(angle - 1e-10) - torque.mean
     inertia = still + moving(angle)
-    shift, weights = 2e-3, {1: 3 / 4, 2: -3 / 20, 3: 1 / 60}
+    shift = 2e-3
+    weights = {1: 3 / 4, 2: -3 / 20, 3: 1 / 60}
     slope = sum(w * (moving(angle + k * shift) - moving(angle - k * shift)) for k, w in weights.items())
     slope = slope / shift
 
     def rate(k, omega, values):
         return (values[k] - 0.5 * slope[k] * omega**2) / (inertia[k] * omega)
 
-    omega, speeds = first, [first]
+    omega = first
+    speeds = [first]
     for k in range(0, len(angle) - 1, 2):
         h = angle[k + 2] - angle[k]
         a = rate(k, omega, inside)
@@ -135,7 +140,8 @@ def speed_by_steps(found, first: float, steps: int = 24):
 @pytest.mark.parametrize("seed", [0, 5])
 def test_the_speed_against_steps_in_time(seed):
     found = on_crank(150000, seed)
-    parts, still = find_moving_inertia(found), found.flywheel_inertia
+    parts = find_moving_inertia(found)
+    still = found.flywheel_inertia
     gas = find_torque_curves(found).gas
     exact = speed_variation(gas, lambda angle: still + parts(angle), float(found.omega))
     breaks, speeds = speed_by_steps(found, float(exact.speed.at(gas.breaks[0])))
@@ -159,7 +165,8 @@ def test_fluctuation_and_needed_inertia():
 
 def test_lines_of_the_speed_add_up_to_it():
     found = torque(on_crank(2e5, 4))
-    speed, theta = found.flywheel, np.radians(found.flywheel.speed_max_deg)
+    speed = found.flywheel
+    theta = np.radians(found.flywheel.speed_max_deg)
     lines = sum(line.amplitude * np.cos(line.order * theta - np.radians(line.angle_deg)) for line in speed.lines)
     share = speed.speed_max_rpm / found.speed_rpm - 1
     assert lines == pytest.approx(share, rel=2e-3)
@@ -176,7 +183,9 @@ def test_inertia_of_the_crank():
     )
     rotary += WIEBE + FLYWHEEL.format(1e5)
     more = rotary.replace("throw_mass = 0.5", "throw_mass = 0.5\ninertia = 90000")
-    plain, given, angle = build_text(rotary), build_text(more), np.linspace(0, 6, 7)
+    plain = build_text(rotary)
+    given = build_text(more)
+    angle = np.linspace(0, 6, 7)
     assert find_moving_inertia(given)(angle) == pytest.approx(find_moving_inertia(plain)(angle))
     assert find_constant_inertia(given) == find_constant_inertia(plain) == pytest.approx(0.1)
 
@@ -184,7 +193,8 @@ def test_inertia_of_the_crank():
 def test_the_inertia_torque_is_half_the_slope_of_the_inertia():
     """-1/2 I' omega^2, by differences."""
     found = draw_engine(3)
-    angle, shift = np.linspace(0, 6, 7), 1e-4
+    angle = np.linspace(0, 6, 7)
+    shift = 1e-4
     moving = find_moving_inertia(found)
     slope = (moving(angle + shift) - moving(angle - shift)) / (2 * shift)
     want = -0.5 * slope * float(found.omega) ** 2

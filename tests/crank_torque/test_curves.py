@@ -22,7 +22,8 @@ def test_gas_does_the_same_in_a_cylinder_that_turns():
     """At rest but for a hundredth of a turn in a minute. All that acts across counts to where the crank pin goes after
     top dead centre, the angle of the rod too: while gas presses, the piston leans away from the crank pin.
     """
-    plain, turning = of_cylinder().curves, of_cylinder(rotary=True).curves
+    plain = of_cylinder().curves
+    turning = of_cylinder(rotary=True).curves
     for name in ("rod_angle_deg", "side_thrust_N", "rod_force_N", "pin_x_N", "pin_y_N", "torque_Nm"):
         np.testing.assert_allclose(turning[name], plain[name], atol=1e-6 * np.abs(plain[name]).max())
     burning = slice(1, 9)  # 15 to 120 degrees

@@ -49,7 +49,8 @@ def test_a_rod_that_cannot_follow_names_the_cylinder_and_the_crank_angle():
     more than its rod is long.
     """
     degrees = np.arange(0, 360, 0.25)
-    theta, bank = np.radians(degrees), math.radians(720 / 7)
+    theta = np.radians(degrees)
+    bank = math.radians(720 / 7)
     lean = np.arcsin(60 / 240 * np.sin(theta))
     beside = np.abs(((60 * np.exp(1j * theta) + 52 * np.exp(1j * (bank - lean))) * np.exp(-1j * bank)).imag)
     first, *rest = mistakes(("length = 188", "length = 60"), ("cg = 90", "cg = 30"))
@@ -119,7 +120,8 @@ def test_few_orders_far_from_the_lock(angle, rotary):
 def test_variants_on_a_trailing_axis():
     """A sweep of knuckle radius and rod length gives what each variant alone gives, also at an uneven speed."""
     file = enginefile.parse(RADIAL + "[operation]\nspeed_ripple = [{ order = 2, amplitude = 0.1, angle = 20 }]\n")
-    radii, lengths = np.array([40.0, 52.0, 60.0]), np.array([180.0, 188.0, 230.0])
+    radii = np.array([40.0, 52.0, 60.0])
+    lengths = np.array([180.0, 188.0, 230.0])
 
     def variant(radius, length):
         return engine.build(file, {"articulation.knuckle_radius": radius, "articulation.rod.length": length})

@@ -60,7 +60,8 @@ WEIGHED = {"length": 200, "small_end": 0.15, "big_end": 0.45, "inertia": 4000}
 
 @cases("engine/build", "ways_to_say_the_same_rod")
 def test_ways_to_say_the_same_rod(rod):
-    one, other = engine(rod=rod).cylinders, engine(rod=WEIGHED).cylinders
+    one = engine(rod=rod).cylinders
+    other = engine(rod=WEIGHED).cylinders
     for name in ("lam", "reciprocating", "rotating", "couple"):
         assert only(getattr(one, name)) == pytest.approx(only(getattr(other, name)), rel=1e-13), name
 
@@ -139,7 +140,8 @@ def test_reference_of_the_file():
 
 
 def test_a_throw_mass_is_shared_by_the_pins_of_its_throw():
-    layout, throws = {"banks": [0, 60, 120]}, [0, 120, 240]
+    layout = {"banks": [0, 60, 120]}
+    throws = [0, 120, 240]
     shared = engine(crank={"throw_mass": 6}, layout=layout)
     alternating = engine(crank={"throw_mass": 6, "throws": throws}, layout=layout | {"rods": "alternating"})
     assert (only(shared.cylinders.rotating), only(alternating.cylinders.rotating)) == pytest.approx((2, 6))

@@ -27,7 +27,8 @@ def test_a_dummy_has_inertia_but_no_displacement():
 @pytest.mark.parametrize(("order", "dummy"), [([1, 3], "2"), ([2, 3], "1")])
 def test_a_dummy_does_not_count_in_the_mean_pressure(order, dummy):
     """Two cylinders of the given mean pressure have it together, wherever the dummy stands."""
-    crank, own = GUIDE["crank"] | {"throws": [0, 0, 0]}, {dummy: GUIDE["cylinder"]["2"]}
+    crank = GUIDE["crank"] | {"throws": [0, 0, 0]}
+    own = {dummy: GUIDE["cylinder"]["2"]}
     made = engine(**GUIDE | {"crank": crank, "cylinder": own, "gas": WIEBE, "layout": {"firing_order": order}})
     assert torque(made).imep_Pa == pytest.approx(1e6, rel=1e-9)
 

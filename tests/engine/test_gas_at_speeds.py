@@ -15,7 +15,8 @@ from balcli.engine.engine import Engine
 from balcli.forces.spectrum import compute_spectra, follow_gas
 
 ORDERS = np.arange(0.5, 12.5, 0.5)
-LOW, HIGH = 1000.0, 2500.0
+LOW = 1000.0
+HIGH = 2500.0
 RATED = 2400.0
 OWN = "[cylinder.2]\ngas = 0\n[cylinder.3]\nheat = 0\n[cylinder.4]\ngas = 0.8\n"
 ANGLES = np.arange(0.0, 720.0, 5.0)
@@ -107,10 +108,12 @@ def test_the_propeller_law_is_a_square_down_to_no_heat(kind):
         texts[part * RATED] = file + cycle(as_otto, imep=16 * part**2, intake=2.5)
     law = file + cycle(kind, law='"propeller"', rated_speed=RATED, imep=16, **keys)
     assert_follows(law, {speed: read_torques(build_text(text)) for speed, text in texts.items()})
-    engine, least = build_text(law), file + cycle(as_otto, imep=1.001 * lowest, intake=2.5)
+    engine = build_text(law)
+    least = file + cycle(as_otto, imep=1.001 * lowest, intake=2.5)
     exact = read_torques(build_text(least))
     for speed in (50.0, 0.99 * RATED * np.sqrt(lowest / 16)):
-        alone, found = read_torques(engine.at_speed(speed)), follow_gas(engine, read_torques).torque(speed)
+        alone = read_torques(engine.at_speed(speed))
+        found = follow_gas(engine, read_torques).torque(speed)
         assert alone == pytest.approx(exact, abs=3e-3 * np.abs(exact).max())
         assert found == pytest.approx(alone, abs=1e-11 * np.abs(exact).max())
     (doubt,) = engine.doubt_speeds([50.0, RATED])
@@ -121,11 +124,13 @@ def test_the_propeller_law_is_a_square_down_to_no_heat(kind):
 @pytest.mark.parametrize("speed", [700.0, LOW, 1200.0, 2400.0, 4000.0])
 @pytest.mark.parametrize("harmonics", [False, True])
 def test_diagrams_are_linear_in_the_speed_at_each_angle(tmp_path, speed, harmonics):
-    first, second = draw_pressure(40, 8), draw_pressure(75, 14)
+    first = draw_pressure(40, 8)
+    second = draw_pressure(75, 14)
     files = {"a": list_rows(first), "b": list_rows(second), "m": list_rows(first + (second - first) * share(speed))}
     key = "indicator"
     if harmonics:
-        key, rows = "harmonics", {"a": (3, 1), "b": (5, -2)}
+        key = "harmonics"
+        rows = {"a": (3, 1), "b": (5, -2)}
         rows["m"] = tuple(np.array(rows["a"]) + (np.array(rows["b"]) - rows["a"]) * share(speed))
         files = {name: f"order,cos,sin\n0,2,0\n0.5,{float(a)!r},{float(b)!r}\n" for name, (a, b) in rows.items()}
     for name, text in files.items():
@@ -134,9 +139,11 @@ def test_diagrams_are_linear_in_the_speed_at_each_angle(tmp_path, speed, harmoni
     write(tmp_path / "moving.toml", FOUR + "[gas]\n" + "".join(points))
     write(tmp_path / "steady.toml", FOUR + f'[gas]\n{key} = "m.csv"\n')
     moving, steady = (load(tmp_path / f"{name}.toml") for name in ("moving", "steady"))
-    exact, found = read_torques(steady), follow_gas(moving, read_torques).torque(speed)
+    exact = read_torques(steady)
+    found = follow_gas(moving, read_torques).torque(speed)
     assert found == pytest.approx(exact, abs=1e-12 * np.abs(exact).max())
-    gas, own = moving.at_speed(speed).gas.cylinders[0].torque, steady.gas.cylinders[0].torque
+    gas = moving.at_speed(speed).gas.cylinders[0].torque
+    own = steady.gas.cylinders[0].torque
     angles = np.radians(np.arange(-300.0, 400.0, 17.3))
     for one, other in ((gas.curve, own.curve), (gas.pressure, own.pressure)):
         if other is not None:
@@ -174,7 +181,8 @@ def test_responses_have_the_gas_of_each_speed(tmp_path, subject):
 
 def test_criticals_have_the_gas_of_their_speed(tmp_path):
     """With a misfire the sum over the cylinders depends on how much gas there is next to the inertia."""
-    text, options = SUBJECTS["torsion"][0], ("--orders", "3-6", "--misfire", 2)
+    text = SUBJECTS["torsion"][0]
+    options = ("--orders", "3-6", "--misfire", 2)
     moving = write(tmp_path / "moving.toml", text.replace("{gas}", cycle("otto", **GAS)))
     criticals = ask_json("torsion", moving, *options)["criticals"][:4]
     assert any(LOW < found["speed_rpm"] < HIGH for found in criticals)

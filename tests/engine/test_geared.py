@@ -92,7 +92,8 @@ def test_two_engines_are_their_sum(geared, tmp_path, loads, load):
 @pytest.mark.parametrize("ripple", [[], RIPPLE])
 def test_engines_on_one_axis_are_one_crank_with_all_their_throws(geared, ripple):
     """Three singles, one of them twice, and the moments of inertia of all."""
-    leads, at = (0, 110, -95), (0, 130, 310)
+    leads = (0, 110, -95)
+    at = (0, 130, 310)
     parts = [{"file": "single.toml", "phase": -lead, "at": [0, 0, z]} for lead, z in zip(leads, at, strict=True)]
     operation = {"operation": {"speed": 3000, "speed_ripple": ripple}}
     frame = {"frame": {"reference": [10, -20, 30]}}
@@ -108,7 +109,8 @@ def test_engines_on_one_axis_are_one_crank_with_all_their_throws(geared, ripple)
         agree(*(compute_spectra(each, orders, [*EVERY_KIND]) for each in (several, one)))
     assert three.displacement_m3 == pytest.approx(whole.displacement_m3)
     if not ripple:
-        first, second = balcli.torque(three), balcli.torque(whole)
+        first = balcli.torque(three)
+        second = balcli.torque(whole)
         assert first.imep_Pa == pytest.approx(second.imep_Pa)
         assert first.flywheel.fluctuation == pytest.approx(second.flywheel.fluctuation)
 
@@ -139,7 +141,8 @@ def test_orders_add_up_to_the_curves(tmp_path_factory, data):
     import tomli_w
 
     folder = tmp_path_factory.mktemp("geared")
-    angle, place = st.integers(-720, 720), st.lists(st.integers(-500, 500), min_size=3, max_size=3)
+    angle = st.integers(-720, 720)
+    place = st.lists(st.integers(-500, 500), min_size=3, max_size=3)
     engines = []
     for k in range(data.draw(st.integers(2, 3))):
         tables = data.draw(st.sampled_from([engine(), TWO_STROKE, COLD]))
@@ -167,7 +170,8 @@ def test_devices_stand_on_their_engines(geared):
     weight = {"unbalance": 50000, "angle": 35, "position": 460, "engine": "lower"}
     shafts = [{"ratio": n, "unbalance": 8000, "angle": 40, "at": [30, 80], "position": 70 + n} for n in (-2, 1)]
     moved = [TWO[0] | {"at": [50, 60, 70], "turn": 25}, TWO[1]]
-    bare, fitted = geared(moved), geared(moved, counterweight=[weight], shaft=shafts)
+    bare = geared(moved)
+    fitted = geared(moved, counterweight=[weight], shaft=shafts)
     with_own = compute_spectra(fitted, ORDERS[::2])
     one = alone(TWO_STROKE, counterweight=[weight | {"position": 60, "engine": None}])
     lower = bare.placed[1]._replace(engine=one)

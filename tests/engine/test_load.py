@@ -93,7 +93,8 @@ def test_messages_carry_no_control_characters():
 
 
 def test_what_cannot_be_read(tmp_path):
-    missing, folder = tmp_path / "none.toml", tmp_path
+    missing = tmp_path / "none.toml"
+    folder = tmp_path
     for path, message in (
         (missing, f"{missing}: no such file"),
         (folder, f"{folder}: is a folder; name a file in it"),

@@ -53,7 +53,8 @@ def test_an_engine_is_the_sum_of_its_throws(shares):
         only = [weight * (k == j) for j, weight in enumerate(weights)]
         parts = in_line(stroke, throws, [mass * (k == j) for j, mass in enumerate(masses)], only)
         for j, own in enumerate(parts["cylinder"].values()):
-            own |= {} if j == k else {"rod_mass": 0, "rod_inertia": 0}
+            if j != k:
+                own.update(rod_mass=0, rod_inertia=0)
         alone.append(spectra(**parts))
     assert np.allclose(total, sum(alone), rtol=0, atol=1e-12 * sum(np.abs(one).max() for one in alone))
 
@@ -151,7 +152,9 @@ def test_an_offset_piston_in_harmonic_motion_has_a_couple_and_even_strokes():
 def test_forces_on_the_pin_of_a_yoke_do_its_work():
     parts = harmonic({"motion": "harmonic"}, offset=4) | {"layout": {"firing_order": [1, 2]}, "gas": OTTO}
     found = curves(engine(**parts), 5, cylinder=1)
-    along, across, turned = found.curves["pin_x_N"], found.curves["pin_y_N"], np.radians(found.crank_deg)
+    along = found.curves["pin_x_N"]
+    across = found.curves["pin_y_N"]
+    turned = np.radians(found.crank_deg)
     torque = 0.045 * (across * np.cos(turned) - along * np.sin(turned))
     assert torque == pytest.approx(found.curves["torque_Nm"], rel=1e-9, abs=1e-6)
     assert not found.curves["side_thrust_N"].any()

@@ -302,7 +302,8 @@ def test_articulated_rods_fire_at_their_true_dead_centres():
     ],
 )
 def test_strokes_left_out_of_a_crosshead_engine_are_doubted(stroke, bore, speed, keys, doubted):
-    piston, operation = {"mass": 2e-6 * bore**3, "bore": bore}, {"speed": speed}
+    piston = {"mass": 2e-6 * bore**3, "bore": bore}
+    operation = {"speed": speed}
     parts = {"crank": {"stroke": stroke}, "rod": {"ratio": 0.3}, "piston": piston, "operation": operation}
     found = engine(**parts, layout={"firing_order": [1, 2, 3], **keys}).unlikely
     assert any("layout.strokes" in doubt for doubt in found) == doubted
@@ -438,13 +439,15 @@ def find_intervals_of(pins: list[float], order: list[int], angle: float) -> tupl
 @pytest.mark.parametrize("count", [2, 3, 4, 5])
 def test_every_evenly_spaced_crank_is_tried(count):
     """Against all arrangements of the pins, one by one; the orders are those of such cranks."""
-    random, fitting = np.random.default_rng(count), 0
+    random = np.random.default_rng(count)
+    fitting = 0
     angles = [[360 / count * k for k in range(count)]]
     angles += [] if count % 2 else [[720 / count * (k // 2) for k in range(count)]]
     cranks = [list(pins) for each in angles for pins in permutations(each) if pins[0] == 0]
     numbering = [[*range(1, count + 1)], [*range(count + 1, 2 * count + 1)]]
     for _ in range(60):
-        angle, pins = float(random.choice([45, 60, 72, 90])), cranks[random.integers(len(cranks))]
+        angle = float(random.choice([45, 60, 72, 90]))
+        pins = cranks[random.integers(len(cranks))]
         times = [(angle * bank - pin) % 360 + 360 * random.integers(2) for bank in (0, 1) for pin in pins]
         order = [n + 1 for n in np.argsort(times).tolist()]
         order = [*order[order.index(1) :], *order[: order.index(1)]]

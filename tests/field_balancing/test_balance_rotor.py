@@ -40,7 +40,8 @@ def test_planted_unbalance_is_found(planes, readings, keep):
     """Runs with one trial weight each, taken off or left in."""
     alpha, excess = random_rotor(planes * 100 + readings, readings, planes)
     trials = np.exp(1j * np.arange(planes)) * 0.7
-    text, on = head(planes), np.zeros(planes, dtype=complex)
+    text = head(planes)
+    on = np.zeros(planes, dtype=complex)
     text += run(alpha @ excess)
     for k, name in enumerate(names(planes)):
         on = on if keep else np.zeros(planes, dtype=complex)
@@ -57,7 +58,8 @@ def test_corrections_go_on_from_the_last_run_at_whatever_speed(trims):
     """
     alpha, excess = random_rotor(1, 2, 2)
     put_on = {"a": np.array([0.7 - 0.2j, 0.1j]), "b": np.array([-0.3, 0.4 + 0.1j])}
-    text, row = head(2), {1500: 0, 3000: 1}
+    text = head(2)
+    row = {1500: 0, 3000: 1}
     for states in ([], [("p1", 0.5)], [("p2", 0.5j)]):
         on = np.array([dict(states).get(name, 0) for name in names(2)])
         for speed in row:
@@ -102,7 +104,8 @@ def test_fits_by_hand():
     assert result.runs.found == pytest.approx([10], rel=1e-13)
     assert result.influence[0] == pytest.approx([5], rel=1e-13)
     assert result.corrections[0].weight == pytest.approx(-2, rel=1e-13)
-    found, trials = run([40, 30j]), run([50, 31.5j], [("p1", 5)]) + run([40 + 3j, 39j], [("p2", 6)])
+    found = run([40, 30j])
+    trials = run([50, 31.5j], [("p1", 5)]) + run([40 + 3j, 39j], [("p2", 6)])
     again = head(2) + found + trials + run([50, 31.5j], [("p1", 5)]) + found
     assert (balance(again).trimmed, balance(again).corrections[0].add) == (None, None)
     assert balance(again + run([50 + 3j, 39 + 1.5j], [("p1", 5), ("p2", 6)])).trimmed == "run 6"
@@ -168,7 +171,8 @@ def test_drilled_holes_remove_what_weights_would_add():
     for p, rim, drill in zip(balance(text).corrections, (90, 80), (6, 8), strict=True):
         removed = 0
         for piece in p.pieces:
-            area, depth = math.pi * (drill / 2e3) ** 2, piece.depth_mm / 1e3
+            area = math.pi * (drill / 2e3) ** 2
+            depth = piece.depth_mm / 1e3
             unbalance = STEEL * area * depth * (rim / 1e3 - depth / 2)
             removed += unbalance * np.exp(1j * np.radians(piece.angle_deg))
         assert -removed == pytest.approx(p.weight * 1e-3 * rim / 1e3, rel=1e-9)
@@ -237,7 +241,9 @@ def test_the_true_unbalance_lies_within_its_scatter_as_often_as_promised(case):
     start += f"influence = [{', '.join(map(table, alpha))}]\n" if case == "given" else ""
     states = [[]] + [[(name, 1 + 0.3j)] for name in names(2)] * (case != "given")
     states += [list(zip(names(2), -0.97 * excess, strict=True))] * (case != "as found")
-    there, within, rng = excess * (1 if case == "as found" else 0.03), [], np.random.default_rng(1)
+    there = excess * (1 if case == "as found" else 0.03)
+    within = []
+    rng = np.random.default_rng(1)
     for _ in range(150 if case == "as found" else 400):
         text = start
         for state in states:
@@ -270,7 +276,8 @@ def test_the_smallest_largest_reading_is_no_estimate_of_the_unbalance():
     text = head(1, GRADE.replace("1, 1", "1") + 'influence = [["1 @ 0"], ["1 @ 0"], ["1 @ 0"]]')
     squares, largest = (balance(text + run([1, 1, 4]), m) for m in ("squares", "max"))
     assert abs(largest.corrections[0].weight) == pytest.approx(2.5, rel=1e-6)
-    (one,), (other,) = squares.permitted.planes, largest.permitted.planes
+    (one,) = squares.permitted.planes
+    (other,) = largest.permitted.planes
     assert (one.present_g_mm, one.scatter_g_mm) == (other.present_g_mm, other.scatter_g_mm)
     assert one.present_g_mm == pytest.approx(2, rel=1e-12)
     assert other.after_g_mm == pytest.approx(0.5, rel=1e-6)
@@ -317,7 +324,8 @@ def test_what_stays_on_in_a_plane_left_out_counts_at_every_speed():
     of the plane that is left out counts, too.
     """
     alpha, excess = random_rotor(11, 4, 2)
-    on, text = np.array([0.3 + 0.1j, -0.2 + 0.4j]), head(2)
+    on = np.array([0.3 + 0.1j, -0.2 + 0.4j])
+    text = head(2)
     for rows, speed in ((alpha[:2], "speed = 1000"), (alpha[2:], "speed = 2000")):
         text += run(rows @ excess, (), speed)
         for k, name in enumerate(names(2)):

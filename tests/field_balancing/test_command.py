@@ -190,7 +190,8 @@ OPTION = re.compile(r"^# *(\[\[run\]\]|[a-z_]+ *= .*)", re.MULTILINE)
 
 
 def test_the_starting_file_balances_and_all_its_options_can_be_switched_on(tmp_path):
-    path, text = tmp_path / "runs.toml", template("field")
+    path = tmp_path / "runs.toml"
+    text = template("field")
     assert run_here("new", "field", path) == (0, "", "")
     assert path.read_text(encoding="utf-8") == text
     keys = tomllib.loads(OPTION.sub(r"\1", text).replace("speed  = 2900", ""))
@@ -213,7 +214,8 @@ def test_the_schema_names_every_key():
 def test_the_library_offers_it(runs):
     import balcli
 
-    result, text = balcli.field(runs, "max"), runs.read_text(encoding="utf-8")
+    result = balcli.field(runs, "max")
+    text = runs.read_text(encoding="utf-8")
     assert isinstance(result, balcli.FieldBalance)
     for source in (text, str(runs), tomllib.loads(text)):
         assert balcli.field(source, "max").corrections == result.corrections

@@ -27,7 +27,8 @@ def inside(region, x, noise: float) -> bool:
 
 def lightest(wanted, angles, most):
     """The least total of all basic solutions: two places free, every other empty or full."""
-    unit, best = np.exp(1j * np.radians(angles)), np.inf
+    unit = np.exp(1j * np.radians(angles))
+    best = np.inf
     for i, j in combinations(range(len(angles)), 2):
         others = [k for k in range(len(angles)) if k not in (i, j)]
         system = np.array([[unit[i].real, unit[j].real], [unit[i].imag, unit[j].imag]])
@@ -46,8 +47,10 @@ def lightest(wanted, angles, most):
 def test_it_is_the_lightest_within_the_limit(seed):
     rng = np.random.default_rng(seed)
     angles = rng.uniform(0, 360, 7)
-    wanted, most = complex(*rng.normal(size=2)), float(rng.uniform(0.2, 1))
-    placed, best = split_weight(wanted, angles, most), lightest(wanted, angles, most)
+    wanted = complex(*rng.normal(size=2))
+    most = float(rng.uniform(0.2, 1))
+    placed = split_weight(wanted, angles, most)
+    best = lightest(wanted, angles, most)
     if placed is None:
         assert best == np.inf
         assert not inside(find_region(angles, most), wanted, 1e-9)
@@ -74,7 +77,8 @@ def test_a_region_is_where_weights_reach():
 @pytest.mark.parametrize("most", [2.0, np.inf])
 def test_regions_without_area(most):
     """One place, and two that are opposite: a ray and a line."""
-    ray, line = find_region(np.array([90.0]), most), find_region(np.array([90.0, 270]), most)
+    ray = find_region(np.array([90.0]), most)
+    line = find_region(np.array([90.0, 270]), most)
     assert (inside(ray, 1.9j, 1e-9), inside(ray, -1j, 1e-9), inside(ray, 1, 1e-9)) == (True, False, False)
     assert (inside(line, 1.9j, 1e-9), inside(line, -1.9j, 1e-9), inside(line, 1, 1e-9)) == (True, True, False)
     assert inside(ray, 2.1j, 1e-9) == (most == np.inf)

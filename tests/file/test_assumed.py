@@ -6,8 +6,10 @@ from balcli.file.assumed import Assumed, join_assumed, select_assumed
 from balcli.file.messages import import_table
 
 STROKES = Assumed("layout.strokes", 4)
-CENTRE, MASS = Assumed("rod.cg", 0.0, "mm"), Assumed("rod.mass", 0.0, "kg")
-INTAKE, LOSS = Assumed("gas.intake", 1.0, "bar"), Assumed("mount.loss", 0.0)
+CENTRE = Assumed("rod.cg", 0.0, "mm")
+MASS = Assumed("rod.mass", 0.0, "kg")
+INTAKE = Assumed("gas.intake", 1.0, "bar")
+LOSS = Assumed("mount.loss", 0.0)
 
 
 def test_tables_of_chapters_count_only_for_their_chapters() -> None:

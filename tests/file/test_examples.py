@@ -33,7 +33,8 @@ def test_every_engine_says_where_its_figures_come_from(path):
 
 
 def test_a_copy_is_the_file(tmp_path):
-    original, target = (ENGINES / "v8_crossplane.toml").read_text(encoding="utf-8"), tmp_path / "mine.toml"
+    original = (ENGINES / "v8_crossplane.toml").read_text(encoding="utf-8")
+    target = tmp_path / "mine.toml"
     assert ask("engines", "v8_crossplane") == original
     assert ask("engines", "v8_crossplane", target) == ""
     assert target.read_text(encoding="utf-8") == original

@@ -74,7 +74,8 @@ def test_keys_of_the_examples_are_on_their_lines():
     """The line begins with the key, for every key of a table that is not in a list."""
     for file in ENGINE_FILES[::8]:
         text = file.read_bytes()
-        lines, finder = text.decode().splitlines(), LineFinder(text)
+        lines = text.decode().splitlines()
+        finder = LineFinder(text)
         for name, table in tomllib.loads(text.decode()).items():
             for key in table if isinstance(table, dict) else ():
                 line = lines[finder.find(f"{name}.{key}") - 1]

@@ -21,7 +21,8 @@ from balcli.file.examples import template
 from balcli.file.units import LENGTH, SPEED, convert
 
 NOT_TOML = "is not valid TOML: "
-ORDER, THROWS = "firing_order = [1, 3, 4, 2]", "throws = [0, 180, 180, 0]"
+ORDER = "firing_order = [1, 3, 4, 2]"
+THROWS = "throws = [0, 180, 180, 0]"
 
 
 def told(*changes, args=()):
@@ -95,7 +96,8 @@ def test_a_crosshead_engine_is_ordinary():
 
 
 def test_the_head_says_two_or_four_strokes_where_the_file_does():
-    four, two = changed((THROWS, "")), changed((THROWS, ""), ("[layout]", "[layout]\nstrokes = 2"))
+    four = changed((THROWS, ""))
+    two = changed((THROWS, ""), ("[layout]", "[layout]\nstrokes = 2"))
     assert "deg, four-stroke\n" in ask("analyze", "-", stdin=four)
     assert "deg, two-stroke\n" in ask("analyze", "-", stdin=two)
     assert "stroke\n" not in ask("analyze", "-", stdin=changed((ORDER, "")))
@@ -169,7 +171,9 @@ def test_a_place_that_makes_the_roll_grow_is_told_so(tmp_path):
 
 
 # ------------------------------------------------------------------ a file of another kind
-CHAIN, BODY, RUNS = template("torsion"), block(), three_runs()
+CHAIN = template("torsion")
+BODY = block()
+RUNS = three_runs()
 
 
 @cases("file/file_kinds", "a_file_of_another_kind", BODY=BODY, CHAIN=CHAIN, GOOD=GOOD, RUNS=RUNS)

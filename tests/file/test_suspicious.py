@@ -83,7 +83,8 @@ def test_loss_factors_in_percent_are_asked_back():
 
 def test_a_flywheel_that_torsion_lacks():
     """[flywheel] is for `torque`; without one of its own the crankshaft twists at far higher frequencies."""
-    wheel, alone = "[flywheel]\ninertia = 250000\n", TWIST.partition("[[torsion.rear]]")[0]
+    wheel = "[flywheel]\ninertia = 250000\n"
+    alone = TWIST.partition("[[torsion.rear]]")[0]
     assert find_suspicious(parse(changed(more=wheel + alone))) == [
         "`torsion` does not use [flywheel]; also write it as [[torsion.rear]]"
     ]

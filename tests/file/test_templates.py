@@ -39,7 +39,8 @@ def test_every_optional_key_can_be_switched_on(kind):
 def test_alternatives_say_the_same(kind):
     text = template(kind)
     engine = parse(text)
-    rod, given = engine.rod, {}
+    rod = engine.rod
+    given = {}
     for line in text.partition("[rod]")[2].partition("[piston]")[0].splitlines():
         if line.startswith("#"):
             given |= tomllib.loads(OPTION.sub(r"\1", line))

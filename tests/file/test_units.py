@@ -56,7 +56,8 @@ def test_any_text_is_read_or_refused_in_words(text):
     assert "wanted" in told or told in ("", "is too large a number", "divides by zero")
 
 
-EXACT, PRINTED = cases("file/units", "a_unit_is_as_it_was_defined"), cases("file/units", "a_unit_is_as_tables_print_it")
+EXACT = cases("file/units", "a_unit_is_as_it_was_defined")
+PRINTED = cases("file/units", "a_unit_is_as_tables_print_it")
 
 
 @EXACT
@@ -81,7 +82,8 @@ def test_no_name_has_two_meanings():
     for name in unit_table.DEFINITIONS:
         if found := unit_table.PREFIXED.get(name):
             power, unit = found.split()
-            prefixed, listed = read_unit(unit, PLAIN), read_unit(name, PLAIN)
+            prefixed = read_unit(unit, PLAIN)
+            listed = read_unit(name, PLAIN)
             assert (Fraction(power) * prefixed.scale, prefixed.powers) == listed, name
     assert set(unit_table.DEFINITIONS).isdisjoint(unit_table.AMBIGUOUS)
 
@@ -145,7 +147,8 @@ def test_one_figure_in_any_spelling_has_one_value(hundredths, group, data):
     number = hundredths / 100
     expected = convert(f"{number:.2f} {units[0]}", dimension)
     figure = data.draw(st.sampled_from(list(numbers_as_people_write_them(number))))
-    unit, blank = data.draw(st.sampled_from(units)), data.draw(st.sampled_from(["", " ", "\u00a0"]))
+    unit = data.draw(st.sampled_from(units))
+    blank = data.draw(st.sampled_from(["", " ", "\u00a0"]))
     if unit == "1/min":
         blank = " "
     assert convert(f"{figure}{blank}{unit}", dimension) == expected

@@ -22,7 +22,8 @@ def test_the_first_order_along_an_inline_four():
     """Loads +1 -1 -1 +1, 100 mm apart: shear 1 0 -1 0, moment about the section 0 -100 -100 0 (times i)."""
     found = compute_inner_loads(inline_engine([0, 180, 180, 0]), ORDERS)
     assert found.shear.z_m == pytest.approx([-0.15, -0.05, 0.05, 0.15])
-    ahead, against = ROTATING + RECIPROCATING / 2, RECIPROCATING / 2
+    ahead = ROTATING + RECIPROCATING / 2
+    against = RECIPROCATING / 2
     for got, pattern, factor in ((found.shear, [1, 0, -1, 0], 1), (found.bending, [0, -0.1, -0.1, 0], 1j)):
         assert got.phasors.forward[0] == pytest.approx(np.array(pattern) * factor * ahead, rel=1e-12, abs=1e-9)
         assert got.phasors.backward[0] == pytest.approx(np.array(pattern) * factor * against, rel=1e-12, abs=1e-9)
@@ -30,7 +31,8 @@ def test_the_first_order_along_an_inline_four():
 
 def test_an_inline_six_has_a_large_inner_moment_and_counterweights_take_most_of_it():
     """0-120-240-240-120-0: nothing is free, but the middle carries what three throws on one side make."""
-    throws, places = [0, 120, 240, 240, 120, 0], range(-250, 251, 100)
+    throws = [0, 120, 240, 240, 120, 0]
+    places = range(-250, 251, 100)
     size = (ROTATING + RECIPROCATING / 2) / OMEGA**2 * 1e6
     weights = "".join(weigh(size, angle + 180, place) for angle, place in zip(throws, places, strict=True))
     engines = [inline_engine(throws, more=more) for more in ("", weights)]
@@ -48,12 +50,14 @@ def test_beyond_the_last_load_stand_free_force_and_moment_which_the_bearings_car
     last = 0.1 + (0.01 if layout else 0)
     weight = "[[counterweight]]\nunbalance = 30000\nangle = 99\nposition = -20\n"
     subject = inline_engine([0, 90, 200], layout, f"[frame]\nreference = [0, 0, {last * 1e3}]\n{weight}")
-    found, free = compute_inner_loads(subject, ORDERS), spectrum.compute_spectra(subject, ORDERS)
+    found = compute_inner_loads(subject, ORDERS)
+    free = spectrum.compute_spectra(subject, ORDERS)
     assert found.shear.z_m[-1] == pytest.approx(last)
     assert found.bearings.z_m == pytest.approx([-0.15, -0.05, 0.05, 0.15])
     bearings = found.bearings.phasors
     for way in ("forward", "backward"):
-        force, moment = getattr(free.force, way), getattr(free.moment, way)
+        force = getattr(free.force, way)
+        moment = getattr(free.moment, way)
         arms = getattr(bearings, way) @ (found.bearings.z_m - last)
         for along, whole in ((found.shear, force), (found.bending, moment)):
             assert getattr(along.phasors, way)[:, -1] == pytest.approx(whole, rel=1e-11, abs=1e-8)
@@ -66,7 +70,9 @@ def test_the_x_type_is_the_moment_of_the_side_forces_on_the_pistons():
     of the cylinders, over the height of the guide: as MAN's project guides define it (17.05).
     """
     text = INLINE.format(throws=[0, 120, 240, 240, 120, 0], layout="")
-    theta, r, rod = np.arange(256) * 2 * np.pi / 256, 0.045, 0.160
+    theta = np.arange(256) * 2 * np.pi / 256
+    r = 0.045
+    rod = 0.160
     point_masses = 0.6 * 45 * (160 - 45)  # m a b: what the two ends have, in kg mm^2
     subject = build_text(text.replace("inertia = 2000", f"inertia = {point_masses}"))
     mass = 0.5 + 0.6 * 45 / 160

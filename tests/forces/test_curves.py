@@ -61,7 +61,8 @@ def scale(subject):
     ["single", "i3", "i4_shafts", "v6_90_split", "v8_crossplane", "vr6", "boxer6", "radial7", "single_shaft", *TEXTS],
 )
 def test_direct_evaluation_is_the_sum_of_all_orders(name):
-    subject, angles = replace(engine(name), up_deg=None), divide_revolution(7.5)
+    subject = replace(engine(name), up_deg=None)
+    angles = divide_revolution(7.5)
     direct = compute_engine_curves(subject, angles)
     orders = compute_order_curves(subject, find_relevant_orders(subject), angles)
     assert set(direct) == set(orders)
@@ -84,10 +85,12 @@ def test_what_is_zero_is_exactly_zero(name):
 
 def test_a_mean_under_uneven_speed_keeps_its_sign_where_the_documents_say():
     """Order 0 is the mean over the crank angle: in `forward` with signs, in the amplitudes of x and y without them."""
-    subject, angles = engine("uneven"), divide_revolution(0.5)
+    subject = engine("uneven")
+    angles = divide_revolution(0.5)
     (order,) = write_each(list_orders(compute_spectra(subject, [0])))
     mean = {name: float(curve.mean()) for name, curve in compute_engine_curves(subject, angles).items()}
-    force, couple = order["force_N"], order["couple_Nm"]
+    force = order["force_N"]
+    couple = order["couple_Nm"]
     assert force["forward"] == pytest.approx([mean["force_x_N"], mean["force_y_N"]], rel=1e-9)
     assert [force[axis] for axis in "xy"] == [{"amplitude": abs(v), "phase_deg": None} for v in force["forward"]]
     assert (force["backward"], force["axis_deg"], couple["peak_deg"], couple["sin"]) == ([0, 0], None, None, 0)
@@ -110,8 +113,10 @@ def test_a_revolution_is_divided_from_0_without_360():
 def test_other_mechanisms_by_differences(name):
     """Velocity and acceleration are the slopes of the travel, which is 0 at the top and nowhere less."""
     text = TEXTS[name].replace(", speed_ripple = [{ order = 2, amplitude = 0.02, angle = 40 }]", "")
-    subject, fine = build_text(text), divide_revolution(0.05)
-    omega, step = float(subject.omega), np.radians(0.05)
+    subject = build_text(text)
+    fine = divide_revolution(0.05)
+    omega = float(subject.omega)
+    step = np.radians(0.05)
     for number in (1, 6):
         curve = compute_cylinder_curves(subject, number, fine)
         travel = curve["travel_m"]
@@ -125,7 +130,8 @@ def test_other_mechanisms_by_differences(name):
 def test_a_piston_at_uneven_speed_accelerates_as_its_velocity_changes_in_time():
     """dv/dt is dv/dtheta times the crank speed there."""
     text = TEXTS["uneven"]
-    subject, h = build_text(text), 1e-3
+    subject = build_text(text)
+    h = 1e-3
     angles = divide_revolution(15)
     mid, before, after = (compute_cylinder_curves(subject, 1, angles + d) for d in (0, -h, h))
     omega = subject.omega * (1 + 0.02 * np.cos(np.radians(2 * angles - 40)))

@@ -32,7 +32,8 @@ def find_plain_rate(found, row, crank):
 def quadrature(found, orders, find_rate=find_plain_rate):
     """The same by Gauss-Legendre sums over the cycle of each cylinder, of pressures at crank angles times `-s'`."""
     nodes, weights = np.polynomial.legendre.leggauss(24)
-    cycle, total = found.gas.cycle, 0
+    cycle = found.gas.cycle
+    total = 0
     for row, gas in enumerate(found.gas.cylinders):
         breaks = gas.torque.breaks
         edges = np.concatenate([np.linspace(a, b, 13)[:-1] for a, b in pairwise(breaks)])
@@ -81,11 +82,13 @@ def find_hung_rate(found, row, crank):
 
     theta = crank + 1j * step
     axis = np.radians(found.cylinders.axis_of_each_deg[row])
-    x, y = 0.06 * np.cos(theta), 0.06 * np.sin(theta)
+    x = 0.06 * np.cos(theta)
+    y = 0.06 * np.sin(theta)
     master = find_place(x, y, 0.24)
     if found.numbers[row] == 1:
         return -master.imag / step
-    along, across = (master - x) / 0.24, (0.007 - y) / 0.24
+    along = (master - x) / 0.24
+    across = (0.007 - y) / 0.24
     out = turn(along * 0.052, across * 0.052, axis)
     return -find_place(*turn(x + out[0], y + out[1], -axis), 0.188).imag / step
 

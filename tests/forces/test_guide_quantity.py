@@ -20,7 +20,8 @@ FOUR = ENGINES / "i4.toml"
     ],
 )
 def test_each_variant_is_what_the_analysis_says(path, vary, line):
-    text, key = path.read_text(encoding="utf-8"), line.split()[0]
+    text = path.read_text(encoding="utf-8")
+    key = line.split()[0]
     assert text.count(line) == 1
     quantities = ("-q", "guide.4.H,guide.6.X,guide.6.H")
     for row in ask_csv("sweep", path, "--vary", f"{vary}=0.4,1.4", *quantities):

@@ -78,7 +78,8 @@ def integrate(found, function, orders):
     even = np.linspace(0, 4 * np.pi, 241)
     edges = np.unique(np.round(np.concatenate([even, *jumps]), 13))
     nodes, weights = np.polynomial.legendre.leggauss(24)
-    middle, half = (edges[1:] + edges[:-1]) / 2, np.diff(edges) / 2
+    middle = (edges[1:] + edges[:-1]) / 2
+    half = np.diff(edges) / 2
     angles = (middle + half * nodes[:, None]).ravel()
     share = (half * weights[:, None]).ravel() / (4 * np.pi)
     values = function(angles)
@@ -121,14 +122,17 @@ def test_shaft_and_block_together_bear_what_inertia_makes(seed):
     """Gas presses on throw and head alike; the block has its shafts and sliders besides. Of an uneven speed, too."""
     found = draw_uneven() if seed is None else draw(seed)
     orders = np.arange(1.0, 7.0)
-    loads, inertia = compute_loads_with_gas(found, orders), compute_inner_loads(found, orders)
+    loads = compute_loads_with_gas(found, orders)
+    inertia = compute_inner_loads(found, orders)
     others = [d for d in found.devices if d.order != 1 or d.place or d.backward]
     for row, z in enumerate(inertia.shear.z_m):
-        shear, bending = inertia.shear.at(row), inertia.bending.at(row)
+        shear = inertia.shear.at(row)
+        bending = inertia.bending.at(row)
         for device in others:
             if device.z <= z:
                 force = compute_device_force(found, device, orders)
-                shear, bending = shear + force, bending + 1j * (device.z - z) * force
+                shear = shear + force
+                bending = bending + 1j * (device.z - z) * force
         pairs = (loads.shear, loads.block_shear, shear), (loads.bending, loads.block_bending, bending)
         for shaft, block, want in pairs:
             both = pick(shaft, z) + pick(block, z)

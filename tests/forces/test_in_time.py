@@ -36,7 +36,8 @@ def make_uneven(lines):
 @pytest.mark.parametrize("name", LINES)
 def test_force_roll_and_gas(name):
     """Half orders of gas, and order 0; gas over the angle reaches far beyond the orders wanted."""
-    lines, orders = LINES[name], np.arange(0, 12.5, 0.5)
+    lines = LINES[name]
+    orders = np.arange(0, 12.5, 0.5)
     engine = build_text(make_uneven(lines))
     found, turns = compute_spectra_in_time(engine, orders, ["force", "roll", "gas"])
     over_angle = compute_spectra(engine, np.arange(0, 150, 0.5), ["force", "roll", "gas"])
@@ -49,7 +50,8 @@ def test_force_roll_and_gas(name):
     began = None
     for kind in ("force", "roll", "gas"):
         own = np.fft.fft(over_angle[kind].values(theta), norm="forward")
-        ahead, astern = own[: len(orders)], np.where(orders, own[-np.arange(len(orders))], 0)
+        ahead = own[: len(orders)]
+        astern = np.where(orders, own[-np.arange(len(orders))], 0)
         largest = np.abs(own).max()
         if began is None:  # when the time began is open: by order 2 of the force
             began = np.angle(ahead[4] / found[kind].forward[4]) / 2

@@ -27,7 +27,8 @@ def test_the_order_that_a_text_names(text: str, order: float | None) -> None:
 
 
 def test_orders_are_halves_of_whole_numbers() -> None:
-    good, bad = (0, 0.5, 1.5, 4096), (4096.5, -1, -0.5, 1.25, float("nan"))
+    good = (0, 0.5, 1.5, 4096)
+    bad = (4096.5, -1, -0.5, 1.25, float("nan"))
     wanted = dict.fromkeys(good, True) | dict.fromkeys(bad, False)
     assert {number: is_order(number) for number in wanted} == wanted
 

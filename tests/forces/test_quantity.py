@@ -24,7 +24,9 @@ def test_mistakes_in_words(text: str, message: str) -> None:
 def test_they_are_what_analyze_gives() -> None:
     engine = build(load(VEE))
     found = analyze(engine, [1, 2])
-    force, moment, roll = found.spectra.force, found.spectra.moment, found.spectra.roll
+    force = found.spectra.force
+    moment = found.spectra.moment
+    roll = found.spectra.roll
     expected = {
         "force.2.major": force.major[1],
         "force.1.minor": force.minor[0],

@@ -61,11 +61,13 @@ def test_vee():
 @pytest.mark.parametrize("path", ENGINE_FILES, ids=lambda path: path.stem)
 def test_sums_are_those_of_the_engine(path):
     """Rays add up to their bank, banks to the star, and the star to the order."""
-    engine, orders = load(path), np.array([1.0, 2.0, 4.0])
+    engine = load(path)
+    orders = np.array([1.0, 2.0, 4.0])
     kinds = ("force", "moment")[: 1 + engine.places_known]
     spectra = compute_spectra(without_devices(engine), orders, kinds)
     for star in find_stars(engine, orders, kinds):
-        row, way = orders.tolist().index(star.order), WAYS.index(star.turns)
+        row = orders.tolist().index(star.order)
+        way = WAYS.index(star.turns)
         for kind in kinds:
             every = [getattr(ray, kind) for bank in star.banks for ray in bank.cylinders]
             size = max(map(abs, every))

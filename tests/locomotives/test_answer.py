@@ -43,9 +43,13 @@ class Particles:
     """Points of a locomotive with one axle: those that revolve, and the pistons."""
 
     def __init__(self, parts):
-        crank, rod, self.table = parts["crank"], parts["rod"], parts["locomotive"]
+        crank = parts["crank"]
+        rod = parts["rod"]
+        self.table = parts["locomotive"]
         banks = [parts.get("cylinder", {}).get(str(k + 1), {}).get("bank", 0) for k in range(len(crank["throws"]))]
-        self.revolving, self.pistons, self.imaged = [], [], []
+        self.revolving = []
+        self.pistons = []
+        self.imaged = []
         for throw, z, bank, share in zip(crank["throws"], crank["positions"], banks, crank["throw_mass"], strict=True):
             pin = crank["stroke"] / 2e3 * turning(banks[0] + throw - crank["throws"][0])
             along = pin * np.exp(-1j * math.radians(bank))
@@ -75,7 +79,8 @@ def first_order(curve):
     return np.abs(np.fft.fft(curve)[1]) * 2 / POINTS
 
 
-signed, small = st.floats(-1, 1), st.floats(0.1, 1)
+signed = st.floats(-1, 1)
+small = st.floats(0.1, 1)
 
 
 @st.composite
@@ -104,8 +109,11 @@ def locomotives(draw):
 
 @given(locomotives())
 def test_wheels_and_track_feel_what_particles_do(parts):
-    made, factor = engine(**parts), parts["locomotive"]["factor"]
-    found, square, particles = locomotive(made), float(made.omega) ** 2, Particles(parts)
+    made = engine(**parts)
+    factor = parts["locomotive"]["factor"]
+    found = locomotive(made)
+    square = float(made.omega) ** 2
+    particles = Particles(parts)
     start = float(made.first_axis_deg)
     for wheel in found.wheels:
         at = turning(np.angle(wheel.unbalance, deg=True) + start)
@@ -117,8 +125,10 @@ def test_wheels_and_track_feel_what_particles_do(parts):
         assert first_order(blow) * square == pytest.approx(wheel.hammer_blow_N, abs=1e-9 * size)
         assert np.abs(nothing).max() * square < 1e-9 * size
     along = [part * square for part in particles.act()]
-    firsts, peaks = found.tractive_variation_N, found.tractive_variation_peak_N
-    firsts, peaks = (firsts, found.swaying_couple_Nm), (peaks, found.swaying_couple_peak_Nm)
+    firsts = found.tractive_variation_N
+    peaks = found.tractive_variation_peak_N
+    firsts = (firsts, found.swaying_couple_Nm)
+    peaks = (peaks, found.swaying_couple_peak_Nm)
     assert [first_order(part) for part in along] == pytest.approx(firsts, abs=1e-9 * size)
     assert [np.abs(part).max() for part in along] == pytest.approx(peaks, rel=1e-3, abs=1e-6 * size)
 
@@ -126,7 +136,8 @@ def test_wheels_and_track_feel_what_particles_do(parts):
 @given(st.floats(0, 1), st.floats(100, 600))
 def test_two_cranks_at_right_angles_are_those_of_textbooks(factor, apart):
     made = engine(**changed(crank={"positions": [-apart / 2, apart / 2]}))
-    found, one = locomotive(made, factor), (1 - factor) * 300 * 0.3 * float(made.omega) ** 2
+    found = locomotive(made, factor)
+    one = (1 - factor) * 300 * 0.3 * float(made.omega) ** 2
     assert found.tractive_variation_N == pytest.approx(math.sqrt(2) * one, abs=1e-6)
     assert found.swaying_couple_Nm == pytest.approx(one * apart / 1e3 / math.sqrt(2), abs=1e-6)
 
@@ -185,7 +196,8 @@ def test_revolving_parts_are_balanced_and_the_rest_is_the_hammer_blow():
 def test_coupling_masses_are_counterweights():
     """As `analyze` and sweeps count them, at the radius of cylinder 1 unless another is given."""
     parts = coupled()
-    angles, planes = PINS["coupling_angles"], PINS["coupling_planes"]
+    angles = PINS["coupling_angles"]
+    planes = PINS["coupling_planes"]
     for radius in ({}, {"coupling_radius": 250}):
         parts["locomotive"] |= radius
         arm = radius.get("coupling_radius", 300)
@@ -216,12 +228,14 @@ def test_a_limit_of_the_hammer_blow_gives_the_factor():
 def test_the_written_file_has_the_same_blows(parts, tmp_path):
     import tomli_w
 
-    tables, out = {**parts}, tmp_path / "out.toml"
+    tables = {**parts}
+    out = tmp_path / "out.toml"
     if "speed" in tables["locomotive"]:
         del tables["operation"]
     (tmp_path / "in.toml").write_text("# kept\n" + tomli_w.dumps(tables))
     before = ask_json("locomotive", tmp_path / "in.toml", "--factor", "2/3", "--speed", "50 mph", "--write", out)
-    after, text = ask_json("locomotive", out), out.read_text()
+    after = ask_json("locomotive", out)
+    text = out.read_text()
     assert "# kept" in text or "counterweight" in parts
     assert "factor =" not in text
     assert after.pop("factor") is None

@@ -25,10 +25,10 @@ def change(**parts):
     """The tables with some keys changed; a key that is None is left out."""
     tables = dict(TABLES)
     for name, part in parts.items():
+        tables[name] = part
         if isinstance(part, dict):
             table = TABLES.get(name, {}) | part
-            part = {key: value for key, value in table.items() if value is not None}
-        tables[name] = part
+            tables[name] = {key: value for key, value in table.items() if value is not None}
     return {name: part for name, part in tables.items() if part}
 
 

@@ -31,7 +31,8 @@ def test_json_and_csv_are_what_they_promise(four):
     assert sum(mount["force_N"][2] for mount in said["static"]["mounts"]) == pytest.approx(-200 * 9.80665)
     response = said["response"]
     assert response["speeds_rpm"] == list(range(600, 3001, 100))
-    mount, point = response["mounts"][0], response["points"][0]
+    mount = response["mounts"][0]
+    point = response["points"][0]
     assert (mount["name"], point["name"]) == ("1", "lever")
     assert [order["order"] for order in mount["orders"]][:2] == [1, 2]
     assert len(mount["orders"][0]["force_N"]) == len(mount["peak_N"]) == 25
@@ -126,7 +127,8 @@ def test_rounding_is_no_share_of_a_mode_and_turns_no_shape():
     """Mounts at the height of the centre of gravity, stiff along the diagonals of x and y: two modes
     move along these, half and half; which half is larger is rounding.
     """
-    text, found = block("angles = [0, 0, 45]").replace("-200]", "0]"), []
+    text = block("angles = [0, 0, 45]").replace("-200]", "0]")
+    found = []
     for stiff in range(150, 250, 5):
         found += ask_json("mounts", "-", stdin=text.replace("[200, 150", f"[200.7, {stiff}.3"))["modes"]
     diagonal = [mode for mode in found if mode["energy_percent"]["x"] > 49]
@@ -169,7 +171,8 @@ def test_the_page_rocks_the_body(four):
     k = 20
     place = int(np.argmin(np.abs(np.array(said["speeds_rpm"]) - data["speeds"][k])))
     angles = np.linspace(0, 4 * np.pi, 7201)
-    arm, path = np.array([100, 0, 300]), np.zeros((3, len(angles)))
+    arm = np.array([100, 0, 300])
+    path = np.zeros((3, len(angles)))
     for order, row in zip(data["orders"], data["motion"][k], strict=True):
         parts = np.array(row)
         q = np.outer(parts[:6], np.cos(order * angles)) + np.outer(parts[6:], np.sin(order * angles))

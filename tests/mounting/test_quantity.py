@@ -34,7 +34,8 @@ def test_each_variant_is_the_file_that_says_so(four, tmp_path):
     rows = sweep(four, "--vary", "mount.left.stiffness.3=300,500", "--vary", "body.mass=150,210", "-q", quantities)
     assert len(rows) == 4
     for row in rows:
-        stiffness, mass = row["mount.left.stiffness.3"], row["body.mass"]
+        stiffness = row["mount.left.stiffness.3"]
+        mass = row["body.mass"]
         text = NAMED.replace("[200, 150, 400]", f"[200, 150, {stiffness}]", 1)
         said = said_by(tmp_path / "one.toml", text.replace("mass = 200", f"mass = {mass}"))
         modes = said["modes"]
@@ -43,7 +44,8 @@ def test_each_variant_is_the_file_that_says_so(four, tmp_path):
         assert row["mode.roll.Hz"] == pytest.approx(roll["frequency_Hz"], rel=1e-12)
         assert row["mode.roll.share"] == pytest.approx(roll["energy_percent"]["rz"], rel=1e-9)
         assert row["mode.2.damping"] == pytest.approx(5, rel=1e-9)
-        mount, point = said["response"]["mounts"][0], said["response"]["points"][0]
+        mount = said["response"]["mounts"][0]
+        point = said["response"]["points"][0]
         assert row["mount.left.force"] == pytest.approx(mount["worst"]["force_N"], rel=1e-9)
         assert row["point.shift_lever.motion"] == pytest.approx(point["worst"]["motion_mm"], rel=1e-9)
         rest = np.linalg.norm(said["static"]["mounts"][2]["force_N"])
@@ -107,10 +109,12 @@ def test_with_gas_every_figure_varies(path, old, new, tmp_path):
     value = 0.11 if path == "mount.left.loss" else 1.05 * first
     (_, row) = sweep(file, "--vary", f"{path}={first},{value}", "-q", "mount.left.force")
     said = said_by(tmp_path / "one.toml", text.replace(old, new.format(value), 1))
-    mount, exact = said["response"]["mounts"][0], 1e-12
+    mount = said["response"]["mounts"][0]
+    exact = 1e-12
     largest = mount["worst"]["force_N"]
     if path == "operation.speed":  # which makes it the force at this speed, where the range ends
-        largest, exact = mount["peak_N"][-1], 1e-3
+        largest = mount["peak_N"][-1]
+        exact = 1e-3
     assert row["mount.left.force"] == pytest.approx(largest, rel=exact)
 
 

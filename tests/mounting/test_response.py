@@ -118,7 +118,8 @@ def test_all_orders_add_up_in_time(report):
     body = RandomBody(7, 3)
     result = report(ENGINE + body.text, orders=[1, 2, 3, 4, 6])
     orders = np.array([1, 2, 3, 4, 6])
-    loads, angles = find_own_loads(body.centre, orders), np.linspace(0, 2 * np.pi, 20001)
+    loads = find_own_loads(body.centre, orders)
+    angles = np.linspace(0, 2 * np.pi, 20001)
     for s, rpm in enumerate(SPEEDS):
         curve = np.zeros((3, len(angles)))
         for n, load in zip(orders, loads, strict=True):
@@ -179,7 +180,8 @@ def test_a_scheme_takes_away_what_it_is_for(report):
     """Shafts cancel the second-order force; the roll stays, and the mounts feel that."""
     text = ENGINE.replace("[cylinder.2]\npiston_mass = 0.55\n", "") + RandomBody(9, 4).text
     result = report(text, orders=[2], scheme="two-shaft")
-    before, after = result.response.passed[0].rigid, result.fitted.response.passed[0].rigid
+    before = result.response.passed[0].rigid
+    after = result.fitted.response.passed[0].rigid
     for key in ("force_x_N", "force_y_N"):
         assert np.max(after.get(key, 0.0)) == pytest.approx(0, abs=1e-9 * before["force_x_N"][0])
     assert after["moment_z_Nm"][0] > 0.1
@@ -219,7 +221,8 @@ def test_the_mean_torque_leans_on_the_mounts(report):
     """Three of four cylinders fire; the crank turns from x to y, so that the body leans the other way. Of a genset the
     mean torque acts between engine and generator, both on the same skid: the mounts bear the weight alone.
     """
-    body, text = RandomBody(6, 4), GAS + RandomBody(6, 4).text
+    body = RandomBody(6, 4)
+    text = GAS + RandomBody(6, 4).text
     apart, aboard = (report(text.replace("[body]\n", f"[body]\n{said}")) for said in ("", "carries_load = true\n"))
     assert apart.response.loads.mean == pytest.approx(-0.75 * MEAN, rel=1e-6)
     about = np.cross(np.array(body.at) - body.centre, rest_of(apart)).sum(axis=0)
@@ -263,7 +266,8 @@ def refused(report, text, **options):
 
 def test_an_undamped_resonance_in_the_range_is_named(report):
     """Also where it lies between the speeds of a range; a list of speeds has none between them."""
-    text, speeds = ENGINE + block(), np.array([300.0, 2000.0])
+    text = ENGINE + block()
+    speeds = np.array([300.0, 2000.0])
     assert refused(report, text, speeds=speeds, orders=[2]) == (
         "engine.toml: mode 4 (roll, 17.43 Hz) is not damped, and order 2 drives it at 523.037 rpm, "
         "where its motion has no bound; give the mounts a loss, such as loss = 0.1, or a range "
@@ -306,9 +310,11 @@ def test_at_uneven_speed_an_order_is_so_often_in_a_turn_of_equal_steps_of_time(r
     revolutions in a minute.
     """
     theta, period = run_in_time(lambda a: 1 + 0.2 * np.cos(2 * a - np.radians(30)) + 0.05 * np.cos(a), 1)
-    few, longer = np.r_[-39:40], period / (2 * np.pi)
+    few = np.r_[-39:40]
+    longer = period / (2 * np.pi)
     to_time = np.exp(1j * np.outer(theta, few))
-    body, orders = RandomBody(8, 4), [1, 2, 3, 4]
+    body = RandomBody(8, 4)
+    orders = [1, 2, 3, 4]
     result = report(RIPPLE + body.text, orders=orders)
     curves = momentum.Engine.read(RIPPLE).curves()
     parts = [curves.force.real, curves.force.imag, 0 * curves.roll]

@@ -93,7 +93,8 @@ def test_elastic_centre():
 
 def test_statics_balance():
     """Forces on the mounts carry the load, and no more."""
-    mounts, load = mounts_of(3), np.array([10.0, -1471, 5, 20, 30, -250])
+    mounts = mounts_of(3)
+    load = np.array([10.0, -1471, 5, 20, 30, -250])
     forces, travel = settle_body(BODY, mounts, load)
     moments = np.cross(mounts.at - CENTRE, forces)
     carried = np.concatenate([forces.sum(axis=0), moments.sum(axis=0)])

@@ -111,7 +111,8 @@ def law(pressure: Callable, start, end) -> list[tuple[mp.mpf, mp.mpf, mp.mpf]]:
 
 def wiebe_burn(volume: Callable, constant, heat, n, start, duration, shape):
     """Points of a burn that begins with p V^n = `constant`, and that product at its end."""
-    exponent, rate = shape + 1, mp.mpf("6.908")
+    exponent = shape + 1
+    rate = mp.mpf("6.908")
 
     def growth(u):
         """Rate over u of the integral of V^(n-1) dx, xi = u^2."""
@@ -119,9 +120,12 @@ def wiebe_burn(volume: Callable, constant, heat, n, start, duration, shape):
         burning = rate * exponent * power / u * 2 * mp.exp(-rate * power)
         return volume(start + duration * u * u) ** (n - 1) * burning
 
-    points, done, count = [], mp.mpf(0), 6
+    points = []
+    done = mp.mpf(0)
+    count = 6
     for k in range(count):
-        low, high = mp.mpf(k) / count, mp.mpf(k + 1) / count
+        low = mp.mpf(k) / count
+        high = mp.mpf(k + 1) / count
         for x, w in gauss():
             u = low + (high - low) * (1 + x) / 2
             inner = (u - low) / 2
@@ -154,7 +158,8 @@ def computed(m: Mechanism, burn: tuple, heat, *, strokes, ratio, nc, ne, intake,
     points = law(lambda c: compressed / volume(c) ** nc, closes, start)
     first = volume(start)
     p2 = compressed / first**nc
-    constant, end = p2 * first**ne, start
+    constant = p2 * first**ne
+    end = start
     if burn[0] == "otto":
         constant = (p2 + (ne - 1) * heat / first) * first**ne
     elif burn[0] == "limited":

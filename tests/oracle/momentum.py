@@ -90,7 +90,8 @@ class Engine:
             self.devices += [self._device(kind, table) for table in data.get(kind, [])]
         self._couple(data.get("locomotive", {}))
         reference = data.get("frame", {}).get("reference") or [0, 0, (min(self.throws) + max(self.throws)) * 500]
-        self.at, self.z = complex(reference[0], reference[1]) / 1e3, reference[2] / 1e3
+        self.at = complex(reference[0], reference[1]) / 1e3
+        self.z = reference[2] / 1e3
 
     def _couple(self, table: dict[str, Any]) -> None:
         """Speed of a locomotive, and the coupling masses of its axles."""
@@ -105,7 +106,8 @@ class Engine:
 
     # -------------------------------------------------------------- where everything stands
     def _arrange(self) -> None:
-        crank, layout = self.data["crank"], self.data.get("layout", {})
+        crank = self.data["crank"]
+        layout = self.data.get("layout", {})
         order = layout.get("firing_order")
         banks = layout.get("banks", [0])
         if "bank_angle" in layout:
@@ -171,12 +173,14 @@ class Engine:
 
     def _parts(self, cell: dict[str, Any]) -> tuple[dict[str, float], dict[str, float]]:
         """Piston (mass, offset) and rod (length, mass, cg from its lower end, inertia) of a cylinder, SI."""
-        own, table = cell["own"], self.data.get("articulation")
+        own = cell["own"]
+        table = self.data.get("articulation")
         hung = table is not None and cell["bank"] != table.get("master", 1) - 1
         rod = dict(table["rod"] if hung and table else self.data["rod"])
         for group in (("length", "ratio"), ("mass", "cg", "small_end", "big_end"), ("inertia", "pendulum")):
             mine = {k: own["rod_" + k] for k in group if "rod_" + k in own}
-            whole, ends = set(mine) <= {"mass", "cg"}, set(mine) <= {"small_end", "big_end"}
+            whole = set(mine) <= {"mass", "cg"}
+            ends = set(mine) <= {"small_end", "big_end"}
             if mine and not (whole and "small_end" not in rod) and not (ends and "small_end" in rod):
                 rod = {k: v for k, v in rod.items() if k not in group}
             rod |= mine
@@ -185,7 +189,8 @@ class Engine:
             mass = rod["small_end"] + rod["big_end"]
             cg = length * rod["small_end"] / mass if mass else 0.0
         else:
-            mass, cg = rod.get("mass", 0.0), rod.get("cg", 0.0) / 1e3
+            mass = rod.get("mass", 0.0)
+            cg = rod.get("cg", 0.0) / 1e3
         inertia = mass * cg * (length - cg)  # as two points at the ends
         if "inertia" in rod:
             inertia = rod["inertia"] / 1e6
@@ -243,7 +248,8 @@ class Engine:
 
     def _device(self, kind: str, table: dict[str, Any]) -> Body:
         size = table["unbalance"] / 1e6 if "unbalance" in table else table["mass"] * table["radius"] / 1e3
-        angle, point = math.radians(table.get("angle", 0)), complex(*table.get("at", [0, 0])) / 1e3
+        angle = math.radians(table.get("angle", 0))
+        point = complex(*table.get("at", [0, 0])) / 1e3
         if kind == "counterweight":
             place = np.exp(1j * (THETA + angle + math.radians(self.first["axis"])))
         elif kind == "shaft":

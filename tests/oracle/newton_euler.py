@@ -60,7 +60,8 @@ def _one(engine, cell, gas, on_rod, rate) -> Forces:
     push = rod.mass * rate(slope(rod.place))
     turn = rod.inertia * rate(rod.spin)
     head = piston.mass * rate(slope(piston.place)) + gas * axis
-    below, above = foot - rod.place, piston.place - rod.place
+    below = foot - rod.place
+    above = piston.place - rod.place
     rows = np.zeros((len(foot), 5, 5))
     right = np.zeros((len(foot), 5))
     for k, part in enumerate((np.real, np.imag)):
@@ -70,7 +71,8 @@ def _one(engine, cell, gas, on_rod, rate) -> Forces:
         rows[:, 2 + k, 4] = part(normal)
         right[:, 2 + k] = part(head)
     for k, arm in ((0, below), (2, above)):  # moments about the rod's centre of mass
-        rows[:, 4, k], rows[:, 4, k + 1] = -arm.imag, arm.real
+        rows[:, 4, k] = -arm.imag
+        rows[:, 4, k + 1] = arm.real
     moments = [(np.conj(at - rod.place) * load).imag for at, load in on_rod]
     right[:, 4] = turn - sum(moments)
     x = np.linalg.solve(rows, right[:, :, None])[:, :, 0]

@@ -70,7 +70,8 @@ def test_single_cylinder_at_high_precision(lam, offset):
     tables = {"rod": f"ratio = {lam}", "piston": f"mass = 1\noffset = {offset}", "operation": "speed = 1000"}
     found = circle.enclose_curve(force(**tables))
     with mpmath.workdps(30):
-        r, length = mpmath.mpf(50) / 1000, mpmath.mpf(50) / 1000 / mpmath.mpf(str(lam))
+        r = mpmath.mpf(50) / 1000
+        length = mpmath.mpf(50) / 1000 / mpmath.mpf(str(lam))
         omega = mpmath.mpf(1000) * mpmath.pi / 30
 
         def curve(t):
@@ -89,7 +90,8 @@ def test_single_cylinder_at_high_precision(lam, offset):
             slopes = [mpmath.diff(lambda t: reach(x, y, t), t) for t in angles]
             return [*(v - values[0] for v in values[1:]), *slopes]
 
-        x, y = found.centre.real, found.centre.imag
+        x = found.centre.real
+        y = found.centre.imag
         if len(found.theta) == 3:
             x, y, *angles = mpmath.findroot(equations, (x, y, *found.theta), tol=1e-20)
             assert abs(found.centre - complex(x, y)) <= TRUE * found.radius
@@ -143,7 +145,8 @@ def test_cardioids_and_a_deltoid(forward, backward, centre, radius, touching, fi
 
 def test_a_small_circle_beside_a_large_first_order_is_touched_wherever_it_is_but_for_rounding():
     """Equal peaks 18 times a revolution, of a millionth of what a weight takes away."""
-    eight, ten = 1e-6, 2e-8
+    eight = 1e-6
+    ten = 2e-8
     vectors = np.array([[1.0, 0, ten], [0, eight, 0]], complex)
     found = circle.enclose_curve(Phasors(np.array([1.0, 8.0, 10.0]), vectors, np.zeros(1)))
     assert found.radius == pytest.approx(eight + ten, rel=1e-9)

@@ -201,7 +201,8 @@ class Mechanism:
 
     def add_joint(self, one: Part, other: Part, place: complex, z: float, held: list[int], axis: float = 0) -> int:
         """Return a joint that holds directions of axes which are turned by `axis` about z."""
-        c, s = math.cos(axis), math.sin(axis)
+        c = math.cos(axis)
+        s = math.sin(axis)
         return self.system.CreateGenericJoint(
             itemNumbers=[one.body, other.body],
             position=[place.real, place.imag, z],
@@ -272,7 +273,8 @@ class Mechanism:
     def add_shaft(self, one: Placed, table: dict[str, Any]) -> None:
         if one.ratio != 1 or one.phase:
             raise NotBuiltError("balancer shafts of an engine that is turned")
-        axis, z = complex(*table.get("at", [0, 0])) / 1e3, table.get("position", 0) / 1e3
+        axis = complex(*table.get("at", [0, 0])) / 1e3
+        z = table.get("position", 0) / 1e3
         arm = unbalance_of(table) * np.exp(1j * math.radians(table.get("angle", 0)))  # of 1 kg
         places = one.point(axis, z), one.point(axis + arm, z)
         shaft = self.add_rotor(*places[0], [(1.0, *places[1])])
@@ -281,7 +283,8 @@ class Mechanism:
 
     def add_cylinders(self, one: Placed, crank: Part, guides: Part) -> None:
         """Add rods and pistons; masters first, because articulated rods hang on them."""
-        engine, masters = one.engine, {}
+        engine = one.engine
+        masters = {}
         for cell in sorted(engine.cells, key=lambda cell: is_articulated(engine, cell)):
             foot = pin_of(one, cell)
             if not is_articulated(engine, cell):
@@ -297,7 +300,8 @@ class Mechanism:
     ) -> Part:
         """Return the rod from `foot`, on a crank or master rod, to the piston pin at `top`."""
         figures, rod = one.engine._parts(cell)
-        axis, z = one.angle(math.radians(cell["axis"])), cell["z"]
+        axis = one.angle(math.radians(cell["axis"]))
+        z = cell["z"]
         piston = self.add_body(solid(figures["mass"], 0), *one.point(top, z))
         self.add_joint(guides, piston, *one.point(top, z), GUIDE, axis)
         if is_harmonic(one.engine):
@@ -316,7 +320,8 @@ class Mechanism:
         Args:
             steps: Time steps in one revolution.
         """
-        period, total = 2 * math.pi / self.speed, steps + RUN_IN
+        period = 2 * math.pi / self.speed
+        total = steps + RUN_IN
         settings = exudyn.SimulationSettings()
         integration = settings.timeIntegration
         integration.numberOfSteps = total
@@ -346,7 +351,8 @@ class Mechanism:
         return np.exp(-1j * np.arange(HIGHEST + 1)[:, None] * theta.T) @ values / steps
 
 
-KNOWN_FORCE, KNOWN_MOMENT = (3.0, 5.0, 7.0), (11.0, 13.0, 17.0)
+KNOWN_FORCE = (3.0, 5.0, 7.0)
+KNOWN_MOMENT = (11.0, 13.0, 17.0)
 
 
 @cache
@@ -467,7 +473,8 @@ def vectors(x: np.ndarray, y: np.ndarray | float = 0.0) -> np.ndarray:
 def one_cylinder(engine: momentum.Engine) -> dict[str, float]:
     """Return the size of the force and moments of the first cylinder's reciprocating mass."""
     piston, rod = engine._parts(engine.first)
-    radius, mass = engine.first["radius"], piston["mass"] + rod["mass"] * rod["cg"] / rod["length"]
+    radius = engine.first["radius"]
+    mass = piston["mass"] + rod["mass"] * rod["cg"] / rod["length"]
     force = mass * radius * engine.speed**2
     arm = max(engine.throws) - min(engine.throws) or 2 * radius
     return {"force": force, "moment": force * arm, "turning": force * radius}
@@ -514,7 +521,8 @@ def compare(engine: balcli.Engine, engines: list[Placed], exact: dict[str, np.nd
     """
     only = [kind for kinds in GROUPS.values() for kind in kinds]
     spectra = balcli.analyze(engine, orders=range(HIGHEST + 1), only=only).spectra
-    sizes, differences = one_cylinder(engines[0].engine), []
+    sizes = one_cylinder(engines[0].engine)
+    differences = []
     for group, kinds in GROUPS.items():
         largest = max(np.abs(exact[kind]).sum(axis=0).max() for kind in kinds)
         error = max(np.abs(getattr(spectra, kind).vectors - exact[kind]).max() for kind in kinds)

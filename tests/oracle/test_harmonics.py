@@ -56,7 +56,8 @@ def motion(sine: mp.mpf, cosine: mp.mpf, lam: mp.mpf, eps: mp.mpf) -> tuple[mp.m
     """-s''/r, -beta'', (s'/r)^2 and beta'^2 as docs/theory.md has them."""
     sin_beta = lam * sine - eps
     cos_beta = mp.sqrt(1 - sin_beta**2)
-    tangent, rate = sin_beta / cos_beta, lam * cosine / cos_beta
+    tangent = sin_beta / cos_beta
+    rate = lam * cosine / cos_beta
     return (
         cosine - sine * tangent + lam * cosine**2 / cos_beta**3,
         lam * sine / cos_beta - rate**2 * tangent,
@@ -86,7 +87,8 @@ def worst(got: np.ndarray, want: list[mp.mpf]) -> float:
 @pytest.mark.parametrize("lam", LAMBDAS)
 def test_centred_against_the_trapezoidal_rule(lam):
     with mp.workdps(110 if lam > 0.2 else 330):  # orders below lambda = 0.2 go down to SMALLEST
-        want, least = of_revolution(lam), mp.mpf(10) ** (30 - mp.mp.dps)
+        want = of_revolution(lam)
+        least = mp.mpf(10) ** (30 - mp.mp.dps)
     for name in SERIES:
         exact = [c if name != "rod" else -c.imag for c in want[name]]
         exact = [c.real if abs(c) > least else mp.mpf(0) for c in exact]
@@ -148,7 +150,8 @@ def test_offset_against_the_trapezoidal_rule(lam, eps):
 
 def test_a_variant_is_the_same_among_any_others():
     """To the last bit."""
-    lam, eps = np.array([0.1, 0.6, 0.3, 0.3]), np.array([0.3, 0.35, -0.2, 0.01])
+    lam = np.array([0.1, 0.6, 0.3, 0.3])
+    eps = np.array([0.3, 0.35, -0.2, 0.01])
     counts = harmonics.count_samples(lam, eps)
     assert counts.tolist() == [harmonics.count_samples(*pair) for pair in zip(lam, eps, strict=True)]
     assert counts[1] > counts[0] == counts[2]

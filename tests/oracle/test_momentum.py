@@ -142,7 +142,8 @@ CASES = {
 def compare(text: str) -> None:
     """Every order of every quantity, in units of what one cylinder does."""
     oracle = momentum.Engine.read(text)
-    curves, scales = oracle.curves(), oracle.scales()
+    curves = oracle.curves()
+    scales = oracle.scales()
     found = spectrum.compute_spectra(build_text(text), ORDERS)
     for kind, phasors in found.items():
         for row, n in enumerate(ORDERS):
@@ -165,7 +166,8 @@ def test_every_engine_that_comes_with_balcli(path):
 def test_one_cylinder_of_an_articulated_engine_alone():
     """The share of a master and of an articulated cylinder in what the engine does (`--by cylinder`)."""
     text = BASE.format(crank="", piston="", layout="radial = 5", operation="", more=ARTICULATED)
-    oracle, whole = momentum.Engine.read(text), build_text(text)
+    oracle = momentum.Engine.read(text)
+    whole = build_text(text)
     for number in (1, 3):
         curves = oracle.curves([number])
         force = spectrum.compute_spectra(alone(whole, number), ORDERS, ["force"]).force

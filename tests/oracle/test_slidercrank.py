@@ -26,7 +26,9 @@ def oracle(name, psi, lam, eps=0.0):
     """The textbook form, evaluated with 50 digits at exactly the given floating-point arguments."""
     if abs(psi) < mp.mpf(10) ** -20:
         mp.mp.dps = 400
-    psi, lam, eps = mp.mpf(float(psi)), mp.mpf(float(lam)), mp.mpf(float(eps))
+    psi = mp.mpf(float(psi))
+    lam = mp.mpf(float(lam))
+    eps = mp.mpf(float(eps))
     sine = lam * mp.sin(psi) - eps
     cosine = mp.sqrt(1 - sine**2)
     rate = lam * mp.cos(psi) / cosine

@@ -100,9 +100,12 @@ class Model:
         """Return the chain as openTorsion's assembly, with this stiffness of each shaft."""
         discs = zip(self.inertia, self.damping, strict=True)
         discs = [opentorsion.Disk(k, inertia, c=c) for k, (inertia, c) in enumerate(discs)]
-        shafts, gears, count = [], [], len(discs)
+        shafts = []
+        gears = []
+        count = len(discs)
         for joint in self.joints:
-            start, solid = joint.start, joint.stiffness == np.inf
+            start = joint.start
+            solid = joint.stiffness == np.inf
             if solid or joint.ratio != 1:
                 foot, count = (joint.end, count) if solid else (count, count + 1)
                 driver = opentorsion.Gear(start, 0, -joint.ratio)
@@ -191,11 +194,16 @@ def read_engine(text: str) -> Model:
     """Return the chain of the crankshaft in an engine file, front to rear; numbers are bare."""
     engine = momentum.Engine.read(text)
     table = tomllib.loads(text)["torsion"]
-    front, rear, throws = table.get("front", []), table.get("rear", []), len(engine.throws)
+    front = table.get("front", [])
+    rear = table.get("rear", [])
+    throws = len(engine.throws)
     nodes = [part["name"] for part in reversed(front)]
     nodes += [f"throw {k + 1}" for k in range(throws)] + [part["name"] for part in rear]
-    inertia, damping = dict.fromkeys(nodes, 0.0), dict.fromkeys(nodes, 0.0)
-    speed, loss, joints = dict.fromkeys(nodes, 1.0), table.get("loss", 0), []
+    inertia = dict.fromkeys(nodes, 0.0)
+    damping = dict.fromkeys(nodes, 0.0)
+    speed = dict.fromkeys(nodes, 1.0)
+    loss = table.get("loss", 0)
+    joints = []
     for k, own in enumerate(table["throw_inertia"]):
         inertia[f"throw {k + 1}"] = own / 1e6
     for cell in engine.cells:
@@ -205,9 +213,11 @@ def read_engine(text: str) -> Model:
     for k, stiffness in enumerate(table["throw_stiffness"], 1):
         numbers = nodes.index(f"throw {k}"), nodes.index(f"throw {k + 1}"), 1.0
         joints.append(Joint(*numbers, stiffness, loss))
-    for parts, before, place in ((front, "throw 1", 0), (rear, f"throw {throws}", None)):
+    for parts, throw, place in ((front, "throw 1", 0), (rear, f"throw {throws}", None)):
+        before = throw
         for part in parts:
-            name, foot = part["name"], part.get("of", before)
+            name = part["name"]
+            foot = part.get("of", before)
             speed[name] = part.get("gear", speed[foot])
             inertia[name] = part["inertia"] / 1e6
             numbers = nodes.index(foot), nodes.index(name), speed[name] / speed[foot]
@@ -378,13 +388,16 @@ def compare_file(name: str, text: str) -> Agreement:
     found = balcli.torsion(text, speeds)
     nodes = len(found.nodes)
     if name in ENGINE_CASES:
-        model, excitation = read_engine(text), found.system.excitation
-        orders, sources = excitation.orders, excitation.at(speeds * RPM)
+        model = read_engine(text)
+        excitation = found.system.excitation
+        orders = excitation.orders
+        sources = excitation.at(speeds * RPM)
         torques = np.zeros((len(orders), len(speeds), nodes), complex)
         for k, node in enumerate(excitation.nodes):
             torques[..., node] += sources[..., k]
     else:
-        model, (orders, steady) = read_chain(text), read_torques(text)
+        model = read_chain(text)
+        orders, steady = read_torques(text)
         torques = np.repeat(steady[:, None], len(speeds), axis=1)
     responses = [model.respond(order * speeds * RPM, torque) for order, torque in zip(orders, torques, strict=True)]
     sums = sum(np.abs(torque) for _, torque in responses)
@@ -408,9 +421,11 @@ def compare_file(name: str, text: str) -> Agreement:
 
 def compare_random(kind: str, seed: int) -> Agreement:
     """Return the agreement of modes and poles for a random chain."""
-    chain, damping = random_chain(kind, seed), random_damping(random_chain(kind, seed), seed)
+    chain = random_chain(kind, seed)
+    damping = random_damping(random_chain(kind, seed), seed)
     damping = damping._replace(loss=0 * damping.loss)
-    model, modes = read_arrays(chain, damping), find_chain_modes(chain)
+    model = read_arrays(chain, damping)
+    modes = find_chain_modes(chain)
     return Agreement(
         f"random: {kind}, {seed}",
         *compare_modes(model, modes.omega[modes.rigid :], modes.shapes[modes.rigid :]),

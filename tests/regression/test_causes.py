@@ -137,7 +137,8 @@ def test_inputs_of_geared_engines_are_those_of_their_files(check, tmp_path):
     """An H engine whose two cranks have one file."""
     for name in ("brm_h16.toml", "brm_flat8.toml"):
         shutil.copy(next(ENGINES.rglob(name)), tmp_path)
-    h16, flat8 = tmp_path / "brm_h16.toml", tmp_path / "brm_flat8.toml"
+    h16 = tmp_path / "brm_h16.toml"
+    flat8 = tmp_path / "brm_flat8.toml"
     check("--update", h16)
     flat8.write_text(flat8.read_text().replace("[piston]\n", "[piston]\nmass_ = 1\n").replace("mass_ = 1\n", ""))
     assert check(h16)[0] == 0

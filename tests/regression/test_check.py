@@ -33,7 +33,8 @@ def test_folders_within_a_folder_are_checked_hidden_ones_and_settings_are_not(ch
 
 def test_files_of_other_kinds_in_a_folder_are_passed_over(check, file, tmp_path):
     """A rotor's runs and the drive line stand beside the engine; named, they are refused."""
-    runs, line = tmp_path / "rotor.toml", tmp_path / "line.toml"
+    runs = tmp_path / "rotor.toml"
+    line = tmp_path / "line.toml"
     runs.write_text("planes = ['a']\n[[run]]\nreadings = ['3 @ 0']\n")
     line.write_text("node = [{ name = 'a', inertia = 1 }]\n")
     assert check(tmp_path) == (0, "1 engine, as recorded\n", "")

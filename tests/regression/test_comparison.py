@@ -64,7 +64,8 @@ def has_no_direction(document, path):
 def test_a_change_of_any_figure_is_noticed(monkeypatch, name):
     """Sizes, axes, phases, angles of peaks, balance, texts, dead centres, and the figures of further chapters."""
     engine = load_example(name)
-    text, described = record_result(engine), describe_engine(engine)
+    text = record_result(engine)
+    described = describe_engine(engine)
     monkeypatch.setattr(comparison, "describe_engine", lambda *_: described)
     usual = Tolerances()
     assert list(find_differences(engine, json.loads(text), described, usual)) == []
@@ -104,7 +105,8 @@ def turned(record, degrees):
     """Turns the forward vector of the moment of order 1, and with it the axis by half as much."""
     moment = record["orders"][0]["moment_Nm"]
     x, y = moment["forward"]
-    c, s = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
+    c = math.cos(math.radians(degrees))
+    s = math.sin(math.radians(degrees))
     moment["forward"] = [c * x - s * y, s * x + c * y]
     moment["axis_deg"] += degrees / 2
     return record
@@ -130,8 +132,11 @@ def test_directions_of_vectors_within_the_tolerance_are_not_compared(size, notic
     force = document["orders"][0]["force_N"]
     own = max([document["peak"]["force_N"], *(entry["force_N"]["major"] for entry in document["orders"])])
     tiny = size * 0.01 * own
-    force["forward"], force["major"], force["minor"] = [tiny, 0.0], tiny, tiny
-    force["axis_deg"], force["balanced"] = 30.0, False
+    force["forward"] = [tiny, 0.0]
+    force["major"] = tiny
+    force["minor"] = tiny
+    force["axis_deg"] = 30.0
+    force["balanced"] = False
     assert largest > 0
     found = figures(engine, document, 0.01)
     assert ("order 1 force balanced" in found) == noticed

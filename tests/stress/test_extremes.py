@@ -69,7 +69,8 @@ def exact(name: str, n: int, lam: float) -> mp.mpf:
 
 def error(name: str, orders: list[int], lam: float) -> float:
     """Largest relative error, by n/32 beyond order 32; what has to vanish must be 0."""
-    c, worst = closed_form.find_harmonics(orders, lam)[name].c, 0.0
+    c = closed_form.find_harmonics(orders, lam)[name].c
+    worst = 0.0
     got = -c.imag if name == "rod" else c
     for n, value in zip(orders, got, strict=True):
         want = exact(name, n, lam)
@@ -133,7 +134,8 @@ def test_offset_mechanisms_keep_the_bound_they_state(lam, eps):
     def motion(e):
         sine = ratio * e.imag - offset
         cosine = mp.sqrt(1 - sine**2)
-        rate, tangent = ratio * e.real / cosine, sine / cosine
+        rate = ratio * e.real / cosine
+        tangent = sine / cosine
         return (
             e.real - e.imag * tangent + ratio * e.real**2 / cosine**3,
             ratio * e.imag / cosine - rate**2 * tangent,
@@ -141,7 +143,8 @@ def test_offset_mechanisms_keep_the_bound_they_state(lam, eps):
             rate**2,
         )
 
-    ratio, offset = mp.mpf(lam), mp.mpf(eps)
+    ratio = mp.mpf(lam)
+    offset = mp.mpf(eps)
     count = harmonics.count_samples(lam, eps)
     orders = [n for n in (0, 1, 2, 3, 7, 24) if n < count // 4]
     with mp.workdps(30):
@@ -189,7 +192,9 @@ def test_articulated_rods_near_dead_lock_keep_the_bound_they_state(short, master
         rate = chief * master.real / cosine
         bend = -sine / cosine + rate**2 * sine / cosine
         arm = mp.conj(lead) * pin * (cosine - 1j * sine)
-        k, k1, k2 = e + arm, 1j * (e - rate * arm), -e - (rate**2 + 1j * bend) * arm
+        k = e + arm
+        k1 = 1j * (e - rate * arm)
+        k2 = -e - (rate**2 + 1j * bend) * arm
         s = ratio * k.imag
         cos = mp.sqrt(1 - s**2)
         spin = ratio * k1.imag / cos
@@ -287,10 +292,12 @@ def test_scale(stroke, mass, speed):
         whole = engine(crank=crank, rod={"ratio": 0.3}, piston=piston, operation={"speed": speed})
         return analyze(whole, only=QUANTITIES)
 
-    one, other = found(100, 1, 60), found(stroke, mass, speed)
+    one = found(100, 1, 60)
+    other = found(stroke, mass, speed)
     size = mass * stroke / 100 * (speed / 60) ** 2
     for q, by in (("force", size), ("moment", size * stroke / 100), ("torque", size * stroke / 100)):
-        p, o = getattr(one.spectra, q), getattr(other.spectra, q)
+        p = getattr(one.spectra, q)
+        o = getattr(other.spectra, q)
         assert np.array_equal(p.balanced, o.balanced)
         assert np.abs(o.forward / by - p.forward).max() <= BOUNDS["scale"] * EPS * p.major.max()
     assert other.peak.force.value == pytest.approx(one.peak.force.value * size, rel=1e-14)

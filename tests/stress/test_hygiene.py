@@ -36,7 +36,8 @@ def test_runs_and_threads_do_not_matter():
 
 def listed(order: list[int]) -> Engine:
     """Eight unequal cylinders on their own throws in two banks, the throws in this order in the file."""
-    masses, throws = ([0.3 + 0.17 * k for k in range(8)], [0, 91.7, 183.1, 274.9, 45, 135.3, 222.2, 311.1])
+    masses = [0.3 + 0.17 * k for k in range(8)]
+    throws = [0, 91.7, 183.1, 274.9, 45, 135.3, 222.2, 311.1]
     table = {
         str(place + 1): {
             "piston_mass": masses[k],
@@ -66,7 +67,8 @@ def test_the_order_of_cylinders_in_the_file_does_not_matter(seed):
     whole = listed(list(range(8)))
     parts = [compute_spectra(alone(whole, n), ORDERS) for n in whole.numbers]
     for q in KINDS:
-        p, o = getattr(one, q), getattr(other, q)
+        p = getattr(one, q)
+        o = getattr(other, q)
         sizes = sum(getattr(part, q).major for part in parts)
         for way in ("forward", "backward"):
             error = np.abs(getattr(p, way) - getattr(o, way))

@@ -140,7 +140,8 @@ def assert_same(
     """The other makes `by` times what the first makes; vectors are turned by `forward`."""
     scale = sizes(one)
     for q in quantities:
-        p, o = getattr(found(one), q), getattr(found(other), q)
+        p = getattr(found(one), q)
+        o = getattr(found(other), q)
         factor = by * (forward if q in ("force", "moment") else 1)
         error = max(np.abs(o.forward - factor * p.forward).max(), np.abs(o.backward - factor * p.backward).max())
         assert error <= SCALED * scale[q] + abs(by) * rounding(p) + rounding(o), (q, error, scale[q])
@@ -187,7 +188,8 @@ def in_a_mirror(m: Tables) -> None:
 
 def place_throws(m: Tables, sense: int = 1, shift: float = 0.0) -> None:
     """Positions in place of the spacing."""
-    spacing, count = m["crank"].pop("spacing"), len(m["crank"]["throws"])
+    spacing = m["crank"].pop("spacing")
+    count = len(m["crank"]["throws"])
     m["crank"]["positions"] = [shift + sense * (t - (count - 1) / 2) * spacing for t in range(count)]
 
 
@@ -230,10 +232,14 @@ def test_an_engine_in_a_mirror(model):
     mirror image of the first at theta. Force: conjugate; moment (over i): conjugate; scalars: odd
     in the crank angle, with their sign changed.
     """
-    one, other = made(model), made(changed(model, in_a_mirror))
-    before, after, scale = found(one), found(other), sizes(one)
+    one = made(model)
+    other = made(changed(model, in_a_mirror))
+    before = found(one)
+    after = found(other)
+    scale = sizes(one)
     for q, sign in {"force": 1, "moment": -1, "couple": -1, "torque": -1, "roll": -1}.items():
-        p, o = getattr(before, q), getattr(after, q)
+        p = getattr(before, q)
+        o = getattr(after, q)
         for way in ("forward", "backward"):
             want = sign * np.conj(getattr(p, way))
             assert np.abs(getattr(o, way) - want).max() <= SCALED * scale[q] + rounding(p, o), q
@@ -243,7 +249,8 @@ def test_an_engine_in_a_mirror(model):
 @given(engines())
 def test_an_engine_with_its_throws_in_reverse(model):
     """Mirrored in the plane of x and y: only the moment changes, its sign."""
-    one, other = made(model), made(changed(model, end_to_end))
+    one = made(model)
+    other = made(changed(model, end_to_end))
     assert_same(one, other, quantities=("force", "couple", "torque", "roll"))
     assert_same(one, other, by=-1, quantities=("moment",))
 
@@ -268,8 +275,12 @@ def test_another_point_of_reference_adds_the_force_times_its_arm(model, x, y, z)
     def change(m: Tables) -> None:
         m["frame"]["reference"] = [a + b for a, b in zip(m["frame"]["reference"], (x, y, z), strict=True)]
 
-    one, other = made(model), made(changed(model, change))
-    before, after, scale, p = found(one), found(other), sizes(one), (x + 1j * y) / 1e3
+    one = made(model)
+    other = made(changed(model, change))
+    before = found(one)
+    after = found(other)
+    scale = sizes(one)
+    p = (x + 1j * y) / 1e3
     assert_same(one, other, quantities=("force", "torque"))
     arm = 1 + abs(z) / 1e3 + abs(p)
     for way in ("forward", "backward"):
@@ -306,17 +317,20 @@ def test_two_engines_on_one_crank_add_up(model, more, where):
     """One with the devices and one without, whose first pins stand alike; equal but for their throws and places."""
     model.pop("cylinder", None)
     del model["crank"]["spacing"]
-    first, second = model["crank"]["throws"], [model["crank"]["throws"][0], *more]
+    first = model["crank"]["throws"]
+    second = [model["crank"]["throws"][0], *more]
 
     def with_throws(throws: list[float], positions: list[float]) -> Any:
         return lambda m: m["crank"].update(throws=throws, positions=positions)
 
-    count, both = len(first), len(first) + len(second)
+    count = len(first)
+    both = len(first) + len(second)
     bare = without_devices(model)
     one = made(changed(model, with_throws(first, where[:count])))
     other = made(changed(bare, with_throws(second, where[count:both])))
     whole = found(made(changed(model, with_throws(first + second, where[:both]))))
-    scale, scale_too = sizes(one), sizes(other)
+    scale = sizes(one)
+    scale_too = sizes(other)
     assert_sum(whole, [found(one), found(other)], {q: scale[q] + scale_too[q] for q in KINDS})
 
 
@@ -325,7 +339,8 @@ def test_two_engines_on_one_crank_add_up(model, more, where):
 def test_every_mass_in_two_parts(model, share):
     """All moving masses of the cylinders split in one proportion between two engines at the same place."""
     model.pop("cylinder", None)
-    one, parts = made(model), []
+    one = made(model)
+    parts = []
     for tables, part in ((copy.deepcopy(model), share), (without_devices(model), 1 - share)):
         tables["piston"]["mass"] *= part
         tables["crank"]["throw_mass"] *= part
@@ -387,7 +402,8 @@ def test_mass_moved_from_the_throw_to_the_big_ends(model, share):
 @given(engines())
 def test_everything_grows_with_the_square_of_the_speed(model):
     """Exactly fourfold at twice the speed: the factor is a power of two."""
-    one, other = (made(model), made(changed(model, lambda m: m["operation"].update(speed=2 * m["operation"]["speed"]))))
+    one = made(model)
+    other = made(changed(model, lambda m: m["operation"].update(speed=2 * m["operation"]["speed"])))
     for (_, p), (_, o) in zip(found(one).items(), found(other).items(), strict=True):
         assert np.array_equal(4 * p.forward, o.forward)
         assert np.array_equal(4 * p.backward, o.backward)
@@ -404,8 +420,11 @@ def test_numbers_are_names(model, random):
     numbers = list(range(1, rows * len(model["crank"]["throws"]) + 1))
     random.shuffle(numbers)
     numbering = np.reshape(numbers, (rows, -1)).tolist()
-    one, other = (made(model), made(changed(model, lambda m: m["layout"].update(numbering=numbering))))
-    before, after, scale = found(one), found(other), sizes(one)
+    one = made(model)
+    other = made(changed(model, lambda m: m["layout"].update(numbering=numbering)))
+    before = found(one)
+    after = found(other)
+    scale = sizes(one)
     for q in KINDS:
         for name in ("major", "minor"):
             error = np.abs(getattr(getattr(before, q), name) - getattr(getattr(after, q), name)).max()

@@ -24,7 +24,8 @@ APART = ("auto", "complete", "compensator", "step", "two-shaft", "ellipse", "ecc
 
 def share_left(engine: Engine, after: Engine, quantities=("force", "moment")) -> float:
     """Largest of what is left of orders 1 and 2, against the largest of the same quantity before."""
-    before, rest = (compute_spectra(engine, [1, 2], quantities), compute_spectra(after, [1, 2], quantities))
+    before = compute_spectra(engine, [1, 2], quantities)
+    rest = compute_spectra(after, [1, 2], quantities)
     return max(float(getattr(rest, q).major.max() / (getattr(before, q).major.max() or 1)) for q in quantities)
 
 

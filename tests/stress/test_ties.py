@@ -47,7 +47,9 @@ def test_equal_arrangements_of_a_search(name: str, monkeypatch: pytest.MonkeyPat
             for one in search_least(read(ENGINES / f"{name}.toml"), "throws", "moment.1.major", count=10).results
         ]
 
-    before, random, exact = found(), np.random.default_rng(5), Objective.add_up
+    before = found()
+    random = np.random.default_rng(5)
+    exact = Objective.add_up
 
     def add_up(objective: Objective, value: Callable[[object], object]) -> object:
         total = np.asarray(exact(objective, value))

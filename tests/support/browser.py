@@ -25,7 +25,8 @@ class Browser:
     """One page. Messages that the page writes to its console, and errors in it, are kept in `complaints`."""
 
     def __init__(self, profile: Path) -> None:
-        (ours_in, theirs_out), (theirs_in, ours_out) = os.pipe(), os.pipe()
+        ours_in, theirs_out = os.pipe()
+        theirs_in, ours_out = os.pipe()
         theirs = [fcntl.fcntl(end, fcntl.F_DUPFD, 20) for end in (theirs_in, theirs_out)]  # they become 3 and 4
         os.close(theirs_in)
         os.close(theirs_out)
@@ -43,8 +44,10 @@ class Browser:
         )
         for end in theirs:
             os.close(end)
-        self._in, self._out = os.fdopen(ours_in, "rb"), os.fdopen(ours_out, "wb")
-        self._count, self._session = 0, ""
+        self._in = os.fdopen(ours_in, "rb")
+        self._out = os.fdopen(ours_out, "wb")
+        self._count = 0
+        self._session = ""
         self.complaints: list[str] = []
         self.requests: list[str] = []
         target = self.call("Target.createTarget", url="about:blank")["targetId"]
@@ -70,7 +73,8 @@ class Browser:
         self.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
         scheme = {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}
         self.call("Emulation.setEmulatedMedia", features=[scheme])
-        self.complaints, self.requests = [], []
+        self.complaints = []
+        self.requests = []
         self.call("Page.navigate", url=page.as_uri())
         while self._next().get("method") != "Page.loadEventFired":
             pass

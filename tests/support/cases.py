@@ -21,7 +21,8 @@ def cases(file: str, table: str, **names: Any) -> pytest.MarkDecorator:
         names: objects of the test that rows name in braces: "{NAME}" alone is the object, within a text it is its text.
     """
     content = tomllib.loads((ROOT / "tests" / "cases" / f"{file}.toml").read_text(encoding="utf-8"))[table]
-    arguments, objects = content["arguments"], {"None": None, **names}
+    arguments = content["arguments"]
+    objects = {"None": None, **names}
     rows = [_fill(row, objects) for row in content["rows"]]
     return pytest.mark.parametrize(arguments[0] if len(arguments) == 1 else arguments, rows)
 
@@ -43,13 +44,16 @@ def _fill(value: Any, objects: dict[str, Any]) -> Any:
         return reduce(lambda text, pair: text.replace(*pair), pairs, text) + _fill(value.get("more", ""), objects)
     if isinstance(value, dict):
         return {key: _fill(each, objects) for key, each in value.items()}
-    if not isinstance(value, str):
-        return value
-    if value[:1] == "{" and value[1:-1] in objects:
-        return objects[value[1:-1]]
+    return _fill_text(value, objects) if isinstance(value, str) else value
+
+
+def _fill_text(text: str, objects: dict[str, Any]) -> Any:
+    """The object that the whole text names, or the text with the names in it replaced."""
+    if text[:1] == "{" and text[1:-1] in objects:
+        return objects[text[1:-1]]
     for name, found in objects.items():
-        value = value.replace(f"{{{name}}}", str(found))
-    return value
+        text = text.replace(f"{{{name}}}", str(found))
+    return text
 
 
 def slow(*arguments: object) -> list[object]:

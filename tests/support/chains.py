@@ -94,12 +94,18 @@ def exact_frequencies(chain: Chain):
     """All natural frequencies, rising (rad/s); meshes lead from nodes to later ones."""
     rows = np.zeros((len(chain.start), len(chain.inertia)))
     for row, start, end, ratio in zip(rows, chain.start, chain.end, chain.ratio, strict=True):
-        row[start], row[end] = ratio, -1
-    mass, free, elastic = chain.inertia.copy(), ~chain.clamped, np.isfinite(chain.stiffness)
+        row[start] = ratio
+        row[end] = -1
+    mass = chain.inertia.copy()
+    free = ~chain.clamped
+    elastic = np.isfinite(chain.stiffness)
     for shaft in reversed(np.flatnonzero(~elastic)):
-        start, end, ratio = chain.start[shaft], chain.end[shaft], chain.ratio[shaft]
-        if chain.start[shaft] > chain.end[shaft]:
-            start, end, ratio = end, start, 1 / ratio
+        start = chain.start[shaft]
+        end = chain.end[shaft]
+        ratio = chain.ratio[shaft]
+        if start > end:
+            start, end = end, start
+            ratio = 1 / ratio
         rows[:, start] += ratio * rows[:, end]
         mass[start] += ratio**2 * mass[end]
         free[end] = False
@@ -108,18 +114,21 @@ def exact_frequencies(chain: Chain):
 
 def exact_response(chain: Chain, damping: Damping, w, load, attached=0.0):
     """Angles (nodes,) and torques of shafts (shafts,) at one frequency, from equations of both, solved at 50 digits."""
-    nodes, shafts = len(chain.inertia), len(chain.start)
+    nodes = len(chain.inertia)
+    shafts = len(chain.start)
     with mpmath.workdps(high_precision.DIGITS):
         matrix = mpmath.zeros(nodes + shafts)
         right = mpmath.zeros(nodes + shafts, 1)
-        w, i = mpmath.mpf(float(w)), mpmath.mpc(0, 1)
+        w = mpmath.mpf(float(w))
+        i = mpmath.mpc(0, 1)
         inertia = np.broadcast_to(chain.inertia + attached, nodes)
         for node in range(nodes):
             own = mpmath.mpmathify(complex(inertia[node]))
             matrix[node, node] = -w * w * own + i * w * mpmath.mpf(float(damping.nodes[node]))
             right[node] = mpmath.mpmathify(complex(load[node]))
         for shaft in range(shafts):
-            row, ratio = nodes + shaft, mpmath.mpf(float(chain.ratio[shaft]))
+            row = nodes + shaft
+            ratio = mpmath.mpf(float(chain.ratio[shaft]))
             for node, far in ((int(chain.end[shaft]), -1), (int(chain.start[shaft]), ratio)):
                 matrix[node, row] += far
                 matrix[row, node] += far
@@ -130,7 +139,8 @@ def exact_response(chain: Chain, damping: Damping, w, load, attached=0.0):
         for node in np.flatnonzero(chain.clamped):
             for other in range(nodes + shafts):
                 matrix[int(node), other] = matrix[other, int(node)] = 0
-            matrix[int(node), int(node)], right[int(node)] = 1, 0
+            matrix[int(node), int(node)] = 1
+            right[int(node)] = 0
         solution = high_precision.to_complex(mpmath.lu_solve(matrix, right))
     return solution[:nodes], solution[nodes:]
 

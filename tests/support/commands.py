@@ -24,7 +24,8 @@ def _make_commands_once() -> None:
     most commands.
     """
     group = type(get_command(cli.app))
-    make, made = group.get_command, {}
+    make = group.get_command
+    made = {}
 
     def get_made(self: Any, context: Any, name: str) -> Any:
         if name not in made:

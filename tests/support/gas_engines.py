@@ -33,7 +33,8 @@ def draw_engine(seed: int, strokes: int = 4, more: str = "") -> Engine:
     order = [1, *(random.permutation(count - 1) + 2).tolist()]
     cuts = np.sort(random.choice(np.arange(1, cycle // 5), count - 1, replace=False)) * 5
     intervals = np.diff([0, *cuts, cycle]).tolist()
-    offset, mean = random.uniform(-8, 8), random.uniform(4, 15)
+    offset = random.uniform(-8, 8)
+    mean = random.uniform(4, 15)
     text = f"""\
 [crank]
 stroke = {random.uniform(60, 140)}

@@ -20,7 +20,8 @@ def angular_frequencies(springs, stiffness, mass):
         mass: (dof,), some of them 0.
     """
     with mpmath.workdps(DIGITS):
-        rows, k = to_matrix(springs).apply(mpmath.re), [mpmath.mpf(float(x)) for x in stiffness]
+        rows = to_matrix(springs).apply(mpmath.re)
+        k = [mpmath.mpf(float(x)) for x in stiffness]
         matrix = rows.T * mpmath.diag(k) * rows
         light = [int(i) for i in np.flatnonzero(np.asarray(mass) == 0)]
         heavy = [int(i) for i in np.flatnonzero(np.asarray(mass) > 0)]

@@ -11,7 +11,9 @@ def run_in_time(speed: Callable, turns: int, steps: int = 1 << 13) -> tuple[np.n
     """
     fine = np.linspace(0, 2 * np.pi * turns, 1 << 12, endpoint=False)
     period = float(np.mean(1 / speed(fine)) * 2 * np.pi * turns)
-    h, theta, passed = period / steps, 0.0, []
+    h = period / steps
+    theta = 0.0
+    passed = []
     for _ in range(steps):
         passed.append(theta)
         a = speed(theta)

@@ -9,7 +9,8 @@ from balcli.limits import SMALL
 from balcli.report.live import make_book
 from balcli.show.units import SI
 
-VECTORS, SCALARS = ("force_N", "moment_Nm"), ("couple_Nm", "inertia_torque_Nm", "roll_Nm")
+VECTORS = ("force_N", "moment_Nm")
+SCALARS = ("couple_Nm", "inertia_torque_Nm", "roll_Nm")
 WANTED = ("force", "moment", "couple", "torque", "roll", "peak", "ladder")
 
 
@@ -59,7 +60,8 @@ def differences_of_ladder(wanted, found):
         if key in wanted["peak"] and abs(wanted["peak"][key] - found["peak"][key]) > 1e-9 * scale[key]:
             yield key, wanted["peak"], found["peak"]
     for key in ("auto", "steps", "left_out"):
-        of_command, of_page = wanted["ladder"][key], found["ladder"][key]
+        of_command = wanted["ladder"][key]
+        of_page = found["ladder"][key]
         if list_names(of_command) != list_names(of_page):
             yield key, of_command, of_page
         elif key != "auto":

@@ -58,12 +58,14 @@ class RandomBody:
         self.stiffness = np.zeros((6, 6), complex)
         self.static = np.zeros((6, 6))
         self.damping = np.zeros((6, 6))
-        self.at, self.each = [], []
+        self.at = []
+        self.each = []
         for k in range(mounts):
             self._add_mount(rng, k, loss, damping)
 
     def _add_mount(self, rng, k: int, loss: float, damping: float) -> None:
-        at, springs = rng.uniform(-0.5, 0.5, 3), rng.uniform(1e5, 5e5, 3)
+        at = rng.uniform(-0.5, 0.5, 3)
+        springs = rng.uniform(1e5, 5e5, 3)
         factor = float(rng.uniform(1, 1.5))
         if k % 2:
             a, b, c = rng.uniform(-180, 180, 3)
@@ -97,9 +99,11 @@ class RandomBody:
 
 def turn(axis: int, degrees: float):
     """A rotation about one axis."""
-    c, s = np.cos(np.radians(degrees)), np.sin(np.radians(degrees))
+    c = np.cos(np.radians(degrees))
+    s = np.sin(np.radians(degrees))
     i, j = [(1, 2), (2, 0), (0, 1)][axis]
     result = np.eye(3)
     result[i, i] = result[j, j] = c
-    result[j, i], result[i, j] = s, -s
+    result[j, i] = s
+    result[i, j] = -s
     return result

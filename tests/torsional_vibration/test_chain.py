@@ -71,7 +71,10 @@ def test_a_pendulum_swings_as_its_equation_of_motion_says():
 
     With y = (R + L) n^2 x/(R - L n^2), the disc feels m (R + L) ((R + L) x'' + L y'').
     """
-    mass, radius, length, order = 0.5, 0.08, 0.02, 1.5
+    mass = 0.5
+    radius = 0.08
+    length = 0.02
+    order = 1.5
     y = (radius + length) * order**2 / (radius - length * order**2)
     felt = mass * (radius + length) * (radius + length + length * y)
     assert pendulum_inertia(mass, radius, length, np.array(order)) == pytest.approx(felt)

@@ -22,15 +22,17 @@ def text_of(chain, damping, *torque):
         f"n{k}": {"inertia": inertia * 1e6, "damping": own}
         for k, (inertia, own) in enumerate(zip(chain.inertia.tolist(), damping.nodes.tolist(), strict=True))
     }
-    shafts, gears = {}, {}
+    shafts = {}
+    gears = {}
     columns = (chain.start, chain.end, chain.ratio, chain.stiffness, damping.loss, damping.dashpots)
     for start, end, ratio, stiffness, loss, dashpot in zip(*(each.tolist() for each in columns), strict=True):
         name = f"n{start}"
         if ratio != 1:  # a mesh without mass, then the shaft
             name = f"n{len(nodes)}"
-            nodes[name], gears[f"n{start}", name] = 0, ratio
-        stiffness = "rigid" if np.isinf(stiffness) else stiffness
-        shafts[name, f"n{end}"] = {"stiffness": stiffness, "loss": loss, "damping": dashpot}
+            nodes[name] = 0
+            gears[f"n{start}", name] = ratio
+        written = "rigid" if np.isinf(stiffness) else stiffness
+        shafts[name, f"n{end}"] = {"stiffness": written, "loss": loss, "damping": dashpot}
     held = [f"n{k}" for k in np.flatnonzero(chain.clamped)]
     return chain_text(nodes, shafts, torque, gears, fixed=held)
 
@@ -68,7 +70,8 @@ def test_holzers_table_leads_to_the_clamped_end():
 
 def test_csv_lists_the_figures_of_json():
     options = ("--speeds", "1000:1100:50", "--holzer", "2")
-    said, lines = ask_torsion(CHAIN, *options), ask_csv("torsion", "-", *options, stdin=CHAIN)
+    said = ask_torsion(CHAIN, *options)
+    lines = ask_csv("torsion", "-", *options, stdin=CHAIN)
 
     def values(part, figure, name=""):
         found = (x for x in lines if (x["part"], x["figure"]) == (part, figure) and x["name"] in (name, ""))
@@ -76,7 +79,8 @@ def test_csv_lists_the_figures_of_json():
 
     assert values("mode", "frequency") == [mode["frequency_Hz"] for mode in said["modes"]]
     first = said["response"]["shafts"][0]
-    name, worst = first["name"], first["worst"]
+    name = first["name"]
+    worst = first["worst"]
     assert values("response", "half_peak_to_peak", name) == first["half_peak_to_peak_Nm"]
     assert values("worst", "half_peak_to_peak", name) == [worst["half_peak_to_peak_Nm"]]
     assert values("worst", "amplitude", name) == [each["amplitude_Nm"] for each in worst["orders"]]
@@ -126,7 +130,9 @@ def test_a_viscous_ring_takes_heat_as_power_is_fed():
     said = ask_torsion(text, "--speeds", "1500")["response"]
     w = 3 * 1500 * np.pi / 30
     ring = 0.05 / (1 + 1j * w * 0.05 / 3)
-    k, hub, end = 40000, -(w**2) * (0.2 + ring), -(w**2) * 0.7
+    k = 40000
+    hub = -(w**2) * (0.2 + ring)
+    end = -(w**2) * 0.7
     angle = np.linalg.solve(np.array([[k + hub, -k], [-k, k + end]]), [0, 20])
     power = w / 2 * (20 * np.conj(angle[1])).imag
     assert said["dampers"][0]["node"] == "hub"
@@ -227,7 +233,8 @@ def test_a_mode_that_no_table_can_follow_has_none(first):
 def test_a_node_that_stands_still_is_told():
     """Of three equal discs the one in the middle: "nodes 1, node in –" stood there."""
     three = dict.fromkeys("abc", 1), {"ab": 1e5, "bc": 1e5}
-    text, held = chain_text(*three), chain_text(*three, fixed=["b"])
+    text = chain_text(*three)
+    held = chain_text(*three, fixed=["b"])
     first, second = ask_torsion(text)["modes"]
     assert (first["nodes"], first["node_in"], first["node_at"]) == (1, [], ["b"])
     assert (second["nodes"], second["node_in"], second["node_at"]) == (2, ["a-b", "b-c"], [])

@@ -64,7 +64,8 @@ def test_houdaille_optimum(ratio):
 
 
 def test_the_file_s_own_damper_is_off_where_it_is_told_what_there_is_without_one():
-    speeds, fitted = ("--speeds", "3000:4600:20"), on_pulley('{ kind = "viscous", inertia = 20000, damping = 30 }')
+    speeds = ("--speeds", "3000:4600:20")
+    fitted = on_pulley('{ kind = "viscous", inertia = 20000, damping = 30 }')
     stress = largest(ask_torsion(write_diesel(), *speeds), "stress_Pa") / 1e6
     assert largest(ask_torsion(fitted, *speeds), "stress_Pa") / 1e6 < 0.9 * stress
     out = run_here("torsion", "-", *speeds, "--damper", "viscous", stdin=fitted).out
@@ -118,9 +119,9 @@ def test_pendulums_hang_as_far_out_as_the_crank_pins(stroke):
         (write_diesel(), stroke / 2e3),
         (on_pulley('{ kind = "pendulum", mass = 2, radius = 90, length = 9 }'), 0.09),
     ):
-        text = text.replace("stroke = 137", f"stroke = {stroke}").replace("length = 207", f"length = {2 * stroke}")
+        sized = text.replace("stroke = 137", f"stroke = {stroke}").replace("length = 207", f"length = {2 * stroke}")
         asked = ("--damper", "pendulum", "--damper-inertia", "4000 kg mm^2")
-        assert size(text, "--speeds", "3800:4400:100", *asked)["radius_m"] == radius
+        assert size(sized, "--speeds", "3800:4400:100", *asked)["radius_m"] == radius
 
 
 @pytest.mark.parametrize(
@@ -187,7 +188,8 @@ def test_what_it_costs_is_the_power_lost_in_it():
     few = ("--orders", "0.5-12")
     sized = ask_torsion(write_diesel(), "--speeds", "3000:4600:100", "--damper", "viscous", *few)
     (told,) = sized["response"]["dampers"]
-    damper, worst = sized["damper"], told["worst"]
+    damper = sized["damper"]
+    worst = told["worst"]
     assert (told["node"], damper["heat_rpm"]) == ("pulley", worst["speed_rpm"])
     assert damper["heat_W"] == worst["heat_W"] > max(told["heat_W"])
     figures = f"inertia = {damper['inertia_kg_m2'] * 1e6}, damping = {damper['damping_Nms_per_rad']}"
@@ -236,7 +238,8 @@ def test_a_damper_that_cannot_be_is_told_in_words():
 
 @pytest.mark.parametrize("line_end", ["\n", "\r\n"])
 def test_what_is_written_does_what_was_said(tmp_path, line_end):
-    chain, fitted = tmp_path / "chain.toml", tmp_path / "fitted.toml"
+    chain = tmp_path / "chain.toml"
+    fitted = tmp_path / "fitted.toml"
     chain.write_bytes(CHAIN.replace("\n", line_end).encode())
     options = ("--speeds", "1500:2600:20", "--format", "json")
     promised = json.loads(run_here("torsion", chain, *options, "--damper", "viscous", "--write", fitted).out)
@@ -258,7 +261,8 @@ def test_an_older_damper_is_replaced(tmp_path):
 
 
 def test_a_file_in_inline_tables_is_written_anew(tmp_path):
-    chain, fitted = tmp_path / "chain.toml", tmp_path / "fitted.toml"
+    chain = tmp_path / "chain.toml"
+    fitted = tmp_path / "fitted.toml"
     chain.write_text(
         'node = [{ name = "a", inertia = 1e6 }, { name = "b", inertia = 2e6 }] # short\n'
         'shaft = [{ from = "a", to = "b", stiffness = 1e4 }]\n'

@@ -39,8 +39,12 @@ def test_nodes_and_shafts_stand_from_front_to_rear():
 
 def test_mean_inertia_of_a_cylinder_against_quadrature():
     """`m_rot r^2 + mean(m_rec s'^2 - H beta'^2)`, with an offset and a rod that is no two masses."""
-    radius, length, offset = 0.045, 0.145, 0.004
-    mass, cg, about = 0.7, 0.05, 2600e-6
+    radius = 0.045
+    length = 0.145
+    offset = 0.004
+    mass = 0.7
+    cg = 0.05
+    about = 2600e-6
     text = f"""
         crank = {{ stroke = 90, throw_mass = 3.3 }}
         rod = {{ length = 145, mass = {mass}, cg = {cg * 1e3}, inertia = {about * 1e6} }}
@@ -49,7 +53,8 @@ def test_mean_inertia_of_a_cylinder_against_quadrature():
         torsion.rear = [{{ name = "flywheel", inertia = 1e6, stiffness = 1e5 }}]
         """
     speed, rate = slider_crank(THETA, radius, length, offset)
-    small, big = mass * cg / length, mass * (length - cg) / length
+    small = mass * cg / length
+    big = mass * (length - cg) / length
     lacking = small * big / mass * length**2 - about
     expected = 0.02 + big * radius**2 + np.mean((0.5 + small) * speed**2 - lacking * rate**2)
     assert ask_torsion(text)["nodes"][0]["inertia_kg_m2"] == pytest.approx(expected, rel=1e-13)
@@ -97,7 +102,9 @@ def integrate(inertia, stiffness, dashpots, grounded, torque, omega, steps):
     itself is solved for. Runge-Kutta, 4th order. `torque` is a function of the crank angle to the
     torques on all nodes.
     """
-    count, stiffness, dashpots = len(inertia), np.array(stiffness), np.array(dashpots)
+    count = len(inertia)
+    stiffness = np.array(stiffness)
+    dashpots = np.array(dashpots)
     twist = np.eye(count)[:-1] - np.eye(count)[1:]
     springs, losses = ((twist.T * each) @ twist for each in (stiffness, dashpots))
     below = [-springs / inertia[:, None], -(losses + np.diag(grounded)) / inertia[:, None]]
@@ -114,13 +121,16 @@ def integrate(inertia, stiffness, dashpots, grounded, torque, omega, steps):
         d = system @ (state + span * c) + after
         return state + span / 6 * (a + 2 * b + 2 * c + d)
 
-    state, forced = np.eye(2 * count, 2 * count + 1), np.eye(2 * count + 1)[-1]
+    state = np.eye(2 * count, 2 * count + 1)
+    forced = np.eye(2 * count + 1)[-1]
     for k in range(steps):
         state = step(k, state, forced)
     start = np.linalg.lstsq(np.eye(2 * count) - state[:, :-1], state[:, -1], rcond=1e-12)[0]
-    state, torques = start[:, None], []
+    state = start[:, None]
+    torques = []
     for k in range(steps):
-        bend, rate = twist @ state[:count, 0], twist @ state[count:, 0]
+        bend = twist @ state[:count, 0]
+        rate = twist @ state[count:, 0]
         torques.append(stiffness * bend + dashpots * rate)
         state = step(k, state, np.ones(1))
     return np.ptp(torques, axis=0) / 2
@@ -128,8 +138,12 @@ def integrate(inertia, stiffness, dashpots, grounded, torque, omega, steps):
 
 def test_time_integration_agrees_with_the_synthesis():
     """Inertia torque of the slider-crank itself, not of its harmonics; near a critical."""
-    inertia, stiffness = np.array([0.03, 0.05, 0.05, 0.05, 0.05, 0.9]), [9e5, 8e5, 8e5, 8e5, 1e6]
-    radius, length, mass, omega = 0.043, 0.145, 0.9, 5200 * np.pi / 30
+    inertia = np.array([0.03, 0.05, 0.05, 0.05, 0.05, 0.9])
+    stiffness = [9e5, 8e5, 8e5, 8e5, 1e6]
+    radius = 0.043
+    length = 0.145
+    mass = 0.9
+    omega = 5200 * np.pi / 30
     gear = mass * np.mean(slider_crank(THETA, radius, length)[0] ** 2)
     text = f"""
         crank = {{ stroke = 86, throws = [0, 180, 180, 0], spacing = 90 }}
@@ -163,7 +177,8 @@ def test_rigid_shafts_leave_the_fluctuation_of_one_inertia():
     for stiffness in ("1631000.0", "1106000.0", "1976000.0"):
         stiff = stiff.replace(f"stiffness = {stiffness}", 'stiffness = "rigid"')
     said = ask_torsion(stiff.replace("damping = 2", "damping = 0"), "--speeds", "2000", "--orders", "6")
-    speed, omega = slider_crank(THETA, 0.0685, 0.207)[0], 2000 * np.pi / 30
+    speed = slider_crank(THETA, 0.0685, 0.207)[0]
+    omega = 2000 * np.pi / 30
     sixth = 6 * 2 * np.abs(np.mean(2.521 * speed**2 * np.exp(-6j * THETA)))  # of six cylinders
     swing = np.degrees(0.5 * 6 * sixth * omega**2 / (36 * omega**2 * sum(INERTIAS)))
     assert said["response"]["free_end_deg"][0] == pytest.approx(swing, rel=1e-6)
@@ -292,7 +307,8 @@ def test_the_position_of_a_cylinder_moves_its_rod_and_not_its_throw(tmp_path):
         "piston = { mass = 0.5, bore = 85 }\n[torsion]\nthrow_stiffness = [1e6, 2e6]\n"
         'throw_inertia = [20000, 30000, 60000]\nrear = [{ name = "wheel", inertia = 2e5, stiffness = 1.5e6 }]\n'
     )
-    moved, plain = text + "[cylinder.3]\nposition = -60\n", frequencies(text)
+    moved = text + "[cylinder.3]\nposition = -60\n"
+    plain = frequencies(text)
     assert frequencies(moved) == pytest.approx(plain, rel=1e-12)
     file = write(tmp_path / "three.toml", moved)
     row = run_here("sweep", file, "--vary", "piston.mass=0.5", "-q", "torsion.1.Hz").out.splitlines()[1]

@@ -6,7 +6,10 @@ from support.commands import ask_json, refusal
 from support.diesel import INERTIAS, STIFFNESSES, write_diesel
 from support.paths import write
 
-BORE, RADIUS, ROD, RECIPROCATING = 0.105, 0.0685, 0.207, 2.521
+BORE = 0.105
+RADIUS = 0.0685
+ROD = 0.207
+RECIPROCATING = 2.521
 ORDER = (1, 5, 3, 6, 2, 4)
 # crank angle from firing (deg), pressure (bar): a rough diagram, linear between rows
 DIAGRAM = [(0, 140), (10, 149), (30, 85), (60, 27), (130, 7), (180, 3), (540, 2.7), (690, 50)]
@@ -37,12 +40,14 @@ def respond(rpm):
     count = 1 << 15
     angle = np.arange(count) * 4 * np.pi / count
     harmonics = 2 * np.fft.rfft(torque(rpm, angle))[1:25] / count
-    omega, curve = rpm * np.pi / 30, 0
+    omega = rpm * np.pi / 30
+    curve = 0
     twist = np.eye(9)[:-1] - np.eye(9)[1:]
     stiffness = np.array(STIFFNESSES) * (1 + 0.035j)
     grounded = np.diag([0, 0, 2, 2, 2, 2, 2, 2, 0.0])
     for k, harmonic in enumerate(harmonics, 1):
-        w, load = k / 2 * omega, np.zeros(9, complex)
+        w = k / 2 * omega
+        load = np.zeros(9, complex)
         for place, number in enumerate(ORDER):
             load[1 + number] = harmonic * np.exp(-1j * k * place * np.pi / 3)
         dynamic = (twist.T * stiffness) @ twist + 1j * w * grounded - w**2 * np.diag(INERTIAS)

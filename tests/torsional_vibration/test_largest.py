@@ -45,11 +45,13 @@ def search_finely(text, shaft):
     inside = swings[1:-1]
     peaks = 1 + np.flatnonzero((inside >= swings[:-2]) & (inside >= swings[2:]))
     largest = swings.max()
-    for middle in speeds[peaks[np.argsort(-swings[peaks])][:5]]:
+    for peak in speeds[peaks[np.argsort(-swings[peaks])][:5]]:
+        middle = peak
         for reach in (0.5, 0.02, 0.0008):
             near = np.clip(np.linspace(middle - reach, middle + reach, 101), 1000, 3000)
             there = look(near)
-            middle, largest = near[np.argmax(there)], max(largest, there.max())
+            middle = near[np.argmax(there)]
+            largest = max(largest, there.max())
     return largest
 
 
@@ -69,14 +71,16 @@ def test_the_largest_of_an_answer_lies_between_its_speeds():
     text = write_engine(0.005)
     coarse = ask_torsion(text, "--speeds", "1000:3000:50")["response"]
     by_name = {shaft["name"]: shaft["worst"] for shaft in coarse["shafts"]}
-    worst, swing = by_name["flywheel"], coarse["free_end_worst"]
+    worst = by_name["flywheel"]
+    swing = coarse["free_end_worst"]
     assert worst["half_peak_to_peak_Nm"] == pytest.approx(search_finely(text, -1), rel=1e-6)
     beside_worst, beside_swing = (
         ask_torsion(text, "--speeds", f"{rpm - 0.5}:{rpm + 0.5}:0.01")["response"]
         for rpm in (worst["speed_rpm"], swing["speed_rpm"])
     )
     for shaft in beside_worst["shafts"]:
-        told, torques = by_name[shaft["name"]], shaft["half_peak_to_peak_Nm"]
+        told = by_name[shaft["name"]]
+        torques = shaft["half_peak_to_peak_Nm"]
         if abs(told["speed_rpm"] - worst["speed_rpm"]) < 0.4:
             assert told["half_peak_to_peak_Nm"] == pytest.approx(max(torques), rel=1e-5)
         if "stress_Pa" in told:
@@ -133,10 +137,12 @@ def test_a_limit_that_the_largest_stress_alone_passes_bars_its_speed():
 
 def test_the_top_of_a_wide_resonance_between_the_speeds_is_barred():
     """The ring shifts the resonance from the criticals, and steps of 24 rpm show it anyway, but not its top."""
-    plain, few = write_engine(0.05, THICK), ("--orders", "1-12")
+    plain = write_engine(0.05, THICK)
+    few = ("--orders", "1-12")
     shafts = ask_torsion(plain, *few, "--speeds", "1700:1900:200")["response"]["shafts"]
     top = max((shaft["worst"] for shaft in shafts), key=lambda worst: worst.get("stress_Pa", 0.0))
-    limit, middle = 0.9995 * top["stress_Pa"] / 1e6, top["speed_rpm"]
+    limit = 0.9995 * top["stress_Pa"] / 1e6
+    middle = top["speed_rpm"]
     coarse, fine = (
         ask_barred(plain, limit, f"{middle - reach}:{middle + reach}:{step}", *few)
         for reach, step in ((84, 24), (12, 1))
@@ -149,12 +155,14 @@ def test_of_two_peaks_within_one_step_the_higher_is_found():
     """Order 1 swells as order 6.5 passes: one peak at 1195 rpm, a higher one 2 rpm on, with the
     speeds 100 rpm apart. Against plain equations of motion.
     """
-    inertias, stiffnesses = [18e4, 5e4, 15e4], [9e4, 14e4]
+    inertias = [18e4, 5e4, 15e4]
+    stiffnesses = [9e4, 14e4]
     torques = [(2, 1, 83, 83), (0, 1.5, -64, -98), (2, 6.5, 81, -77), (0, 7.5, 18, -88)]
     drawn = [("abc"[node], *torque) for node, *torque in torques]
     text = chain_text({"a": 0.18, "b": 0.05, "c": 0.15}, {"ab": 9e4, "bc": 14e4}, drawn, loss=0.1)
     told = ask_torsion(text, "--speeds", "600:3000:100")["response"]["shafts"][0]["worst"]
-    twist, angle = np.array([[1, -1, 0], [0, 1, -1]]), np.arange(20000) * 4 * np.pi / 20000
+    twist = np.array([[1, -1, 0], [0, 1, -1]])
+    angle = np.arange(20000) * 4 * np.pi / 20000
 
     def swing(rpm):
         curve = 0

@@ -39,12 +39,14 @@ def test_figures_are_converted_once():
     nodes = {"a": {"inertia": 1500, "damping": "18 lbf in s/rad"}, "b": {"inertia": "1500 lb ft^2", "damper": pendulum}}
     shaft = {"stiffness": "24.17e6 lbf in/rad", "diameter": "3 in", "bore": 20}
     system = build(chain_text(nodes, {"ab": shaft}))
-    pound, inch = 0.45359237, 0.0254
+    pound = 0.45359237
+    inch = 0.0254
     force = pound * 9.80665
     assert system.chain.inertia == pytest.approx([1.5e-3, 1500 * pound * (12 * inch) ** 2])
     assert system.chain.stiffness == pytest.approx([24.17e6 * force * inch])
     assert system.damping.nodes == pytest.approx([18 * force * inch, 0])
-    outer, inner = 3 * inch, 0.02
+    outer = 3 * inch
+    inner = 0.02
     stress = 16 * outer / (math.pi * (outer**4 - inner**4))
     assert system.stress_by_torque == pytest.approx([stress])
     assert system.pendulums[0] == pytest.approx((1, 3 * pound, 0.06, inch))

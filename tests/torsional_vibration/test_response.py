@@ -37,12 +37,14 @@ def random_load(chain, seed, *shape):
 @pytest.mark.parametrize("seed", range(3))
 def test_response_against_50_digits(kind, seed):
     chain = random_chain(kind, seed)
-    damping, w = random_damping(chain, seed), np.multiply.outer([0.5, 3, 9], [60.0, 250])
+    damping = random_damping(chain, seed)
+    w = np.multiply.outer([0.5, 3, 9], [60.0, 250])
     compared(chain, damping, w, random_load(chain, seed, 3, 2))
 
 
 def test_response_with_complex_inertias():
-    chain, w = random_chain("branched", 5), np.multiply.outer([0.5, 3], [60.0, 250])
+    chain = random_chain("branched", 5)
+    w = np.multiply.outer([0.5, 3], [60.0, 250])
     attached = np.random.default_rng(3).uniform(0, 0.3, (2, 2, len(chain.inertia))) * (1 - 0.4j)
     compared(chain, random_damping(chain, 1), w, random_load(chain, 1, 2, 2), attached)
 
@@ -71,7 +73,8 @@ def test_stiff_shafts_twist_as_exactly_as_soft_ones():
 
 def test_rigid_shafts_share_the_load_as_their_inertias():
     """The limit of stiff shafts: chapter A's speed fluctuation, x = -sum t/(w^2 sum J)."""
-    chain, load = chain_of([0.3, 0.7, 2], [np.inf, np.inf]), np.array([10.0, -4, 1])
+    chain = chain_of([0.3, 0.7, 2], [np.inf, np.inf])
+    load = np.array([10.0, -4, 1])
     twist = respond_chain(chain, no_damping(chain), 25.0, load)
     acceleration = load.sum() / chain.inertia.sum()
     assert twist.angle == pytest.approx(np.full(3, -acceleration / 25.0**2), rel=1e-14)
@@ -81,8 +84,11 @@ def test_rigid_shafts_share_the_load_as_their_inertias():
 
 def test_one_speed_is_a_thousand():
     chain = random_chain("plain", 1)
-    damping, orders, speeds = random_damping(chain, 1), np.arange(1, 25) / 2, np.linspace(50, 300, 40)
-    load, nodes = random_load(chain, 1, 24, 1), len(chain.inertia)
+    damping = random_damping(chain, 1)
+    orders = np.arange(1, 25) / 2
+    speeds = np.linspace(50, 300, 40)
+    load = random_load(chain, 1, 24, 1)
+    nodes = len(chain.inertia)
     many = respond_chain(chain, damping, np.multiply.outer(orders, speeds), load)
     assert (many.angle.shape, many.torque.shape) == ((24, 40, nodes), (24, 40, nodes - 1))
     one = respond_chain(chain, damping, orders[4] * speeds[7], load[4, 0])
@@ -94,7 +100,9 @@ def test_one_speed_is_a_thousand():
 def test_power_fed_is_power_lost_and_torques_are_reciprocal(kind):
     """What a torque at one node does at another is what it does the other way round."""
     chain = random_chain(kind, 7)
-    damping, w, load = random_damping(chain, 7), np.multiply.outer([1, 4], [80.0, 170]), random_load(chain, 7, 2, 2)
+    damping = random_damping(chain, 7)
+    w = np.multiply.outer([1, 4], [80.0, 170])
+    load = random_load(chain, 7, 2, 2)
     attached = np.zeros(len(chain.inertia), complex)
     attached[-1] = 0.2 - 0.1j
     angle = respond_chain(chain, damping, w, load, attached).angle
@@ -143,7 +151,8 @@ def test_a_mean_torque_without_its_load_has_no_steady_motion():
 
 
 def test_undamped_resonances_are_refused_and_found_between_the_speeds():
-    modes, load = find_chain_modes(THREE), np.array([0, 1, 3])
+    modes = find_chain_modes(THREE)
+    load = np.array([0, 1, 3])
     with pytest.raises(UndampedResonanceError) as at:
         respond_chain(THREE, no_damping(THREE), modes.omega[1:], load)
     assert at.value.frequency == pytest.approx(5**0.5)

@@ -29,7 +29,8 @@ def crank(radius, rod, degrees):
     """Of a force on the piston: its torque arm, m, and its share along the crank; and the two-term acceleration over
     omega^2, m.
     """
-    psi, lam = np.array(np.radians(degrees)), radius / rod
+    psi = np.array(np.radians(degrees))
+    lam = radius / rod
     sine, cosine = slidercrank.rod_angle(psi, lam)
     arm = slider_crank_piston(radius, rod, 0.1).rate(psi)
     along = np.cos(psi + np.arctan2(sine, cosine)) / cosine
@@ -42,13 +43,15 @@ def area(bore, rod=0.0):
 
 def test_speeds_at_which_the_thrust_reverses():
     """Examples 15.9 and 15.11, pages 534 and 537. 10 mm down the stroke the author of 15.9 measures 33 deg."""
-    gas, (*_, two_terms) = 700e3 * area(0.08), crank(0.05, 0.2, 33)
+    gas = 700e3 * area(0.08)
+    *_, two_terms = crank(0.05, 0.2, 33)
     assert round(np.sqrt(gas / two_terms) * 30 / np.pi) == 2612
     exact = float(slider_crank_piston(0.05, 0.2, 0.08).angle_of(0.01))
     assert np.degrees(exact) == pytest.approx(33.12294021, rel=1e-9)
     force = gas - 0.05 * rpm(1800) ** 2 * float(slidercrank.acceleration(exact, 0.25))
     assert force == pytest.approx(1844.165642, rel=1e-9)
-    weighed, (*_, two_terms) = 700e3 * area(0.1) + 1.1 * G, crank(0.06, 0.25, 20)
+    weighed = 700e3 * area(0.1) + 1.1 * G
+    *_, two_terms = crank(0.06, 0.25, 20)
     assert np.sqrt(weighed / (1.1 * two_terms)) * 30 / np.pi == pytest.approx(2606, abs=4)  # rounded on the way
 
 
@@ -70,10 +73,13 @@ def test_example_15_20():
     The couple is from alpha = omega^2 sin/n and a rod that turns at omega cos/n; exact is 2 % less.
     3840 N m are those of 13.1 rad/s, to which the book rounds the speed.
     """
-    lam, psi, mass = 0.2, np.array(np.radians(30)), 250
+    lam = 0.2
+    psi = np.array(np.radians(30))
+    mass = 250
     rate = slider_crank_piston(0.3, 1.5, 0.1).rate(psi)
     beyond = mass * (0.5 * 1.0 - 0.65**2)  # what two point masses have more than the rod
-    sine, cosine = np.sin(psi), np.cos(psi)
+    sine = np.sin(psi)
+    cosine = np.cos(psi)
 
     def torque(speed):
         acceleration = 0.3 * rpm(speed) ** 2 * two_term.acceleration(psi, lam)
@@ -89,7 +95,8 @@ def test_example_15_20():
 
 def test_example_16_1():
     """Page 573: 56 kN m about 120 rpm."""
-    mean, inertia = rpm(120), 6500 * 1.8**2
+    mean = rpm(120)
+    inertia = 6500 * 1.8**2
     half = small_fluctuation(56e3, inertia, mean) / 2
     assert round(120 * (1 + half)) == 121
     assert round(120 * (1 - half)) == 119
@@ -98,7 +105,8 @@ def test_example_16_1():
 
 def test_example_16_4():
     """Page 574: from 295 to -690 mm2; the companion's code has 285."""
-    inertia, unit = 36 * 0.15**2, 5 * np.pi / 180
+    inertia = 36 * 0.15**2
+    unit = 5 * np.pi / 180
     found = small_fluctuation((295 + 690) * unit, inertia, rpm(1800))
     assert percent(found, 1) == 0.3
     assert 100 * found == pytest.approx(0.2986732566, rel=1e-9)
@@ -122,7 +130,9 @@ def test_example_16_12():
     232.4 deg.
     """
     net = resolved(lambda x: 600 * np.sin(2 * x) - 500 * np.sin(x), [0, 2 * np.pi])
-    found, inertia, mean = surplus(net), 500 * 0.4**2, rpm(150)
+    found = surplus(net)
+    inertia = 500 * 0.4**2
+    mean = rpm(150)
     assert round(found.energy) == 1204
     assert found.energy == pytest.approx(1204 + 1 / 6, rel=1e-12)
     assert percent(small_fluctuation(found.energy, inertia, mean), 1) == 6.1

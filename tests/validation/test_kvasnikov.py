@@ -63,7 +63,8 @@ def test_statements_by_sums_of_unit_vectors():
         if (name, "lowest order of moment M_z") in found:
             assert found[name, "lowest order of moment M_z"] == min((n for n in left if n % 2), default=0)
     theta = np.arange(360.0)
-    pins, axes = np.array([0, 0, 180, 180]), np.array([-45, 45, -45, 45])
+    pins = np.array([0, 0, 180, 180])
+    axes = np.array([-45, 45, -45, 45])
     along_y = (np.sin(np.radians(axes)) * np.cos(np.radians(2 * (theta[:, None] + pins - axes)))).sum(axis=1)
     assert found["vee of 4, gamma = 45 deg", "force of order 2 along y"] == pytest.approx(along_y.max(), rel=1e-12)
     assert {e.category for e in table.errata} == {"rounding", "error"}

@@ -54,13 +54,18 @@ def build_cylinders(crank: str, rod: str, piston: str):
 
 def test_engines_give_the_answers_of_the_table():
     """From engine files: masses, acceleration and force; the rod's couple; weights of the third."""
-    crank, rod, pound, foot = "stroke = '4 in'", "length = '7 in', mass = '2.75 lb'", 0.45359237, 0.3048
+    crank = "stroke = '4 in'"
+    rod = "length = '7 in', mass = '2.75 lb'"
+    pound = 0.45359237
+    foot = 0.3048
     first = build_cylinders(crank, rod + ", cg = '2 in'", "1 lb")
     second = build_cylinders(crank, rod + ", cg = '7/3 in', inertia = '539/72 lb in^2'", "1 lb")
     ends = "length = '12 in', small_end = '2 lb', big_end = '3 lb'"
     third = build_cylinders("stroke = '6 in', throw_mass = '1 lb'", ends, "6 lb")
-    weight, top = first.reciprocating[0] / pound, 2 / 12 * OMEGA**2 * (1 + first.lam[0])
+    weight = first.reciprocating[0] / pound
+    top = 2 / 12 * OMEGA**2 * (1 + first.lam[0])
     share = second.couple[0] / (2.75 * pound * (7 * foot / 12) ** 2)
-    rotating, moving = third.rotating[0] / pound, third.reciprocating[0] / pound
+    rotating = third.rotating[0] / pound
+    moving = third.reciprocating[0] / pound
     found = [weight, top, weight * top / G, share, rotating, moving, (rotating + moving / 2) * 3 / 3.5]
     assert found == pytest.approx([answers()[k] for k in (0, 1, 2, 5, 8, 9, 10)], rel=1e-12)

@@ -8,8 +8,12 @@ import pytest
 
 from balcli.mounting.rigid_body import Body, Mounts, elastic_centre, find_body_modes, stiffness_matrix
 
-MASS, INERTIA, STIFFNESS = 200.0, np.array([8.0, 12.0, 14.0]), np.array([2e5, 1.5e5, 4e5])
-X, Y, DROP = 0.4, 0.3, 0.2
+MASS = 200.0
+INERTIA = np.array([8.0, 12.0, 14.0])
+STIFFNESS = np.array([2e5, 1.5e5, 4e5])
+X = 0.4
+Y = 0.3
+DROP = 0.2
 AT = np.array([[X, Y, -DROP], [X, -Y, -DROP], [-X, Y, -DROP], [-X, -Y, -DROP]])
 BODY = Body(MASS, np.zeros(3), np.diag(INERTIA))
 EACH = np.ones((4, 3))
@@ -20,7 +24,8 @@ def pair(sideways, turning, inertia):
     """Squares of both frequencies of a displacement coupled with a turn by the drop of the mounts:
     stiffnesses `sideways` and `turning` about the mounts' plane.
     """
-    a, b = sideways / MASS, (turning + sideways * DROP**2) / inertia
+    a = sideways / MASS
+    b = (turning + sideways * DROP**2) / inertia
     coupling = (sideways * DROP) ** 2 / (MASS * inertia)
     root = np.sqrt((a - b) ** 2 / 4 + coupling)
     return [(a + b) / 2 - root, (a + b) / 2 + root]

@@ -17,7 +17,9 @@ from balcli.forces.spectrum import compute_spectra
 from balcli.sizing.remedy import fit_devices
 from balcli.sizing.sizing import size
 
-M, R, LAM = 1.0, 0.05, 0.25
+M = 1.0
+R = 0.05
+LAM = 0.25
 A2 = float(closed_form.piston([2], LAM)[0])
 
 
@@ -92,7 +94,8 @@ def test_factor_leaves_what_it_does_not_take():
     """Half balance leaves half, turning against the crank, and exactly nothing with it (Wang, (36))."""
     for share in (0, 0.4, 0.5, 0.66, 1):
         e = engine([0])
-        after, unit = left(fit_scheme(e, "factor", factor=(share,)), [1]).force, M * R * e.omega**2
+        after = left(fit_scheme(e, "factor", factor=(share,)), [1]).force
+        unit = M * R * e.omega**2
         assert after.forward[0].real == pytest.approx((0.5 - share) * unit, rel=0, abs=1e-13 * unit * (share != 0.5))
         assert after.backward[0] == pytest.approx(unit / 2, rel=1e-14)
 

@@ -41,7 +41,8 @@ def unbalances(engine: Engine, **options: object) -> dict[int, complex]:
 
 @pytest.mark.parametrize("gamma", EVERY_ANGLE)
 def test_shafts_cancel_both_rotating_vectors_at_every_bank_angle(gamma):
-    engine, half = flat_plane(gamma), math.radians(gamma / 2)
+    engine = flat_plane(gamma)
+    half = math.radians(gamma / 2)
     found = unbalances(engine)
     assert abs(found.get(2, 0j)) * 4 == pytest.approx(K * abs(math.cos(half)), abs=1e-13 * K)  # (2 omega)^2 = 4 omega^2
     assert abs(found.get(-2, 0j)) * 4 == pytest.approx(K * abs(math.cos(3 * half)), abs=1e-13 * K)
@@ -52,7 +53,8 @@ def test_shafts_cancel_both_rotating_vectors_at_every_bank_angle(gamma):
 
 @pytest.mark.parametrize("gamma", [g for g in EVERY_ANGLE if g not in (60, 180)])
 def test_places_that_add_no_roll(gamma):
-    engine, half = flat_plane(gamma), math.radians(gamma / 2)
+    engine = flat_plane(gamma)
+    half = math.radians(gamma / 2)
     remedy = size_scheme(engine, "two-shaft", order=2, at=(0.06 + 0.08j,))
     place = {s.ratio: complex(*s.at) for s in remedy.shafts}
     ratio = abs(place[2]) / abs(place[-2])

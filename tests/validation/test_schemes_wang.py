@@ -24,7 +24,8 @@ from balcli.sizing.remedy import fit_devices
 from balcli.sizing.single_cylinder import find_optimum
 from balcli.sizing.sizing import size
 
-M, R = 1.0, 0.05
+M = 1.0
+R = 0.05
 
 
 def single(lam: float = 0.25, more: str = "", **tables: str) -> Engine:
@@ -107,7 +108,9 @@ def test_eccentric_slider_design_and_loads(design):
     engine = build_text(engine_text(rod="length = 150", crank="stroke = 90", piston="mass = 0.5"))
     found = next(one for one in size_scheme(engine, "eccentric-slider", radius=0.03).details["optima"]
                  if one["design"] == design)  # fmt: skip
-    e, m_b, omega = found["eccentricity_mm"] / 1e3, found["mass_kg"], engine.omega
+    e = found["eccentricity_mm"] / 1e3
+    m_b = found["mass_kg"]
+    omega = engine.omega
     theta = np.arange(8192) * (2 * np.pi / 8192)
     if design == "a":  # the slot of the disc, whose centre is at -e, leads the pin of the shaft at 0
         path = (e * np.cos(theta) + np.sqrt(0.03**2 - (e * np.sin(theta)) ** 2)) * np.exp(1j * theta) - e
@@ -155,7 +158,10 @@ def test_weights_of_a_single_cylinder_stand_at_the_radius_of_the_workshop(scheme
 @pytest.mark.stress
 def test_eccentric_slider_of_any_mass_in_any_direction():
     """What is left is that of 1 kg times the mass, along the cylinder axis; no moment arises and no mean is left."""
-    plain, mass, bank, z = single(0.25), 0.4, 37, 60
+    plain = single(0.25)
+    mass = 0.4
+    bank = 37
+    z = 60
     other = build_text(
         engine_text(
             rod="ratio = 0.25",

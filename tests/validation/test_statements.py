@@ -18,8 +18,11 @@ from balcli.sizing.single_cylinder import find_optimum
 A = np.linspace(0.1, 6.2, 41)  # crank angles, rad
 G = np.linspace(0.2, 3.0, 41)  # bank angles, rad
 A_TURN = np.arange(0, 2 * pi, pi / 18)  # a whole turn
-E, R = 1j, 0.05
-LAM, MR, OMEGA = 0.3, 0.02, 100.0  # crank ratio, m r (kg m), rad/s
+E = 1j
+R = 0.05
+LAM = 0.3
+MR = 0.02
+OMEGA = 100.0  # crank ratio, m r (kg m), rad/s
 CHECKS: dict[str, Callable[[], tuple[object, object, object]]] = {}
 
 
@@ -43,7 +46,8 @@ def second_minimum():
     def bend(lam):
         return float(second(lambda psi: slidercrank.acceleration(psi, lam), pi))
 
-    low, high = 0.2, 0.32
+    low = 0.2
+    high = 0.32
     for _ in range(30):
         low, high = (low, middle) if bend(middle := (low + high) / 2) * bend(low) < 0 else (middle, high)
     return 0.25, (sqrt(7 / 3) - 1) / 2, low
@@ -68,7 +72,8 @@ def z_y(g, a):
 
 def banks(g, a):
     """Second-order force of both banks, x + iy, y along the middle of the vee, for K = 1."""
-    left, right = E * exp(E * g / 2), E * exp(-E * g / 2)
+    left = E * exp(E * g / 2)
+    right = E * exp(-E * g / 2)
     return left * cos(2 * a + g) + right * cos(2 * a - g)
 
 
@@ -100,8 +105,11 @@ def roll_of_forces(g, turns, beta_1, beta_2, b_1=1.0, b_2=1.0):
 @check("liu, (2.1)")
 def roll_of_two_shafts():
     """At gamma = 40 deg, of the weights of the shafts, which are opposite to the vectors."""
-    g, beta_1, beta_2 = 2 * pi / 9, 0.4, 1.1
-    f_1, f_2 = cos(g / 2), cos(1.5 * g)
+    g = 2 * pi / 9
+    beta_1 = 0.4
+    beta_2 = 1.1
+    f_1 = cos(g / 2)
+    f_2 = cos(1.5 * g)
 
     def form(f_1, f_2):
         sines = f_1 * sin(beta_1) - f_2 * sin(beta_2)
@@ -152,7 +160,8 @@ def root():
 
 @check("liu, (7.1)")
 def radii():
-    b2, b3 = -cos(1.5 * G), cos(G / 2)
+    b2 = -cos(1.5 * G)
+    b3 = cos(G / 2)
     ratio = -cos(1.5 * G) / cos(G / 2)
     return b2 / ratio, b2 / b3, ratio
 
@@ -160,7 +169,8 @@ def radii():
 @check("liu, before (7.3)")
 def circle():
     """(7.1), third line, in coordinates: b''' = cos(gamma/2) = x/b'''."""
-    x, y = cos(G / 2) ** 2, cos(G / 2) * sin(G / 2)
+    x = cos(G / 2) ** 2
+    y = cos(G / 2) * sin(G / 2)
     return x**2 + y**2, np.hypot(x, y), cos(G / 2)
 
 
@@ -191,7 +201,8 @@ def couple():
 
 
 PHI = A + 0.3 * sin(A)  # any angle of a shaft over the crank angle
-RATE, RATE2 = 1 + 0.3 * cos(A), -0.3 * sin(A)
+RATE = 1 + 0.3 * cos(A)
+RATE2 = -0.3 * sin(A)
 
 
 @check("wang, (21)")
@@ -240,7 +251,9 @@ def ratio():
 @check("kvasnikov, general notions")
 def plane_of_the_pistons():
     """M_x and M_y = Zx - Xz of a force at z = 2 in a plane that contains z: y-z, then x-z."""
-    x_force, y_force, z = 1.0, 1.0, 2.0
+    x_force = 1.0
+    y_force = 1.0
+    z = 2.0
     return [y_force * z, 0], [0, -x_force * z], np.cross([0, 0, z], [x_force, 0, 0])[:2] * [1, -1]
 
 
@@ -283,7 +296,10 @@ def share_of_order_5():
     return [0.04, 0.00], [0.05, 0.01], (100 * exact[1] / exact[0]).round(2)
 
 
-THETA, ALPHA, GAMMA_1, GAMMA = 0.4, 1.1, 0.7, 0.2
+THETA = 0.4
+ALPHA = 1.1
+GAMMA_1 = 0.7
+GAMMA = 0.2
 
 
 @check("kvasnikov, (46)")
@@ -295,7 +311,9 @@ def pin_angle():
 
 @check("kvasnikov, before (61)")
 def moment():
-    along, across, z = 3.0, 5.0, 2.0  # force of a cylinder at gamma, its place
+    along = 3.0
+    across = 5.0
+    z = 2.0  # force of a cylinder at gamma, its place
     force = (along + E * across) * exp(E * G)
     return (along * z * cos(G) + across * z * sin(G), along * z * sin(G) + across * z * cos(G), force.imag * z)
 
@@ -303,13 +321,15 @@ def moment():
 @check("kvasnikov, after (62)")
 def phases():
     """A sum of order 2 with coefficients 3 (cosine) and 4 (sine): 3 cos 2 theta - 4 sin 2 theta."""
-    size, angle = 5.0, np.arctan2(4, 3)
+    size = 5.0
+    angle = np.arctan2(4, 3)
     return size * cos(2 * (A + angle)), size * cos(2 * (A + angle / 2)), 3 * cos(2 * A) - 4 * sin(2 * A)
 
 
 @check("kvasnikov, (66)")
 def order_of_the_rod():
-    phi, k = 0.8, 3
+    phi = 0.8
+    k = 3
 
     def form(angle):
         return cos(k * A) * cos(k * angle) - sin(k * A) * sin(k * phi)
@@ -469,7 +489,8 @@ def test_the_eccentric_slider_with_the_printed_sign():
         along = cos(t) + sqrt(k**2 - sin(t) ** 2)
         return np.unwrap(np.arctan2(along * sin(t), along * cos(t) - 1))
 
-    rate, rate2 = derivative(phi, theta), second(phi, theta)
+    rate = derivative(phi, theta)
+    rate2 = second(phi, theta)
 
     def residual(sign):
         mu_force = 2 * best.mu * (rate**2 * cos(phi(theta)) + sign * rate2 * sin(phi(theta)))

@@ -64,8 +64,11 @@ def line(size: float) -> tuple[float, float]:
 
 V90 = {"bank_angle": 90}
 BOXER = {"banks": [-90, 90], "rods": "alternating"}
-CROSS_PLANE, FLAT_PLANE, V6 = [0, 90, 270, 180], [0, 180, 180, 0], [0, 120, 240]
-SIX_PINS, SPLIT = {"bank_angle": 60, "splay": -60}, {"bank_angle": 90, "splay": -30}
+CROSS_PLANE = [0, 90, 270, 180]
+FLAT_PLANE = [0, 180, 180, 0]
+V6 = [0, 120, 240]
+SIX_PINS = {"bank_angle": 60, "splay": -60}
+SPLIT = {"bank_angle": 90, "splay": -30}
 
 
 @pytest.mark.parametrize(
@@ -151,8 +154,10 @@ def test_moments(throws, layout, first, second):
 @pytest.mark.parametrize("gamma", [15, 45, 60, 75.5, 120, 170])
 def test_v_twins_of_any_angle(gamma):
     """Along the bisector 2 cos^2(g/2) F1 and 2 cos(g/2) cos g F2, across it 2 sin^2(g/2) F1 and 2 sin(g/2) sin g F2."""
-    found, half = of([0], bank_angle=gamma), radians(gamma / 2)
-    along, across = abs(found.force.x) / F1, abs(found.force.y) / F1
+    found = of([0], bank_angle=gamma)
+    half = radians(gamma / 2)
+    along = abs(found.force.x) / F1
+    across = abs(found.force.y) / F1
     assert along[:2] == pytest.approx([2 * cos(half) ** 2, A[2] * abs(2 * cos(half) * cos(2 * half))], rel=RELATIVE)
     assert across[:2] == pytest.approx([2 * sin(half) ** 2, A[2] * 2 * sin(half) * sin(2 * half)], rel=RELATIVE)
 
@@ -160,7 +165,8 @@ def test_v_twins_of_any_angle(gamma):
 @pytest.mark.parametrize("gamma", [45, 60, 90, 180])
 def test_v12(gamma):
     """Two sixes: nothing below the sixth order, 12 cos(g/2) cos(6 g/2) F6 along the bisector."""
-    found, half = of(INLINE["six"], bank_angle=gamma), radians(gamma / 2)
+    found = of(INLINE["six"], bank_angle=gamma)
+    half = radians(gamma / 2)
     assert min(free(found, "force"), default=99) >= 6
     assert free(found, "moment") == []
     sixth = F1 * abs(A[6])

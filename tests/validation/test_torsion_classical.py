@@ -22,7 +22,8 @@ def test_equal_discs_one_end_fixed(count, inertia, stiffness):
 
 def test_equal_discs_both_ends_free():
     """w_i = 2 sqrt(k/J) sin(i pi/(2n)), shapes cos(i pi (2m - 1)/(2n)): classical."""
-    n, i = 8, np.arange(8)[:, None]
+    n = 8
+    i = np.arange(8)[:, None]
     modes = find_chain_modes(join_chain([0.3] * n, [ChainShaft(m, m + 1, 5e4) for m in range(n - 1)]))
     assert modes.omega == pytest.approx(2 * np.sqrt(5e4 / 0.3) * np.sin(i[:, 0] * np.pi / (2 * n)), rel=1e-14)
     shapes = np.cos(i * np.pi * (2 * np.arange(1, n + 1) - 1) / (2 * n))

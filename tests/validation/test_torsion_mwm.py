@@ -21,7 +21,10 @@ DOCUMENT = ROOT / "docs" / "torsion.md"
 LOSS = 0.035
 CHAIN = join_chain(INERTIAS, [ChainShaft(i, i + 1, k) for i, k in enumerate(STIFFNESSES)])
 DAMPING = Damping(np.full(8, LOSS), np.zeros(8), np.array([0, 0, 2, 2, 2, 2, 2, 2, 0.0]))
-BORE, RADIUS, ROD, RECIPROCATING = 0.105, 0.137 / 2, 0.207, 2.521
+BORE = 0.105
+RADIUS = 0.137 / 2
+ROD = 0.207
+RECIPROCATING = 2.521
 TURNS_AT_FIRING = np.array([0, 4, 2, 5, 1, 3]) / 3  # of cylinders 1 to 6: order 1 5 3 6 2 4
 
 PRESSURE = [*np.transpose(DIAGRAM) * [[25 / 41], [2 / 517]]]  # crank angle (deg), pressure (MPa), with a peak of 15.2
@@ -98,7 +101,8 @@ def test_exact_orders_synthesised_in_time(rpm):
     orders, load = exact_loads(rpm)
     w = np.multiply.outer(orders, rpm * np.pi / 30)
     twist = respond_chain(CHAIN, DAMPING, w, load)
-    sums, half = sum_amplitudes(twist.torque), find_swing(orders, twist.torque).half
+    sums = sum_amplitudes(twist.torque)
+    half = find_swing(orders, twist.torque).half
     assert sums == pytest.approx(SUMS_OF_AMPLITUDES[rpm], rel=0.06)
     assert np.all((sums / half > 1.2) & (sums / half < 2.5))
     angle = np.linspace(0, 4 * np.pi, 1 << 14)

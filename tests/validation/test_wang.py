@@ -25,7 +25,8 @@ def rows():
 def test_true_optimum_has_three_equal_maxima():
     """Table 1: at theta = 0 and at two angles symmetric to the cylinder; no other k or alpha does better."""
     for row in rows():
-        lam, k = row["lambda"], row["k0"]
+        lam = row["lambda"]
+        k = row["k0"]
         assert row["Pmax_min"] == pytest.approx(1 + lam - k, rel=1e-14)
         assert peak(lam, k) == pytest.approx(row["Pmax_min"], rel=1e-6)
         for dk, alpha in ((0.003, 0), (-0.003, 0), (0, 0.3), (0, -0.3)):

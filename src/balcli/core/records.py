@@ -284,8 +284,11 @@ def write_each(value: Any, split: Polar | Reached | None = None) -> Any:
         return [write_each(item, split) for item in value]
     if isinstance(value, Mapping):
         return {key: write_each(item, split) for key, item in value.items()}
-    if split is not None:
-        return split.split(value)
+    return split.split(value) if split is not None else _write_whole(value)
+
+
+def _write_whole(value: Any) -> Any:
+    """Return a complex number as a list of its two parts, and a record as a document."""
     if isinstance(value, complex):
         return [value.real + 0.0, value.imag + 0.0]
     return to_document(value)
@@ -406,10 +409,16 @@ def _describe(kind: object, each: _Attribute, definitions: Node) -> Node:
         nodes = [_describe(one, each, definitions) for one in kinds]
         return nodes[0] if len(nodes) == 1 else {"anyOf": nodes}
     if origin is Literal:
-        one = len(arguments) == 1
-        return {"type": "string"} | ({"const": arguments[0]} if one else {"enum": [*arguments]})
+        if len(arguments) == 1:
+            return {"type": "string", "const": arguments[0]}
+        return {"type": "string", "enum": [*arguments]}
     if origin is not None:
         return _describe_many(origin, arguments, each, definitions)
+    return _describe_plain(kind, each, definitions)
+
+
+def _describe_plain(kind: object, each: _Attribute, definitions: Node) -> Node:
+    """Return the schema of a number, word or record."""
     if each.split is not None and kind is not NoneType:
         properties = dict.fromkeys(each.split, _NUMBER)
         return {"type": "object", "properties": properties, "required": [*properties]}

@@ -79,12 +79,19 @@ def _write(quantity: str, part: Node, system: System) -> Iterator[FigureRow]:
     """Yield a line for every figure. Lines of pins have the number of the cylinder; lines of
     bearings have the number of the bearing in the column of the order.
     """
-    cylinder, order = part.get("cylinder", 0), part.get("bearing")
+    cylinder = part.get("cylinder", 0)
+    order = part.get("bearing")
     for name, value, _ in list_figures(part, ("cylinder", "bearing", "position_mm")):
         unit = system.instead_of(find_unit(name))
-        name = name if unit.name in ("deg", "rpm") else remove_unit(name)
-        value = unit.of(value) if isinstance(value, float) else value
-        yield FigureRow(cylinder, quantity, order, name, value, unit.name)
+        fixed = unit.name in ("deg", "rpm")
+        yield FigureRow(
+            cylinder,
+            quantity,
+            order,
+            name if fixed else remove_unit(name),
+            unit.of(value) if isinstance(value, float) else value,
+            unit.name,
+        )
 
 
 # ------------------------------------------------------------------ for people
@@ -109,7 +116,8 @@ def tenths(angle_deg: float) -> str:
 
 
 def _list_work(result: TorqueAnalysis, system: System) -> Iterator[tuple[str, str]]:
-    kinds, period = {"": 1.0}, f"{write_whole(result.cycle_deg)} deg"
+    kinds = {"": 1.0}
+    period = f"{write_whole(result.cycle_deg)} deg"
     if (engine := result.engine) is None:
         yield "period", period
         if result.speed_rpm is not None:
@@ -123,7 +131,8 @@ def _list_work(result: TorqueAnalysis, system: System) -> Iterator[tuple[str, st
         if engine.mechanical_efficiency is not None:
             kinds[" brake"] = engine.mechanical_efficiency
         if result.max_pressure_Pa is not None:
-            size, at = _size(result.max_pressure_Pa, system.pressure), result.max_pressure_deg
+            size = _size(result.max_pressure_Pa, system.pressure)
+            at = result.max_pressure_deg
             yield "largest pressure", f"{size}, {degrees(at or 0.0)} deg after firing"
         yield from list_silent(engine.silent)
     for name, value, of in (
@@ -141,7 +150,8 @@ def _list_work(result: TorqueAnalysis, system: System) -> Iterator[tuple[str, st
 
 
 def _describe_course(result: TorqueAnalysis, system: System) -> Facts:
-    torque, energy = result.torque, result.energy
+    torque = result.torque
+    energy = result.energy
     unit = system.moment.fit(max(abs(torque.min_Nm), abs(torque.max_Nm)))
 
     def tell(value: float, angle_deg: float) -> str:
@@ -161,7 +171,8 @@ def _describe_course(result: TorqueAnalysis, system: System) -> Facts:
 def _list_flywheel(
     result: TorqueAnalysis, wheel: Flywheel, system: System
 ) -> Iterator[tuple[str, str]]:
-    unit, moving = system.inertia, wheel.moving_parts_kg_m2
+    unit = system.inertia
+    moving = wheel.moving_parts_kg_m2
     if hasattr(wheel, "inertia_kg_m2"):
         parts = f", including {number(unit.of(moving))} of moving parts" if moving else ""
         yield "inertia", _size(wheel.inertia_kg_m2, unit) + parts
@@ -178,7 +189,8 @@ def _list_flywheel(
         yield "speed", wheel.stall
     if hasattr(wheel, "needed_kg_m2"):
         needed = wheel.needed_kg_m2
-        told, engine = f"{_size(needed, unit)} in total", result.engine
+        told = f"{_size(needed, unit)} in total"
+        engine = result.engine
         if engine is not None and moving:
             others = (find_constant_inertia(engine) or 0.0) - float(engine.flywheel_inertia or 0.0)
             known = engine.rotary or engine.crank_inertia is not None

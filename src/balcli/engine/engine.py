@@ -151,7 +151,8 @@ class Placed(NamedTuple):
         `own` is the device in this engine's own axes, by this engine's crank angle.
         """
         lead = unit(own.order * self.phase_deg)
-        forward, backward = lead * own.forward, np.conj(lead) * own.backward
+        forward = lead * own.forward
+        backward = np.conj(lead) * own.backward
         if self.ratio < 0:  # a mirrored vector turns the other way
             forward, backward = backward, forward
         return own._replace(
@@ -374,7 +375,8 @@ class Engine:
         if beyond_pins and crank is not None:
             radii = zip(self.weighed, self.cylinders.radius_of_each, strict=True)
             on_crank = on_crank - sum(masses.share * radius**2 for masses, radius in radii)
-        momentum, energy = on_crank, on_crank
+        momentum = on_crank
+        energy = on_crank
         for device in self.devices:
             if device.kind is DeviceKind.SHAFT or crank is None:
                 momentum = momentum + device.spin
@@ -446,7 +448,8 @@ class Engine:
         throw of the crank, in the order of the file. If [crank] gives positions of throws, a
         cylinder's own position moves only its rod, not its throw.
         """
-        c, z = self.cylinders, np.ravel(self.pins_m)
+        c = self.cylinders
+        z = np.ravel(self.pins_m)
         if self.rotary or self.placed or not self.places_known:
             return tuple((throw,) for throw in range(len(z)))
         turned = np.round(np.stack([np.ravel(c.pin_deg), np.ravel(c.axis_of_each_deg)]), 6) % 360
@@ -535,7 +538,8 @@ def _share_state(whole: Engine) -> Iterator[Placed]:
     """
     start = 0
     for row, one in enumerate(whole.placed):
-        own, stop = one.engine, start + len(one.engine.numbers)
+        own = one.engine
+        stop = start + len(one.engine.numbers)
         x, y, z = whole.reference_m
         reference = one.find_own_place(place_in_plane(x, y))
         lines = (
@@ -640,7 +644,8 @@ def find_row(engine: Engine, number: CylinderNumber) -> int:
         BalcliError: The engine has no such cylinder.
     """
     if number not in engine.numbers:
-        name, numbers = engine.name or "the engine", engine.rising_numbers
+        name = engine.name or "the engine"
+        numbers = engine.rising_numbers
         some = f"cylinders 1 to {numbers[-1]}" if len(numbers) > 1 else "only cylinder 1"
         if engine.placed:
             some = f"cylinders {', '.join(map(str, numbers))}"

@@ -24,7 +24,8 @@ if TYPE_CHECKING:
 NARROW_DEG = 30.0
 # Decimals of computed angles (deg), and significant digits of other computed values; further digits
 # are rounding errors.
-_DECIMALS, _DIGITS = 9, 12
+_DECIMALS = 9
+_DIGITS = 12
 
 
 def list_inferred(parts: Parts) -> Iterator[Assumed]:
@@ -48,7 +49,9 @@ def _list_firing(parts: Parts) -> Iterator[Assumed]:
     """Yield numbering, throws, intervals and strokes that the file does not give."""
     if parts.order is None:
         return
-    crank, layout, has_gas = parts.model.crank, parts.model.layout, parts.model.gas is not None
+    crank = parts.model.crank
+    layout = parts.model.layout
+    has_gas = parts.model.gas is not None
     throws_inferred = not parts.throws_given
     counts = throws_inferred or has_gas
     order = layout.firing_order
@@ -71,8 +74,11 @@ def _list_firing(parts: Parts) -> Iterator[Assumed]:
 
 def _list_crank_defaults(parts: Parts) -> Iterator[Assumed]:
     """Yield speed, throws, positions, masses and inertias that the file does not give."""
-    model, throws = parts.model, parts.plan.throws
-    crank, layout, running = model.crank, model.layout, model.operation
+    model = parts.model
+    throws = parts.plan.throws
+    crank = model.crank
+    layout = model.layout
+    running = model.operation
     if not running.has("speed"):
         yield assume("operation.speed", running, running.speed)
     if crank.throws is None and parts.order is None and throws == 2:
@@ -98,7 +104,8 @@ def _list_rod_defaults(parts: Parts) -> Iterator[Assumed]:
     """Yield mass, centre of mass and inertia of the rods that the file does not give. The inertia
     of a rod is that of two masses at its ends.
     """
-    rod, hinged = parts.model.rod, parts.model.articulation
+    rod = parts.model.rod
+    hinged = parts.model.articulation
     if rod.mass is None and rod.small_end is None:
         yield assume("rod.mass", rod, 0.0)
     if rod.mass and rod.cg is None:
@@ -142,7 +149,8 @@ def list_chapter_defaults(model: EngineFile) -> Iterator[Assumed]:
     """Yield the defaults on which results of torsion and mounts depend. For lists, one value stands
     for all members: `mount.dynamic_factor`.
     """
-    torsion, body = model.torsion, model.body
+    torsion = model.torsion
+    body = model.body
     if torsion is not None:
         for end, parts in (("front", torsion.front), ("rear", torsion.rear)):
             of_steel = (part for part in parts if part.is_of_unnamed_steel)

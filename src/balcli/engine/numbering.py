@@ -37,7 +37,8 @@ def doubt_firing(model: EngineFile) -> Iterator[str]:
     if parts.order is None:
         yield from _doubt_splay(model) if model.crank.splay else ()
         return
-    layout, plan = model.layout, parts.plan
+    layout = model.layout
+    plan = parts.plan
     if layout.numbering is not None and "numbering" not in layout.model_fields_set:
         rows = layout.numbering
         if rows != next(list_tiers(plan, radial=layout.radial is not None))[0]:
@@ -90,7 +91,8 @@ def _find_usual_orders(parts: Parts) -> str:
     five cylinders, or are two cranks of fours at 90 deg. In a flat engine, pins of neighbouring
     cylinders are 180 deg apart.
     """
-    throws, plan = count_throws_from_first(parts), parts.plan
+    throws = count_throws_from_first(parts)
+    plan = parts.plan
     angles = [*map(float, bank_angles(parts.model.layout, parts.figures))]
     if plan.banks == 1:
         order = parts.order or ()

@@ -25,7 +25,8 @@ if TYPE_CHECKING:
     from pydantic_core import CoreSchema
 
 
-_DIGITS, _LAST = "0-9０-９¼-¾⅐-⅞", 'A-Za-zА-я°ºµμ²³¹π"”″㎀-㏟'
+_DIGITS = "0-9０-９¼-¾⅐-⅞"
+_LAST = 'A-Za-zА-я°ºµμ²³¹π"”″㎀-㏟'
 STRING_PATTERN = rf"^\s*[+−–-]?\s*(?:pi|π|(?:[{_DIGITS}.]|pi|π).*[{_LAST}{_DIGITS}.])\s*$"
 RIGID = "rigid"  # text for the infinite stiffness of a flange or of meshing gears
 
@@ -174,8 +175,12 @@ class Number(_Field):
         word: str = "",
         meaning: float = math.nan,
     ) -> None:
-        self.dimension, self.above, self.below, self.most = dimension, above, below, most
-        self.word, self.meaning = word, meaning  # text allowed instead of a number, and its value
+        self.dimension = dimension
+        self.above = above
+        self.below = below
+        self.most = most
+        self.word = word
+        self.meaning = meaning  # text allowed instead of a number, and its value
         self.least = -most if least is None and above is None else least
 
     def read(self, value: object) -> float:
@@ -256,7 +261,10 @@ class Whole(_Field):
     """A whole number (4.0 counts as 4); if `halves` is true, a multiple of 1/2."""
 
     def __init__(self, *, least: float, most: int, zero: bool = True, halves: bool = False) -> None:
-        self.least, self.most, self.zero, self.halves = least, most, zero, halves
+        self.least = least
+        self.most = most
+        self.zero = zero
+        self.halves = halves
 
     def read(self, value: object) -> float:
         wanted = (
@@ -290,7 +298,9 @@ class OneOrEach:
     """
 
     def __init__(self, one: _Field, count: int = 0, copies: int = 0) -> None:
-        self.one, self.count, self.copies = one, count, copies
+        self.one = one
+        self.count = count
+        self.copies = copies
 
     def read_one(self, value: object) -> object:
         """Return the stored form of a figure that holds for all members."""
@@ -351,7 +361,8 @@ class OneOf(_Field):
     """One of a few words or numbers. `meaning` explains them in messages about other values."""
 
     def __init__(self, *options: str | int, meaning: str = "") -> None:
-        self.options, self.meaning = options, meaning
+        self.options = options
+        self.meaning = meaning
 
     def read(self, value: object) -> str | int:
         for option in self.options:
@@ -368,7 +379,8 @@ class OneOf(_Field):
 class Label(_Field):
     """A name, of limited length."""
 
-    most, kind = LONGEST_NAME, "name"
+    most = LONGEST_NAME
+    kind = "name"
     wanted = f"use up to {LONGEST_NAME} letters, digits and signs, in quotes"
 
     def read(self, value: object) -> str:
@@ -384,7 +396,8 @@ class Label(_Field):
 class FileName(Label):
     """The name of a file, of limited length."""
 
-    most, kind = LONGEST_FILE_NAME, "name of a file"
+    most = LONGEST_FILE_NAME
+    kind = "name of a file"
     wanted = 'give the name of a file, such as "p_2000rpm.csv"'
 
 

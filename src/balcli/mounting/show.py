@@ -138,12 +138,15 @@ def _compare(own: BodyResponse, other: BodyResponse, kind: Kind) -> str:
 
 def _explain(result: MountReport, response: BodyResponse, worst: WorstForce | WorstMotion) -> str:
     """Return a sentence on why a value is largest at its speed."""
-    speeds, hertz, met = response.speeds_rpm, worst.order * worst.speed_rpm / 60, worst.resonance
+    speeds = response.speeds_rpm
+    hertz = worst.order * worst.speed_rpm / 60
+    met = worst.resonance
     k = met.mode - 1 if met else worst.mode
     mode = result.modes[k]
     named = f"mode {k + 1} ({mode.motion}, {number(mode.frequency_Hz, 3)} Hz)"
     if met:
-        order, at = order_name(met.order), number(met.speed_rpm, 4)
+        order = order_name(met.order)
+        at = number(met.speed_rpm, 4)
         return f"Order {order} meets {named} at {at} rpm: resonance."
     for end, rpm in (("slowest", speeds[0]), ("fastest", speeds[-1])):
         if len(speeds) > 1 and abs(worst.speed_rpm / rpm - 1) < 1e-9:
@@ -358,7 +361,8 @@ def _list_imep(response: BodyResponse, label: str) -> Iterator[tuple[object, ...
 
 def _list_curves(response: BodyResponse, kind: Kind, label: str) -> Iterator[tuple[object, ...]]:
     """Yield the lines of every mount or point, by speed and order."""
-    figure, unit = kind.figure, kind.unit
+    figure = kind.figure
+    unit = kind.unit
     for name, orders, peak, _ in kind.places(response):
         head = (f"{label}{kind.part}", name_cell(name))
         curves = [*((order, figure, curve) for order, curve in orders)]

@@ -85,7 +85,7 @@ def find_unit_of(path: Path) -> str:
     return find_unit(path[-1]) or find_unit(find_group(path)[1])
 
 
-def name_quantities(path: Path) -> tuple[str, ...]:
+def name_quantities(path: Path) -> tuple[str, ...]:  # noqa: PLR0911 (one return for each form)
     """Return the names in [check.tolerance] that stand for a figure, from special to general: the
     name of an order (`force.2`), then that of all orders (`force`).
     """

@@ -52,7 +52,7 @@ Shown: TypeAlias = (
 _DRAWN = "give an Engine, or a result of analyze, balance, sweep, torque, torsion, mounts or field"
 
 
-def plot(
+def plot(  # noqa: PLR0911 (one return for each kind of result)
     shown: Shown,
     what: str | None = None,
     *,

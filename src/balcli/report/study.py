@@ -159,9 +159,8 @@ def compute_study(
     if what == "ladder":
         ladder = find_ladder(engine, asked.read_small())
         return Study(now, steps=analyze_steps(engine, ladder, orders))
-    if what == "inner":
-        return Study(now, bent=(find_inner_loads(engine),))
-    return Study(now)
+    bent = (find_inner_loads(engine),) if what == "inner" else ()
+    return Study(now, bent=bent)
 
 
 def refuse_scheme(scheme: str | None, what: str) -> None:

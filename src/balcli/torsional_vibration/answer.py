@@ -187,7 +187,8 @@ class TorsionAnalysis(Result):
         """
         if not hasattr(self, "response"):
             return self.system.doubts
-        excitation, found = self.system.excitation, _find_doubts(self.response)
+        excitation = self.system.excitation
+        found = _find_doubts(self.response)
         law = excitation and excitation.gas and excitation.gas.law
         of_gas = law.list_doubts(self.response.speeds_rpm) if law else ()
         return *self.system.doubts, *of_gas, *found
@@ -265,10 +266,13 @@ def _analyze_system(
     system: TorsionalSystem, question: TorsionQuestion, tell: Tell = tell_nobody
 ) -> TorsionAnalysis:
     """Return the analysis of a system without sizing a damper."""
-    speeds, modes = question.speeds_rpm, find_natural_modes(system)
-    chain, excitation = system.chain, system.excitation
+    speeds = question.speeds_rpm
+    modes = find_natural_modes(system)
+    chain = system.chain
+    excitation = system.excitation
     span = (0.0, BEYOND * system.rated_rpm) if system.rated_rpm else None
-    response, barred = None, None
+    response = None
+    barred = None
     if speeds is not None:
         span = float(speeds[0]), float(speeds[-1])
         response = find_response(system, speeds, tell)
@@ -294,14 +298,17 @@ def _tabulate(
     system: TorsionalSystem, modes: tuple[NaturalMode, ...], asked: HolzerAsked
 ) -> HolzerTable:
     """Return Holzer's table at a frequency."""
-    omega, chain, shape = asked.omega, system.chain, None
+    omega = asked.omega
+    chain = system.chain
+    shape = None
     if asked.mode is not None:
         if asked.mode > len(modes):
             count = counted(len(modes), "mode")
             raise ArgumentError(
                 "has {count}, but {holzer} asks for mode {mode}", count=count, mode=asked.mode
             ).within(system.file)
-        omega, shape = modes[asked.mode - 1].omega, modes[asked.mode - 1].shape
+        omega = modes[asked.mode - 1].omega
+        shape = modes[asked.mode - 1].shape
     # Holzer's table begins with an angle of 1 at a free end; a clamped end comes last
     first, end = system.ends[::-1] if chain.clamped[0] else system.ends
     try:

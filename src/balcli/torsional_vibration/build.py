@@ -105,7 +105,10 @@ def assemble_system(
             None removes it.
         others: Further attributes of `TorsionalSystem`.
     """
-    nodes, shafts, rings, pendulums = list(planned), list(joining), [], []
+    nodes = list(planned)
+    shafts = list(joining)
+    rings = []
+    pendulums = []
     for k, damper in _place_dampers(planned, fitted):
         if damper.kind == "rubber":
             rubber = ShaftKeys.model_construct(stiffness=damper.stiffness, loss=damper.loss)
@@ -116,7 +119,8 @@ def assemble_system(
         elif damper.kind == "viscous":
             rings.append(ViscousRing(k, (damper.inertia or 0.0) / 1e6, damper.damping or 0.0))
         else:
-            radius, length = (damper.radius or 0.0) / 1e3, damper.swinging_length / 1e3
+            radius = (damper.radius or 0.0) / 1e3
+            length = damper.swinging_length / 1e3
             pendulums.append(Pendulums(k, damper.mass or 0.0, radius, length))
     tables = [each.table for each in shafts]
     joints = [ChainShaft(s.start, s.end, find_stiffness(s.table), s.ratio) for s in shafts]
@@ -158,7 +162,8 @@ def _place_dampers(
 
 def _find_stress(table: ShaftKeys) -> float:
     """Return the shear stress at the surface of a shaft for 1 N m, Pa; 0 without a diameter."""
-    outer, inner = (table.diameter or 0.0) / 1e3, (table.bore or 0.0) / 1e3
+    outer = (table.diameter or 0.0) / 1e3
+    inner = (table.bore or 0.0) / 1e3
     return find_shear_stress(outer, inner) if outer else 0.0
 
 
@@ -251,8 +256,10 @@ def _find_faults(system: TorsionalSystem, paths: Sequence[str]) -> Iterator[Prob
     """Yield mistakes in how nodes are joined; `paths` are the paths of shafts and gears in the
     file.
     """
-    chain, names = system.chain, system.nodes
-    meshes, free = np.isinf(chain.stiffness), ~np.any(chain.clamped)
+    chain = system.chain
+    names = system.nodes
+    meshes = np.isinf(chain.stiffness)
+    free = ~np.any(chain.clamped)
     apart = np.unique(find_pieces(chain).first)[1:].tolist()
     for node in apart:
         text = f"{shorten(names[node])} is not connected to {shorten(names[0])}"
@@ -264,7 +271,8 @@ def _find_faults(system: TorsionalSystem, paths: Sequence[str]) -> Iterator[Prob
     if np.all(still[: system.last + 1]):
         yield Problem("fixed", "clamps every node; leave one free")
         return
-    first, held = find_pieces(chain, meshes).first, np.flatnonzero(chain.clamped)
+    first = find_pieces(chain, meshes).first
+    held = np.flatnonzero(chain.clamped)
     roots = [*held.tolist(), *np.setdiff1d(first, first[held]).tolist()]
     joined = [branch.shaft for branch in grow_branches(chain, roots, meshes)]
     for mesh in np.setdiff1d(np.flatnonzero(meshes), joined).tolist():
@@ -344,13 +352,15 @@ def build_engine_system(
     """
     torsion = require_torsion(model, name)
     throws = list_throws(engine)
-    joints, front = _join_parts(torsion, throws), len(torsion.front)
+    joints = _join_parts(torsion, throws)
+    front = len(torsion.front)
     if problems := list(_find_misfits(torsion, engine, throws, joints)):
         raise InputError(problems, name)
     parts = [PlannedNode(part, part.node_damping) for _, part, _ in joints]
     nodes = [*parts[:front][::-1], *_plan_throws(torsion, engine, throws), *parts[front:]]
     place = {node.table.name: k for k, node in enumerate(nodes)}
-    led, gears = _lead_outward(joints, throws), dict.fromkeys(throws, 1.0)
+    led = _lead_outward(joints, throws)
+    gears = dict.fromkeys(throws, 1.0)
     for _, part, of in led:
         gears[part.name] = gears[of] if part.gear is None else part.gear
     leading = [  # the shaft from a part's neighbour to the part; stiffness at the part's speed
@@ -384,7 +394,8 @@ def build_engine_system(
 
 def _plan_throws(torsion: Torsion, engine: Engine, throws: Sequence[str]) -> Iterator[PlannedNode]:
     """Yield a node for each throw, with the running gear and the damping of its cylinders."""
-    gear, on_throw = weigh_running_gear(engine), engine.joined_throw_of_rows
+    gear = weigh_running_gear(engine)
+    on_throw = engine.joined_throw_of_rows
     inertias = _weigh_throws(torsion, engine) + np.bincount(on_throw, gear, len(throws))
     damping = torsion.damping * np.bincount(on_throw, None, len(throws))
     for name, j, c in zip(throws, inertias.tolist(), damping.tolist(), strict=True):
@@ -418,20 +429,28 @@ def _each(values: Sequence[float], count: int) -> list[float]:
 
 def _join_parts(torsion: Torsion, throws: Sequence[str]) -> list[_Joint]:
     """Return every part with the node that it is joined to: front parts, then rear parts."""
-    found = []
-    lists = (("front", torsion.front, throws[0]), ("rear", torsion.rear, throws[-1]))
-    for key, parts, before in lists:
-        for k, part in enumerate(parts, 1):
-            found.append(_Joint(f"torsion.{key}.{k}", part, part.of or before))
-            before = part.name
-    return found
+    front = _join_chain("torsion.front", torsion.front, throws[0])
+    return front + _join_chain("torsion.rear", torsion.rear, throws[-1])
+
+
+def _join_chain(path: str, parts: Sequence[Part], throw: str) -> list[_Joint]:
+    """Return parts, each joined to the node that it names, or else to the part before it; the
+    first part is joined to the throw.
+    """
+    joints = []
+    before = throw
+    for number, part in enumerate(parts, 1):
+        joints.append(_Joint(f"{path}.{number}", part, part.of or before))
+        before = part.name
+    return joints
 
 
 def _lead_outward(joints: Sequence[_Joint], throws: Sequence[str]) -> list[_Joint]:
     """Return the joints in order from the throws outward, since a part may be joined to a part
     that comes later in the file. Parts without a connection to a throw are left out.
     """
-    known, found = {*throws}, list[_Joint]()
+    known = {*throws}
+    found = list[_Joint]()
     while new := [each for each in joints if each.of in known and each.part.name not in known]:
         found += new
         known |= {each.part.name for each in new}
@@ -476,7 +495,8 @@ def _weigh_throws(torsion: Torsion, engine: Engine) -> Real:
     """Return the moment of inertia of the crankshaft at each throw, kg m2, front to rear. The
     inertias of throws that form one node are added.
     """
-    joined, throws = engine.joined_throws, len(engine.throws_m)
+    joined = engine.joined_throws
+    throws = len(engine.throws_m)
     given = torsion.throw_inertia or [float(engine.crank_inertia or 0.0) * 1e6 / throws]
     if len(given) == len(joined) < throws:  # one value for each joined throw
         return np.array(given) / 1e6
@@ -504,7 +524,8 @@ def excite_engine(model: EngineFile, engine: Engine, orders: Real | None) -> Exc
     spectra = compute_spectra(engine, orders, parts, each=True)
     growing = spectra["torque"].x
     steady = np.zeros_like(growing) if engine.gas is None else spectra["gas"].x
-    moves, gas = np.any((growing != 0) | (steady != 0), axis=1), None
+    moves = np.any((growing != 0) | (steady != 0), axis=1)
+    gas = None
     if engine.gas is not None and engine.gas.nodes_rpm:
         gas = follow_gas(
             engine, lambda own: compute_spectra(own, orders, ["gas"], each=True)["gas"].x
@@ -542,7 +563,8 @@ def _check_throws(torsion: Torsion, engine: Engine, throws: int) -> Iterator[Pro
     """Check the keys of throws. The list of inertias may have a value for each throw of the file,
     even where several throws form one node.
     """
-    places, in_file = throws - 1, len(engine.throws_m)
+    places = throws - 1
+    in_file = len(engine.throws_m)
     if torsion.throw_stiffness is None and places:
         hint = f"give the stiffness between the {counted(throws, 'throw')}, such as "
         yield Problem.of_missing("torsion.throw_stiffness", f"{hint}throw_stiffness = 1.25e6")

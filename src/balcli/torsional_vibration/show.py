@@ -43,7 +43,8 @@ from .response import TorsionResponse, WorstTorque
 from .system import TorsionalSystem
 
 _MOST_MODES = 5  # largest number of shapes in a table; more do not fit into a terminal
-_MOST_CRITICALS, _LEAST_SHARE = 24, 0.01  # largest number of listed criticals; least share of work
+_MOST_CRITICALS = 24  # largest number of listed criticals
+_LEAST_SHARE = 0.01  # least share of work of a listed critical speed
 _MOST_LISTED = 8  # largest number of orders, or shafts without a diameter, in one sentence
 _MOST_ORDERS = 3  # number of orders that are listed for a shaft's torque
 
@@ -128,7 +129,8 @@ def _list_extras(found: Node) -> Iterator[Line]:
 
 def _list_response(response: Node) -> Iterator[Line]:
     """Yield the lines for every speed, then lines for the largest values over all speeds."""
-    shafts, dampers = response.get("shafts", ()), response.get("dampers", ())
+    shafts = response.get("shafts", ())
+    dampers = response.get("dampers", ())
     pendulums = response.get("pendulums", ())
     for s, speed in enumerate(response.get("speeds_rpm", ())):
         head = Line("response", speed_rpm=speed)
@@ -242,7 +244,8 @@ def _count_in_json(left: int, what: str) -> str:
 
 def _show_criticals(result: TorsionAnalysis) -> Grid | Text:
     span = f", {_name_span(result.response.speeds_rpm)}" if hasattr(result, "response") else ""
-    title, scope = f"Critical speeds{span}", _name_scope(result)
+    title = f"Critical speeds{span}"
+    scope = _name_scope(result)
     criticals = result.criticals
     if not criticals:
         return Text(title, (f"None: no order meets a mode that it drives. {scope}",))
@@ -261,7 +264,8 @@ def _show_criticals(result: TorsionAnalysis) -> Grid | Text:
 
 def _name_scope(result: TorsionAnalysis) -> str:
     """Return a note on the orders, speeds, dampers and torques behind the critical speeds."""
-    rated, note = result.system.rated_rpm, f"Included: {_list_orders(result.orders)}."
+    rated = result.system.rated_rpm
+    note = f"Included: {_list_orders(result.orders)}."
     note += _name_left_out(result.system, ", which shift the critical speeds.")
     if hasattr(result, "response"):
         return note
@@ -325,7 +329,8 @@ def _settle(value: float, others: Sequence[float]) -> float:
 def _show_response(
     result: TorsionAnalysis, response: TorsionResponse, system: System
 ) -> Grid | Text:
-    span, worst = _name_span(response.speeds_rpm), _describe_worst(result, response, system)
+    span = _name_span(response.speeds_rpm)
+    worst = _describe_worst(result, response, system)
     if not response.shafts:
         return Text(f"Vibration, {span}", (worst,))
     sums = [sum(one.amplitude_Nm for one in s.worst.orders) for s in response.shafts]
@@ -352,7 +357,8 @@ def _show_response(
 
 
 def _name_span(ends: Sequence[float] | Real) -> str:
-    low, high = number(float(ends[0])), number(float(ends[-1]))
+    low = number(float(ends[0]))
+    high = number(float(ends[-1]))
     return f"{low} rpm" if ends[0] == ends[-1] else f"{low} to {high} rpm"
 
 
@@ -371,7 +377,8 @@ def _describe_worst(result: TorsionAnalysis, response: TorsionResponse, system: 
     """Return sentences on the largest swing of free end and pendulums, and the largest heat of
     dampers.
     """
-    free_end, speed = response.free_end_worst.half_swing_deg, response.free_end_worst.speed_rpm
+    free_end = response.free_end_worst.half_swing_deg
+    speed = response.free_end_worst.speed_rpm
     parts = [(f"{result.system.free_end} swings by ±{number(free_end)} deg", speed)]
     for pendulums in response.pendulums or ():
         largest = pendulums.worst
@@ -395,7 +402,9 @@ def _name_orders(torque: WorstTorque, unit: ShownUnit) -> str:
 
 def _judge_limits(result: TorsionAnalysis, units: System) -> Iterator[tuple[str, str]]:
     """Yield the limits of the file, the barred speeds, and the shafts that cannot be checked."""
-    system, limits, bare = result.system, [], []
+    system = result.system
+    limits = []
+    bare = []
     if system.limit_pa is not None:
         limits.append(size_text(system.limit_pa, units.stress, None))
         each = zip(system.shafts, system.stress_by_torque, system.chain.stiffness, strict=True)

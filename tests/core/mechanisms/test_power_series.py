@@ -55,6 +55,7 @@ def test_to_any_power_and_without_zeros():
 def test_no_power_beyond_the_one_asked_for(generate, power):
     """And all up to it: one more power adds that power alone."""
     for order in range(8):
-        terms, more = generate(order, power), generate(order, power + 1)
+        terms = generate(order, power)
+        more = generate(order, power + 1)
         assert all(p <= power for p in terms)
         assert terms == {p: c for p, c in more.items() if p <= power}

@@ -17,7 +17,8 @@ HIGHEST = 40  # order
 def random_rods(count: int = 400) -> list[np.ndarray]:
     """Articulated rods up to near their lock: lambda, offset, knuckle, lead, and the master's lambda and offset."""
     rng = np.random.default_rng(5)
-    lam, master = rng.uniform(0.05, 0.6, count), rng.uniform(0.1, 0.5, count)
+    lam = rng.uniform(0.05, 0.6, count)
+    master = rng.uniform(0.1, 0.5, count)
     offset, offset_of_master = rng.uniform(-0.1, 0.1, (2, count))
     knuckle = rng.uniform(0.05, 1.2, count) * np.exp(1j * rng.uniform(-0.2, 0.2, count))
     turns = (lam * (1 + np.abs(knuckle)) + np.abs(offset)) < 0.97

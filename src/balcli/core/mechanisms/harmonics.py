@@ -156,7 +156,7 @@ _SAMPLED = (
 )
 
 
-def _sample(name: str, m: Motion) -> Array:
+def _sample(name: str, m: Motion) -> Array:  # noqa: PLR0911 (one return for each function)
     """Return the values of one of the functions `_SAMPLED` of a motion."""
     match name:
         case "piston":
