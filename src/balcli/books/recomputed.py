@@ -64,6 +64,7 @@ class Erratum(NamedTuple):
         kind: Cause of the erratum; for a statement, the evidence for its right form.
         label: Name of the row.
         category: Class of the erratum, a key of `CLASSES`.
+        place: Where in its source a wrong statement stands; empty for a figure.
     """
 
     row: int
@@ -73,6 +74,7 @@ class Erratum(NamedTuple):
     kind: str
     label: str
     category: Annotated[ErratumClass, WrittenAs(key="class")]
+    place: Annotated[str, HIDDEN] = ""
 
 
 @dataclass(frozen=True, repr=False)
@@ -289,10 +291,19 @@ def tabulate_statements(printed: Print, ranges: Ranges) -> Table:
     rows = [tuple(map(str, row)) for row in printed.rows]
     cells = [(source, place, *others) for source, place, _, *others in rows]
     words = [(source, place, wrong, None, None) for source, place, wrong, *_ in rows]
-    errata = [
-        Erratum(i, STATEMENT, wrong, right, known, f"{source}, {place}", cast("ErratumClass", name))
-        for i, (source, place, wrong, right, name, known) in enumerate(rows)
-    ]
+    errata = []
+    for i, (source, place, wrong, right, name, known) in enumerate(rows):
+        erratum = Erratum(
+            row=i,
+            column=STATEMENT,
+            printed=wrong,
+            exact=right,
+            kind=known,
+            label=f"{source}, {place}",
+            category=cast("ErratumClass", name),
+            place=place,
+        )
+        errata.append(erratum)
     return Table(
         name=printed.name,
         title=printed.title,

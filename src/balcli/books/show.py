@@ -202,7 +202,7 @@ def lay_out_source(found: SourceTables, _system: System) -> Sheet:
         Column("title", [table.title for table in tables], words=True),
     ]
     wrong = [
-        Column("place", [_place_in_source(e) for e in found.statements], words=True),
+        Column("place", [e.place for e in found.statements], words=True),
         Column("printed", [e.printed for e in found.statements], words=True),
         Column("right", [_exact(e) for e in found.statements], words=True),
     ]
@@ -214,11 +214,6 @@ def lay_out_source(found: SourceTables, _system: System) -> Sheet:
     if found.statements:
         parts.append(Grid("Wrong equations and sentences", wrong))
     return Sheet(f"{key}: {found.source.authors}", tuple(parts))
-
-
-def _place_in_source(erratum: Erratum) -> str:
-    """Return where in its source a wrong statement stands."""
-    return erratum.label.partition(", ")[2]
 
 
 def describe_source(found: SourceTables) -> Node:
