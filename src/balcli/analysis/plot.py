@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from itertools import cycle as repeat
+from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -116,7 +117,7 @@ def draw_curves(
     lines: Mapping[str, Array],
     what: str,
     unit: ShownUnit,
-    before: Array | None = None,
+    dashed: Mapping[str, Array] = MappingProxyType({}),
 ) -> None:
     """Draw values over the crank angle.
 
@@ -126,13 +127,12 @@ def draw_curves(
         lines: Values by label, each of shape (angles,).
         what: Name of the quantity.
         unit: Unit of the quantity.
-        before: Values of the last line before balancing, drawn dashed; None if there are none.
+        dashed: Further values by label, drawn dashed, such as those before balancing.
     """
-    values = [*lines.values(), *([] if before is None else [before])]
-    s = unit.fit(float(np.abs(values).max()))
+    s = unit.fit(float(np.abs([*lines.values(), *dashed.values()]).max()))
     crank = np.degrees(crank)
-    if before is not None:
-        ax.plot(crank, before / s.size, label=f"{list(lines)[-1].split()[0]} before", **_DASHED)
+    for label, line in dashed.items():
+        ax.plot(crank, line / s.size, label=label, **_DASHED)
     for (label, line), look in zip(lines.items(), _LOOKS, strict=False):
         ax.plot(crank, line / s.size, color=look[0], linestyle=look[1], label=label)
     ax.axhline(0, color=SOFT, linewidth=0.7)

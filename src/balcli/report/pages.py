@@ -313,7 +313,10 @@ def _draw(ax: Axes, subject: PageSubject, what: str, quantity: str) -> None:
             values = curve.values(crank)
             up, across = subject.name_components(quantity)
             lines = {up: values.real, across: values.imag, "magnitude": np.abs(values)}
-        old = None if before is None else read(before.values(crank))
+        old = {}
+        if before is not None:
+            largest = ROLL.name if scalars else "magnitude"
+            old[f"{largest} before"] = read(before.values(crank))
         draw_curves(ax, crank, lines, "moment" if scalars else quantity, unit, old)
 
 
