@@ -260,7 +260,7 @@ def test_keyboard_undo_and_fit(show):
 
 
 @live
-@pytest.mark.parametrize("width", [360, 800, 1280, 1600])
+@pytest.mark.parametrize("width", [360, 1280, *slow(800, 1600)])
 def test_the_page_fits_its_window(show, width):
     page = show(width=width, dark=width == 360)
     assert page.run("document.documentElement.scrollWidth <= window.innerWidth")
@@ -293,7 +293,7 @@ def test_the_command_takes_the_names_of_steps(browser, play, tmp_path):
 
 # ------------------------------------------------------------------ the verdict, as data
 @live
-@pytest.mark.parametrize("small", [0, 0.01, SMALL, 0.2])
+@pytest.mark.parametrize("small", [0, SMALL, *slow(0.01, 0.2)])
 @pytest.mark.parametrize("step", STEPS_OF_EXAMPLES)
 def test_the_page_finds_what_the_command_finds(browser, play, small, step):
     """On examples, and with a further shaft and counterweight."""
@@ -504,8 +504,12 @@ FILES = {
 }  # fmt: skip
 
 
+QUICK = ["throws in a list", "a table that it leaves out", "a new device", "a device less", "units", "other line ends"]
+OTHERS = [case for case in FILES if case not in QUICK]
+
+
 @live
-@pytest.mark.parametrize("case", FILES)
+@pytest.mark.parametrize("case", [*QUICK, *slow(*OTHERS)])
 def test_the_downloaded_file_gives_the_figures_of_the_page(show, tmp_path, case):
     address, text = FILES[case]
     page = show(text, address)
@@ -523,7 +527,9 @@ def analyze_file(path):
 
 
 @live
-@pytest.mark.parametrize("name", ["vtwin45", "v4_90", "flat12", "v6_60", "twin180", "v10_common", "tsinghua_12v135q"])
+@pytest.mark.parametrize(
+    "name", ["vtwin45", "v6_60", "twin180", *slow("v4_90", "flat12", "v10_common", "tsinghua_12v135q")]
+)
 def test_another_bank_angle_or_throw_makes_a_file_that_is_read(browser, play, tmp_path, name):
     """A firing order that fits the former throws alone is left out; the numbering stays."""
     browser.open(play)
