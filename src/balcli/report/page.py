@@ -67,25 +67,25 @@ def scene(now: Analysis, shown: Mapping[str, Analysis], system: System) -> Node:
     """
     engine = now.engine
     stroke = 2e3 * float(engine.cylinders.radius.max())
-    bore = clean(engine.bore_m * 1e3)
-    bore = bore or ASSUMED_BORE * stroke
+    bore = clean(engine.bore_m * 1e3) or ASSUMED_BORE * stroke
+    units = {}
+    for kind in FREE:
+        unit = system.unit(kind)
+        least = unit.of(NEGLIGIBLE * now.of_one_cylinder[kind.name])
+        units[kind.name] = {**name_unit(unit), "least": least}
+    orders = []
+    for order in now.orders:
+        if any(_shakes(variant, order) for variant in shown.values()):
+            orders.append(order_number(order))
     return {
         "stroke": stroke,
         "bore": bore,
         "rotary": isinstance(engine.cylinders.linkage, Rotary),
         "axes": ("x", "y") if engine.up_deg is None else FORCE.upright,
         "cylinders": _cylinder_entries(engine),
-        "variants": [_variant_entry(name, each, system, bore) for name, each in shown.items()],
-        "units": {
-            kind.name: {
-                **name_unit(system.unit(kind)),
-                "least": system.unit(kind).of(NEGLIGIBLE * now.of_one_cylinder[kind.name]),
-            }
-            for kind in FREE
-        },
-        "orders": [
-            order_number(n) for n in now.orders if any(_shakes(each, n) for each in shown.values())
-        ],
+        "variants": [_variant_entry(*variant, system, bore) for variant in shown.items()],
+        "units": units,
+        "orders": orders,
     }
 
 
@@ -108,29 +108,28 @@ def _cylinder_entries(engine: Engine) -> list[Node]:
     if len(c.radius) > 1:
         columns["radius"] = c.radius * 1e3
     lists = [np.asarray(column).tolist() for column in columns.values()]
-    found = [dict(zip(columns, values, strict=True)) for values in zip(*lists, strict=True)]
+    entries = [dict(zip(columns, values, strict=True)) for values in zip(*lists, strict=True)]
     if isinstance(rods, Articulated):
         pins = np.ravel(rods.knuckle) * c.radius * 1e3
-        for row, entry in enumerate(found):
+        for row, entry in enumerate(entries):
             if rods.master[row] != row:
-                entry |= {
-                    "master": int(rods.master[row]),
-                    "knuckle": [float(pins[row].real), float(pins[row].imag)],
-                    "lead": float(rods.lead_deg[row]),
-                }
-    return found
+                entry["master"] = int(rods.master[row])
+                entry["knuckle"] = [float(pins[row].real), float(pins[row].imag)]
+                entry["lead"] = float(rods.lead_deg[row])
+    return entries
 
 
 def _variant_entry(label: str, result: Analysis, system: System, bore: float) -> Node:
-    drawn = place_beside(result.engine, bore / 1e3)
     turn = -(result.engine.up_deg or 0.0)
-    entry: Node = {"label": label, "force": [], "moment": []} | {
-        kind.name: _vector_rows(phasors.turn(turn), system.unit(kind))
-        for kind, phasors in result.spectra.vectors()
-        if result.moments_known or kind is not MOMENT
-    }
-    devices = enumerate(result.engine.devices)
-    return entry | {"devices": [_device_entry(each, drawn.get(k), turn) for k, each in devices]}
+    entry: Node = {"label": label, "force": [], "moment": []}
+    for kind, phasors in result.spectra.vectors():
+        if result.moments_known or kind is not MOMENT:
+            entry[kind.name] = _vector_rows(phasors.turn(turn), system.unit(kind))
+    drawn = place_beside(result.engine, bore / 1e3)
+    entry["devices"] = []
+    for k, device in enumerate(result.engine.devices):
+        entry["devices"].append(_device_entry(device, drawn.get(k), turn))
+    return entry
 
 
 def _vector_rows(phasors: Phasors, unit: ShownUnit) -> list[list[float]]:
@@ -157,15 +156,16 @@ def place_beside(engine: Engine, bore: float) -> dict[int, complex]:
     across = np.sin(leans)
     reach = c.radius + rods + bore
     width = float(np.max(np.abs(across) * reach + (1 - np.abs(across)) * bore, initial=1.5 * r))
-    found: dict[int, complex] = {}
+    places: dict[int, complex] = {}
     rows: dict[tuple[int, bool], int] = {}  # by order and direction: place on its side, downwards
     for k, device in enumerate(engine.devices):
         if device.kind is not DeviceKind.SHAFT or abs(complex(device.place)) >= r:
             continue
         ahead = bool(device.forward)
-        side = rows.setdefault((device.order, ahead), sum(way == ahead for _, way in rows))
-        found[k] = complex(-_SHAFT_WIDTH * r * side, (1 if ahead else -1) * (width + r))
-    return found
+        row = rows.setdefault((device.order, ahead), sum(way == ahead for _, way in rows))
+        side = 1 if ahead else -1
+        places[k] = complex(-_SHAFT_WIDTH * r * row, side * (width + r))
+    return places
 
 
 def _device_entry(device: Device, drawn: complex | None, turn_deg: float) -> Node:
@@ -253,12 +253,14 @@ def _warning(chapter: str) -> Iterator[None]:
         warn(f"the page does not show the {chapter}: {error.tell(name_option)}")
 
 
-def page(found: Answers, system: System, live: Node | None = None, tell: Tell = tell_nobody) -> str:
+def page(
+    answers: Answers, system: System, live: Node | None = None, tell: Tell = tell_nobody
+) -> str:
     """Return the page of an engine: forces and moments, devices of a balance scheme, vibration on
     mounts, torsional vibration, and gas. All text from the engine file is escaped.
 
     Args:
-        found: Results to show.
+        answers: Results to show.
         system: Units of figures and pictures.
         live: Data of the panel of numbers, from `live.make_book`; None: no panel.
         tell: Progress callback; it receives the share of the pictures that are drawn.
@@ -266,23 +268,25 @@ def page(found: Answers, system: System, live: Node | None = None, tell: Tell = 
     Raises:
         BalcliError: The engine does not have the cylinder whose piston is wanted.
     """
-    result, balanced, mounted, twisted, cylinder = found
+    result, balanced, mounted, twisted, cylinder = answers
     own = analysis.sheet(result, system, ON_A_PAGE)
     remedy = balancing.sheet(balanced, system)
-    told = ("force", "about", *(["moment"] if result.moments_known else []))
+    quantities = ["force", "about"]
+    if result.moments_known:
+        quantities.append("moment")
     compared = _COMPARED if balanced.remedy.reasons else ()
     now = PageSubject(Study(result), system)
     after = PageSubject(Study(balanced.after, balanced.before, balanced.remedy), system)
     drawn = None
     stars = ""
-    loci = list[str]()
+    loci: list[str] = []
     if not result.engine.placed:  # a mechanism of several cranks is not drawn
         drawn = scene(result, _list_variants(result, balanced), system)
         stars = _draw_page(PageSubject(compute_study(result.engine, "stars"), system), "stars")
-        loci = _draw_panels(now, _STILL, told)
-    pictures = _draw_panels(now, _PICTURES, told)
+        loci = _draw_panels(now, _STILL, quantities)
+    pictures = _draw_panels(now, _PICTURES, quantities)
     tell(0.7)
-    pictures_after = _draw_panels(after, compared, told)
+    pictures_after = _draw_panels(after, compared, quantities)
     tell(1.0)
     return load_template().render(
         whole=True,
@@ -326,9 +330,9 @@ class Explorer:
 def explore(engine: Engine) -> Explorer:
     """Return the page of an engine for a notebook (`api.Engine.explore`)."""
     model = take_model(engine)
-    found = find_answers(model, engine, None, "auto", SchemeOptions(), engine.name or "engine")
+    answers = find_answers(model, engine, None, "auto", SchemeOptions(), engine.name or "engine")
     live = describe_one(model, engine, SI, tomli_w.dumps(engine.to_dict()), engine.name)
-    return Explorer(page(found, SI, live))
+    return Explorer(page(answers, SI, live))
 
 
 def _list_variants(result: Analysis, balanced: Balance) -> dict[str, Analysis]:
@@ -361,13 +365,13 @@ def _draw_torsion(twisted: TorsionAnalysis, system: System) -> Iterator[str]:
 
 
 def _draw_panels(
-    subject: PageSubject, panels: Sequence[tuple[str, str]], told: Collection[str]
+    subject: PageSubject, panels: Sequence[tuple[str, str]], quantities: Collection[str]
 ) -> list[str]:
     """Return pictures as SVG. A quantity without a picture has a single panel, at the end, with
     words in place of the picture.
     """
-    words = {quantity: subject.find_words(quantity) for quantity in told}
-    shown = [(what, name) for name, what in panels if name in told and not words[name]]
+    words = {quantity: subject.find_words(quantity) for quantity in quantities}
+    shown = [(what, name) for name, what in panels if name in quantities and not words[name]]
     worded = {name: (what, name) for name, what in reversed(panels) if words.get(name)}
     return [draw_panel(subject, *panel) for panel in (*shown, *worded.values())]
 

@@ -9,10 +9,10 @@ and the two rotating vectors that make up the force.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -134,7 +134,7 @@ def draw_radius_roses(ax: Any, banks: Banks) -> None:
     turn; beyond a bank angle of 180 deg its line is thin.
     """
     sides = _set_up_compass(ax, banks)
-    with_crank, against, ratio = (np.abs(_mirrored(each)) for each in banks.find_radii())
+    with_crank, against, ratio = (np.abs(_mirrored(radii)) for radii in banks.find_radii())
     ratio[ratio >= _LARGEST_RATIO] = np.nan
     ax.plot(sides, ratio, color=GREEN, linewidth=2.4)
     ax.plot(np.pi + sides, ratio, color=GREEN, linewidth=1.0)
@@ -191,10 +191,13 @@ class PageSubject:
         """Return the phasors of a force, a moment or the roll now, and those before devices were
         fitted (None without a scheme). Forces and moments are along the axes of the picture.
         """
-        name = ROLL.name if quantity == ABOUT else quantity
-        turn = 0.0 if quantity == ABOUT else -(self.now.engine.up_deg or 0.0)
-        before = self.study.before
+        name = quantity
+        turn = -(self.now.engine.up_deg or 0.0)
+        if quantity == ABOUT:
+            name = ROLL.name
+            turn = 0.0
         now = self.now.spectra[name].turn(turn)
+        before = self.study.before
         return now, None if before is None else before.spectra[name].turn(turn)
 
     def name_components(self, quantity: str) -> tuple[str, str]:
@@ -217,21 +220,31 @@ class PageSubject:
         """
         if quantity == "moment" and not self.now.moments_known:
             return "not known: crank.spacing is missing"
-        curves: Sequence[Phasors | None] = self.phasors(quantity)
+        curves: Iterable[Phasors | None] = self.phasors(quantity)
+        kind = quantity
         if quantity == ABOUT:
-            curves = list(self.list_scalars(with_gas=True).values())
-        there = [curve for curve in curves if curve is not None]
-        largest = float(max(np.abs(c.values(_divide_cycle(c))).max(initial=0) for c in there))
-        kind = ROLL.name if quantity == ABOUT else quantity
+            curves = self.list_scalars(with_gas=True).values()
+            kind = ROLL.name
+        largest = 0.0
+        for curve in curves:
+            if curve is not None:
+                values = curve.values(_divide_cycle(curve))
+                largest = max(largest, float(np.abs(values).max(initial=0)))
         if not largest or largest < NEGLIGIBLE * self.now.of_one_cylinder[kind]:
             return small_text(largest, self.unit(quantity))
         return ""
 
     def find_pictured(self, quantities: Sequence[str]) -> tuple[list[str], str]:
         """Return the quantities with a picture, and a line of text on the others."""
-        words = {quantity: self.find_words(quantity) for quantity in quantities}
-        line = "; ".join(f"{_TITLES[each]}: {said}" for each, said in words.items() if said)
-        return [quantity for quantity, said in words.items() if not said], line
+        pictured = []
+        others = []
+        for quantity in quantities:
+            words = self.find_words(quantity)
+            if words:
+                others.append(f"{_TITLES[quantity]}: {words}")
+            else:
+                pictured.append(quantity)
+        return pictured, "; ".join(others)
 
     def title(self, what: str, quantity: str) -> str:
         """Return the title of a picture of a quantity."""
@@ -246,7 +259,8 @@ def _divide_cycle(*curves: Phasors | None) -> Array:
     half orders.
     """
     halves = any(np.any(c.orders[~c.balanced] % 1) for c in curves if c is not None)
-    return np.radians(np.arange((720 if halves else 360) + 1))
+    cycle = 720 if halves else 360
+    return np.radians(np.arange(cycle + 1))
 
 
 def make_page(subject: PageSubject, what: str, *, titled: bool = True) -> Figure:
@@ -262,9 +276,11 @@ def make_page(subject: PageSubject, what: str, *, titled: bool = True) -> Figure
     remedy = subject.study.remedy
     title = f"{fit_name(engine.name) or NAMELESS}, {engine.speed_rpm:g} rpm"
     if remedy is not None:
-        share = f" {percent(remedy.card[0].factor)}" if remedy.card else ""
-        order = "" if remedy.order is None else f", order {remedy.order}"
-        title += f"\nwith scheme {remedy.scheme}{share}{order}"
+        title += f"\nwith scheme {remedy.scheme}"
+        if remedy.card:
+            title += f" {percent(remedy.card[0].factor)}"
+        if remedy.order is not None:
+            title += f", order {remedy.order}"
     with open_figure(width, height) as fig:
         fig.set_layout_engine("constrained", h_pad=0.1)
         if words := lay_out(fig, subject):
@@ -280,10 +296,12 @@ def draw_panel(subject: PageSubject, what: str, quantity: str) -> str:
     """Return one picture of one quantity as an SVG for an HTML page, or words in its place."""
     if words := subject.find_words(quantity):
         return f"<p><b>{subject.title(what, quantity)}</b><br>{words}</p>"
+    name = f"{what}-{quantity}"
+    if subject.study.before:
+        name += "-after"
     with open_figure(5.2, 3.1) as fig:
         fig.set_facecolor("none")
         _draw(fig.subplots(), subject, what, quantity)
-        name = f"{what}-{quantity}{'-after' if subject.study.before else ''}"
         return inline_svg(save_figure(fig, "svg"), name)
 
 
@@ -292,32 +310,56 @@ def _draw(ax: Axes, subject: PageSubject, what: str, quantity: str) -> None:
     """Draw one picture of a force or moment, or of the moments about the crank."""
     unit = subject.unit(quantity)
     curve, before = subject.phasors(quantity)
-    scalars = subject.list_scalars(with_gas=what == "spectrum") if quantity == ABOUT else {}
     ax.set_title(subject.title(what, quantity))
     if what == "polar":
         draw_locus(ax, curve, subject.name_components(quantity), unit, before)
     elif what == "ladder":
         turn = -(subject.now.engine.up_deg or 0.0)
-        steps = subject.study.steps.items()
-        paths = {name: one.spectra[quantity].turn(turn) for name, one in steps}
+        paths = {}
+        for name, step in subject.study.steps.items():
+            paths[name] = step.spectra[quantity].turn(turn)
         draw_loci(ax, paths, subject.name_components(quantity), unit)
-    elif what == "spectrum" and scalars:
-        draw_scalar_bars(ax, scalars, unit)
+    elif what == "spectrum" and quantity == ABOUT:
+        draw_scalar_bars(ax, subject.list_scalars(with_gas=True), unit)
     elif what == "spectrum":
         draw_vector_bars(ax, curve, quantity, unit, before)
+    elif quantity == ABOUT:
+        _draw_scalars(ax, subject, curve, before)
     else:
-        crank = _divide_cycle(*scalars.values(), curve, before)
-        read = np.real if scalars else np.abs
-        lines = {label: each.values(crank).real for label, each in scalars.items()}
-        if not scalars:
-            values = curve.values(crank)
-            up, across = subject.name_components(quantity)
-            lines = {up: values.real, across: values.imag, "magnitude": np.abs(values)}
+        crank = _divide_cycle(curve, before)
+        values = curve.values(crank)
+        up, across = subject.name_components(quantity)
+        lines = {up: values.real, across: values.imag, "magnitude": np.abs(values)}
         old = {}
         if before is not None:
-            largest = ROLL.name if scalars else "magnitude"
-            old[f"{largest} before"] = read(before.values(crank))
-        draw_curves(ax, crank, lines, "moment" if scalars else quantity, unit, old)
+            old["magnitude before"] = np.abs(before.values(crank))
+        draw_curves(ax, crank, lines, quantity, unit, old)
+
+
+def _draw_scalars(ax: Axes, subject: PageSubject, roll: Phasors, before: Phasors | None) -> None:
+    """Draw the moments about the crank, of inertia only, over the crank angle.
+
+    Args:
+        ax: Axes to draw on.
+        subject: Engine and units.
+        roll: Roll of the frame.
+        before: Roll before devices were fitted; None: not drawn.
+    """
+    scalars = subject.list_scalars(with_gas=False)
+    crank = _divide_cycle(*scalars.values(), roll, before)
+    lines = {label: phasors.values(crank).real for label, phasors in scalars.items()}
+    old = {}
+    if before is not None:
+        old[f"{ROLL.name} before"] = np.real(before.values(crank))
+    draw_curves(ax, crank, lines, "moment", subject.unit(ABOUT), old)
+
+
+class _DrawnOrder(NamedTuple):
+    """An order to draw: quantity, its phasors, and the row of the order."""
+
+    quantity: str
+    curve: Phasors
+    row: int
 
 
 def _lay_out_overview(fig: Figure, subject: PageSubject) -> str:
@@ -357,20 +399,19 @@ def _lay_out_loci(fig: Figure, subject: PageSubject, *, what: str, height: float
 def _lay_out_orders(fig: Figure, subject: PageSubject) -> str:
     """Draw the first four visible orders of force and of moment."""
     shown, words = subject.find_pictured(_VECTORS)
-    found = []
+    drawn = []
     for quantity in shown:
         curve = subject.phasors(quantity)[0]
         least = NEGLIGIBLE * subject.now.of_one_cylinder[quantity]
         rows = [k for k in visible_rows(curve) if curve.major[k] > least and curve.orders[k] >= 1]
-        found += [(quantity, curve, k) for k in rows[:4]]
-    height = 1 if len(found) <= 3 else 2
-    columns = -(-len(found) // height)
+        drawn += [_DrawnOrder(quantity, curve, k) for k in rows[:4]]
+    height = 1 if len(drawn) <= 3 else 2
+    columns = -(-len(drawn) // height)
     fig.set_size_inches(max(1.0 + 3.3 * columns, 4.3), 0.4 + 3.5 * height)
-    for place, (quantity, curve, k) in enumerate(found, 1):
+    for place, (quantity, curve, row) in enumerate(drawn, 1):
         ax = fig.add_subplot(height, columns, place)
         names = subject.name_components(quantity)
-        unit = subject.unit(quantity)
-        draw_order(ax, curve, k, quantity, names, unit)
+        draw_order(ax, curve, row, quantity, names, subject.unit(quantity))
     return words
 
 
@@ -444,14 +485,13 @@ def _lay_out_gas(fig: Figure, subject: PageSubject, *, what: str) -> None:
 def _lay_out_stars(fig: Figure, subject: PageSubject) -> str:
     """Draw star and polygons of the first orders."""
     engine = subject.now.engine
-    kinds = ("force", "moment")[: 1 + subject.now.moments_known]
+    kinds = ("force", "moment") if subject.now.moments_known else ("force",)
     every = list(find_stars(engine, subject.now.orders, kinds))
     if not every:
         return "No cylinder has a force of these orders."
     stars = every[:_MOST_STARS]
-    left_out = [star.order for star in every[_MOST_STARS:]]
     rays = [ray for star in stars for bank in star.banks for ray in bank.cylinders]
-    quantities = ("force", "moment")[: 1 + any(ray.moment for ray in rays)]
+    quantities = ("force", "moment") if any(ray.moment for ray in rays) else ("force",)
     fig.set_size_inches(2.9 * (1 + len(quantities)), 0.6 + 2.5 * len(stars))
     axes = fig.subplots(len(stars), 1 + len(quantities), squeeze=False)
     turn = -(engine.up_deg or 0.0)
@@ -459,8 +499,18 @@ def _lay_out_stars(fig: Figure, subject: PageSubject) -> str:
         draw_star(first, star, turn)
         for ax, quantity in zip(others, quantities, strict=True):
             draw_polygon(ax, star, quantity, turn, subject.unit(quantity))
-    told = ", ".join(dict.fromkeys(map(order_name, left_out)))
-    return f"{_STARS}\nNot drawn: orders {told}." if told else _STARS
+    if len(every) == len(stars):
+        return _STARS
+    left_out = dict.fromkeys(order_name(star.order) for star in every[_MOST_STARS:])
+    return f"{_STARS}\nNot drawn: orders {', '.join(left_out)}."
+
+
+def _lay_out_piston(fig: Figure, subject: PageSubject) -> None:
+    draw_piston(fig, subject.now.engine, subject.cylinder, subject.system)
+
+
+def _lay_out_journals(fig: Figure, subject: PageSubject) -> None:
+    draw_journals(fig, subject.now.engine, subject.system.moment)
 
 
 # Width and height in inches (some layouts change them), and the drawing function.
@@ -476,8 +526,8 @@ _LAYOUTS: dict[str, tuple[float, float, Callable[[Figure, PageSubject], str | No
     "factor": (7.2, 4.6, _lay_out_factor),
     "bank": (9.6, 5.4, _lay_out_bank),
     "inner": (7.5, 7.6, _lay_out_inner),
-    "piston": (7.2, 7.8, lambda fig, s: draw_piston(fig, s.now.engine, s.cylinder, s.system)),
-    "journals": (8.4, 4.8, lambda fig, s: draw_journals(fig, s.now.engine, s.system.moment)),
+    "piston": (7.2, 7.8, _lay_out_piston),
+    "journals": (8.4, 4.8, _lay_out_journals),
     "pressure": (7.2, 4.4, partial(_lay_out_gas, what="pressure")),
     "p-v": (6.4, 4.8, partial(_lay_out_gas, what="p-v")),
     "torque": (8.4, 4.8, partial(_lay_out_gas, what="torque")),

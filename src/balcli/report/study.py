@@ -104,12 +104,12 @@ def analyze_steps(
     """Return free forces and moments of an engine with the devices of each step of a ladder, by
     number and name of the step.
     """
-    return {
-        f"{k} {step.step}": analyze(
-            fit_devices(engine, step.remedy), orders, [kind.name for kind in FREE]
-        )
-        for k, step in enumerate(ladder.steps)
-    }
+    kinds = [kind.name for kind in FREE]
+    analyses = {}
+    for k, step in enumerate(ladder.steps):
+        balanced = fit_devices(engine, step.remedy)
+        analyses[f"{k} {step.step}"] = analyze(balanced, orders, kinds)
+    return analyses
 
 
 def compute_study(

@@ -89,12 +89,12 @@ def find_places(model: EngineFile) -> dict[str, Place]:
         idle.add("layout.bank_angle")
     if not plan.in_rows:  # a row angle would renumber the cylinders
         idle.add("layout.row_angle")
-    return {
-        path: place
-        for path, place in numbers.items()
-        if path not in idle and (place.table, place.key) not in _SHOWN_ALONE
-        if not re.match(_FIXED, path)
-    }
+    varied = {}
+    for path, place in numbers.items():
+        alone = (place.table, place.key) in _SHOWN_ALONE
+        if not (path in idle or alone or re.match(_FIXED, path)):
+            varied[path] = place
+    return varied
 
 
 def _find_places_of_several(model: EngineFile) -> dict[str, Place]:
@@ -108,8 +108,9 @@ def _find_places_of_several(model: EngineFile) -> dict[str, Place]:
     of_whole = set(BESIDE_ENGINES).difference(DEVICES, ("flywheel",))
     for k, crank in enumerate(model.cranks, 1):
         own = find_places(crank)
-        counts = (path for path in own if path.partition(".")[0] not in {*of_whole, *_IDLE_TABLES})
-        numbers |= {f"engine.{k}.{path}": own[path] for path in counts}
+        for path, place in own.items():
+            if path.partition(".")[0] not in {*of_whole, *_IDLE_TABLES}:
+                numbers[f"engine.{k}.{path}"] = place
     return numbers
 
 

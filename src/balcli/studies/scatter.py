@@ -220,19 +220,18 @@ class Variants:
         Raises:
             BalcliError: A variant is impossible.
         """
-        figures = {
-            path: line.value + line.slope * column
-            for source, column in zip(self.sources, deviations.T, strict=True)
-            for path, line in source.figures.items()
-        }
+        figures = {}
+        for source, column in zip(self.sources, deviations.T, strict=True):
+            for path, line in source.figures.items():
+                figures[path] = line.value + line.slope * column
         try:
-            found = self._evaluator.evaluate(figures, (len(deviations),))
+            values = self._evaluator.evaluate(figures, (len(deviations),))
         except InputError as error:
             raise BalcliError(
                 f"some engines within these tolerances are impossible: "
                 f"{error.problems[0].message}; give smaller tolerances"
             ) from None
-        return np.stack([*found.values()], axis=1)
+        return np.stack([*values.values()], axis=1)
 
     def draw(
         self,

@@ -72,7 +72,9 @@ class Found:
 def list_changes(design: Design) -> dict[str, object]:
     """Return the values of a design by dotted file keys, as arguments for `Engine.vary`."""
     changed = {PATHS.get(key, key): value for key, value in design.items()}
-    return changed | ({"layout.firing_intervals": None} if "firing_order" in design else {})
+    if "firing_order" in design:
+        changed["layout.firing_intervals"] = None
+    return changed
 
 
 def drop_mirror_images(found: Iterable[Found], model: EngineFile) -> Iterator[Found]:
@@ -88,12 +90,13 @@ def drop_mirror_images(found: Iterable[Found], model: EngineFile) -> Iterator[Fo
     alike = all(strokes[number] == strokes[other] for number, other in other_end.items())
     alike = alike and masses == masses[::-1]
     seen: dict[tuple[float, ...], float] = {}
-    for one in found:
-        images = list(_find_images(one.design, other_end if alike else {}))
-        known = [seen[image] for image in images if image in seen]
-        if not any(abs(value - one.objective) <= SAME * abs(one.objective) for value in known):
-            yield one
-        seen |= dict.fromkeys(images, one.objective)
+    for arrangement in found:
+        images = list(_find_images(arrangement.design, other_end if alike else {}))
+        cost = arrangement.objective
+        earlier = [seen[image] for image in images if image in seen]
+        if not any(abs(value - cost) <= SAME * abs(cost) for value in earlier):
+            yield arrangement
+        seen |= dict.fromkeys(images, cost)
 
 
 def _find_images(design: Design, other_end: Mapping[int, int]) -> Iterator[tuple[float, ...]]:
