@@ -245,7 +245,9 @@ def analyze(
     due = DEFAULT_ORDERS if asked is None else asked
     every = merge_orders(find_relevant_orders(engine), of_gas, due)
     computed = every if asked is None or "peak" in wanted else asked
-    peaked = {kind.name for kind in FREE} if "peak" in wanted else set()
+    peaked = set()
+    if "peak" in wanted:
+        peaked = {kind.name for kind in FREE}
     if engine.gas is None or computed.max() <= HIGHEST_ORDER_UNASKED:
         everything = compute_spectra(engine, computed, shown | peaked)
         visible = everything.only(shown)

@@ -31,25 +31,25 @@ if TYPE_CHECKING:
     from .options import Request
 
 
-def sheet(one: NamedResult[Analysis], system: System) -> Sheet:
+def sheet(named: NamedResult[Analysis], system: System) -> Sheet:
     """Return the sheet of one analysis.
 
     Args:
-        one: Analysis with the engine's name.
+        named: Analysis with the engine's name.
         system: System of units.
     """
-    return chapter.sheet(one.result, system, one.view)
+    return chapter.sheet(named.result, system, named.view)
 
 
-def rows(one: NamedResult[Analysis], system: System) -> Rows:
+def rows(named: NamedResult[Analysis], system: System) -> Rows:
     """Return the rows of CSV: the rows of the analysis, each preceded by the engine's name.
 
     Args:
-        one: Analysis with the engine's name.
+        named: Analysis with the engine's name.
         system: System of units.
     """
-    header, lines = chapter.rows(one.result, system, named=one.view.parts)
-    return Rows(("engine", *header), ((name_cell(one.name), *line) for line in lines))
+    header, lines = chapter.rows(named.result, system, named=named.view.parts)
+    return Rows(("engine", *header), ((name_cell(named.name), *line) for line in lines))
 
 
 RENDERER = Renderer(sheet=sheet, document=write_named, rows=rows)

@@ -178,7 +178,8 @@ def list_lines(analyses: Sequence[Analysis], *, every_order: bool = False) -> tu
         every_order: Whether to include orders above 2 that are balanced in all analyses.
     """
     guides = _list_guides(analyses)
-    alone = "" if all(guide is None or guide.with_gas for guide in guides) else " of inertia only"
+    with_gas = all(guide is None or guide.with_gas for guide in guides)
+    alone = "" if with_gas else " of inertia only"
     tables = []
     for analysis, guide in zip(analyses, guides, strict=True):
         sizes = _list_sizes(analysis, guide)

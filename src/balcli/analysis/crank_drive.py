@@ -72,12 +72,12 @@ def find_journals(engine: Engine) -> tuple[Journal, ...]:
     places = engine.joined_throws_m
     kinds = {"pin": places, "main": place_bearings(places)}
     torques = CrankTorques.of(engine)
-    found = []
+    journals = []
     for (kind, place), weights in weigh_cylinders(engine).items():
         inertia = torques.measure(weights)
         total = torques.measure_total(weights)
         at = kinds[kind] if engine.places_known else None
-        found.append(
+        journals.append(
             Journal(
                 place=f"{kind} {place}",
                 position_mm=None if at is None else 1e3 * float(at[place - 1]),
@@ -86,7 +86,7 @@ def find_journals(engine: Engine) -> tuple[Journal, ...]:
                 stress=_find_stress(engine, total or inertia, kind),
             )
         )
-    return tuple(found)
+    return tuple(journals)
 
 
 def weigh_cylinders(engine: Engine) -> dict[tuple[str, int], Array]:

@@ -192,28 +192,28 @@ def _compute_engine_parts(engine: Engine, crank_deg: Array) -> dict[str, Array]:
     return {name: np.concatenate(parts) for name, parts in of_cranks.items()}
 
 
-def _compute_crank_parts(one: Placed, crank_deg: Array) -> dict[str, Array]:
+def _compute_crank_parts(crank: Placed, crank_deg: Array) -> dict[str, Array]:
     """Return the terms of each curve for one crank, in the axes of the whole engine, shape (terms,
     angles).
 
     Args:
-        one: Engine with this crank, one of several engines or the only one.
+        crank: Engine with this crank, one of several engines or the only one.
         crank_deg: Angles of this crank, shape (angles,).
     """
-    engine = one.engine
+    engine = crank.engine
     motion = EngineMotion(engine, crank_deg)
     of_devices = compute_device_forces(engine, crank_deg)
     own_force = np.concatenate([_force_of_cylinders(motion), of_devices])
     x, y, z = engine.reference_m
     levels = np.array([*np.ravel(engine.cylinders.z), *(d.z for d in engine.devices)], float)
-    moment = one.turn_axial(1j * (levels - float(z))[:, None] * own_force)
-    force = one.turn(own_force)
+    moment = crank.turn_axial(1j * (levels - float(z))[:, None] * own_force)
+    force = crank.turn(own_force)
     on_crank = np.zeros(engine.cylinders.count)
     places = np.concatenate([on_crank, [d.place for d in engine.devices]]) - (x + 1j * y)
     arms = (np.conj(places)[:, None] * own_force).imag
     turning = engine.find_turning_inertia(beyond_pins=True)
     momentum, energy = (-inertia * motion.xi[None] for inertia in turning)
-    couple = one.ratio * np.concatenate([_couple_of_cylinders(motion), arms, momentum])
+    couple = crank.ratio * np.concatenate([_couple_of_cylinders(motion), arms, momentum])
     torque = np.concatenate([torque_of_cylinders(motion), energy])
     curves = {
         FORCE.key_along("x"): force.real,
@@ -222,7 +222,7 @@ def _compute_crank_parts(one: Placed, crank_deg: Array) -> dict[str, Array]:
         MOMENT.key_along("y"): moment.imag,
     }
     parts = {COUPLE.name: couple, TORQUE.name: torque}
-    on_frame = {COUPLE.name: couple, TORQUE.name: one.load_sense * torque}
+    on_frame = {COUPLE.name: couple, TORQUE.name: crank.load_sense * torque}
     for kind in KINDS.values():
         if parts.keys() >= {*kind.parts}:
             curves[kind.key] = _join_terms(kind, parts if kind.on_crank else on_frame)
@@ -307,17 +307,17 @@ def _find_cylinder_gas(engine: Engine, row: int, crank_deg: Array) -> dict[str, 
     Forces across the cylinder are positive towards the side to which the crank pin moves after top
     dead centre. (In a rotary engine, this side is behind the turning cylinder.)
     """
-    found: dict[str, Array] = {}
+    curves: dict[str, Array] = {}
     gas = take_gas(engine)
     cylinder = gas.cylinders[row]
     at = np.radians(crank_deg) - cylinder.fires
     if cylinder.torque.pressure is not None:
         forces = compute_rod_forces(engine, crank_deg)
         side = -1 if engine.rotary else 1
-        found["pressure_Pa"] = forces.pressure[row]
+        curves["pressure_Pa"] = forces.pressure[row]
         if gas.compression_ratio is not None:
-            found["volume_m3"] = cylinder.piston.volume(at, gas.compression_ratio)
-        found |= {
+            curves["volume_m3"] = cylinder.piston.volume(at, gas.compression_ratio)
+        curves |= {
             "gas_force_N": forces.gas[row],
             "side_thrust_N": side * forces.thrust[row],
             "rod_force_N": forces.rod[row],
@@ -325,8 +325,8 @@ def _find_cylinder_gas(engine: Engine, row: int, crank_deg: Array) -> dict[str, 
             "pin_y_N": side * forces.pin[row].imag,
         }
     inertia = torque_of_cylinders(EngineMotion(engine, crank_deg))[row]
-    found["torque_Nm"] = inertia + cylinder.share * cylinder.torque.curve.at(at)
-    return found
+    curves["torque_Nm"] = inertia + cylinder.share * cylinder.torque.curve.at(at)
+    return curves
 
 
 def _settle(values: Array, most: float | None = None) -> Array:

@@ -245,9 +245,11 @@ def list_columns(
     angle = ShownUnit("deg", 1)
     units = units | system.of_parts | {"deg": angle, "mm": length._replace(size=1e3 * length.size)}
     for key, label in labels.items():
-        values = [getattr(record, key) for record in records]
         unit_ = units[find_unit(key)]
-        cells = [UNKNOWN if value is None else number(unit_.of(value)) for value in values]
+        cells = []
+        for record in records:
+            value = getattr(record, key)
+            cells.append(UNKNOWN if value is None else number(unit_.of(value)))
         if set(cells) != {UNKNOWN}:
             yield Column(name_with_unit(label, unit_.name), cells)
 

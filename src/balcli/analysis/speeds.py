@@ -243,7 +243,10 @@ def _list_lines(
         analyses: Analysis at each speed.
         listed: Amplitudes at each speed by order.
     """
-    figures = np.array([[astuple(order)[1:] for order in orders] for orders in listed])
+    at_speeds = []
+    for orders in listed:
+        at_speeds.append([astuple(order)[1:] for order in orders])
+    figures = np.array(at_speeds)
     single = np.nan_to_num(figures).max(axis=1)  # shape (speeds, figures)
     single[:, 4:6] = single[:, 4:6].max(axis=1, keepdims=True)
     for k, analysis in enumerate(analyses):

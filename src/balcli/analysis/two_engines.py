@@ -183,15 +183,15 @@ def combine_engines(
     """
     for engine in (first, second):
         refuse_geared(engine)
-    found = analyze(gear_engines(arrangement.place(first, second)), orders)
+    analysis = analyze(gear_engines(arrangement.place(first, second)), orders)
     lists = [engine.list_assumed("gas") for engine in (first, second)]
     return Combined(
         engines=(first, second),
         arrangement=arrangement,
         state=describe_state(first),
-        spectra=replace(found.spectra, up_deg=first.up_deg),
+        spectra=replace(analysis.spectra, up_deg=first.up_deg),
         assumed=join_assumed(("first", "second"), lists) or None,
-        peak=found.peak,
+        peak=analysis.peak,
         every_order=orders is not None,
     )
 

@@ -120,18 +120,18 @@ def compare_schemes(engine: Engine) -> SchemeComparison:
     left_out: list[Unfit] = []
     for scheme, design in _list_schemes():
         try:
-            found = balance(engine, scheme, SchemeOptions(design=design))
+            balanced = balance(engine, scheme, SchemeOptions(design=design))
         except BalcliError as error:
             reason = error.message if isinstance(error, ArgumentError) else str(error)
             left_out.append(Unfit(scheme, reason))
             continue
         if not rows:
-            rows.append(_measure(AS_DRAWN, None, found.before, scale, 0, 0.0))
-        if not found.remedy.devices and not found.remedy.beyond:
-            left_out.append(Unfit(scheme, found.remedy.note))
+            rows.append(_measure(AS_DRAWN, None, balanced.before, scale, 0, 0.0))
+        if not balanced.remedy.devices and not balanced.remedy.beyond:
+            left_out.append(Unfit(scheme, balanced.remedy.note))
             continue
-        parts, mass = _count_parts(found)
-        rows.append(_measure(scheme, design, found.after, scale, parts, mass))
+        parts, mass = _count_parts(balanced)
+        rows.append(_measure(scheme, design, balanced.after, scale, parts, mass))
     unique = {unfit.scheme: unfit for unfit in left_out}
     return SchemeComparison(
         scale_N=scale, schemes=tuple(rows), left_out=tuple(unique.values()), engine=engine
@@ -167,13 +167,13 @@ def _measure(
     )
 
 
-def _count_parts(found: Balance) -> tuple[int, float]:
+def _count_parts(balanced: Balance) -> tuple[int, float]:
     """Return number and mass of a scheme's parts. An eccentric slider is a pair of equal shafts.
     Two Oldham couplings are two weights and two blocks, each of one mass.
     """
-    remedy = found.remedy
+    remedy = balanced.remedy
     parts = len(remedy.devices)
-    mass = sum(device.mass_kg for device in found.practical)
+    mass = sum(device.mass_kg for device in balanced.practical)
     if remedy.scheme == _ECCENTRIC_SLIDER:
         return parts + 2, mass + 2 * remedy.details["fitted"]["mass_kg"]
     if remedy.scheme == _OLDHAM:
@@ -189,9 +189,9 @@ _NOTE = (
 )
 
 
-def sheet(found: SchemeComparison, system: System) -> Sheet:
+def sheet(comparison: SchemeComparison, system: System) -> Sheet:
     """Return the table of schemes, and the schemes left out with their reasons."""
-    rows = found.schemes
+    rows = comparison.schemes
     force = system.force.fit(max(row.peak_force_N for row in rows))
     moments = [row.peak_moment_Nm for row in rows]
     moment = system.moment.fit(max((value or 0.0 for value in moments), default=0.0))
@@ -209,14 +209,14 @@ def sheet(found: SchemeComparison, system: System) -> Sheet:
         Column("parts", [str(row.parts) for row in rows]),
         Column(system.mass.name, [number(system.mass.of(row.mass_kg), 3) for row in rows]),
     ]
-    unit = system.force.fit(found.scale_N)
-    note = _NOTE.format(scale=f"{number(unit.of(found.scale_N))} {unit.name}")
+    unit = system.force.fit(comparison.scale_N)
+    note = _NOTE.format(scale=f"{number(unit.of(comparison.scale_N))} {unit.name}")
     parts = [Grid("", columns, note)]
-    if found.left_out:
-        reasons = [tell(unfit.reason, name_option) for unfit in found.left_out]
-        names = Column("scheme", [unfit.scheme for unfit in found.left_out], words=True)
+    if comparison.left_out:
+        reasons = [tell(unfit.reason, name_option) for unfit in comparison.left_out]
+        names = Column("scheme", [unfit.scheme for unfit in comparison.left_out], words=True)
         parts.append(Grid("Left out", [names, Column("reason", reasons, words=True)]))
-    return Sheet(f"{found.engine.name or NAMELESS}: what every scheme leaves", tuple(parts))
+    return Sheet(f"{comparison.engine.name or NAMELESS}: what every scheme leaves", tuple(parts))
 
 
 def _name(row: SchemeResult) -> str:

@@ -421,7 +421,8 @@ def _solve(find_error: Callable[[Array], Array], count: int) -> Array:
 def _find_first_rows(model: EngineFile, numbers: tuple[CylinderNumber, ...]) -> list[int]:
     """Return the row of the arrays that belongs to the first cylinder of each bank."""
     cells = plan_cylinders(model).cells
-    first = {cell.bank: cell.number for cell in sorted(cells, key=lambda cell: -cell.throw)}
+    from_last = sorted(cells, key=lambda cell: -cell.throw)
+    first = {cell.bank: cell.number for cell in from_last}
     return [numbers.index(first[bank]) for bank in sorted(first)]
 
 

@@ -367,7 +367,7 @@ def balance(
     if fits:
         _check_fit(name_file(path), scheme, options, open_devices)
     _check_scheme(scheme, options, even, shapes)
-    wanted = None if target is None else [each.strip() for each in target.split(",")]
+    wanted = None if target is None else [name.strip() for name in target.split(",")]
 
     def find(tools: Tools) -> Balance:
         if fits:

@@ -219,6 +219,13 @@ def make_book(
         choice: Initial engine if the reader can choose among several; empty if there is one engine.
         small: Share of one cylinder's first order below which a force or moment is ignored.
     """
+    units = {}
+    for dimension, others in _UNITS.items():
+        units[dimension.unit] = {unit: convert(f"1 {unit}", dimension) for unit in others}
+    shown = {}
+    for kind in FREE:
+        unit = system.unit(kind)
+        shown[kind.name] = {**name_unit(unit), "size": unit.size}
     return {
         "engines": engines,
         "file": file.removesuffix(".toml"),
@@ -237,14 +244,8 @@ def make_book(
         "options": "" if small == SMALL else f" --small {100 * small:g}%",
         "unknown": sentence(MOMENTS_UNKNOWN),
         "devices": _NEW,
-        "units": {
-            dimension.unit: {unit: convert(f"1 {unit}", dimension) for unit in others}
-            for dimension, others in _UNITS.items()
-        },
-        "show": {
-            kind.name: {**name_unit(system.unit(kind)), "size": system.unit(kind).size}
-            for kind in FREE
-        },
+        "units": units,
+        "show": shown,
     }
 
 

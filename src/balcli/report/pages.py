@@ -491,7 +491,8 @@ def _lay_out_stars(fig: Figure, subject: PageSubject) -> str:
         return "No cylinder has a force of these orders."
     stars = every[:_MOST_STARS]
     rays = [ray for star in stars for bank in star.banks for ray in bank.cylinders]
-    quantities = ("force", "moment") if any(ray.moment for ray in rays) else ("force",)
+    with_moment = any(ray.moment for ray in rays)
+    quantities = ("force", "moment") if with_moment else ("force",)
     fig.set_size_inches(2.9 * (1 + len(quantities)), 0.6 + 2.5 * len(stars))
     axes = fig.subplots(len(stars), 1 + len(quantities), squeeze=False)
     turn = -(engine.up_deg or 0.0)

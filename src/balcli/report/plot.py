@@ -172,16 +172,16 @@ def make_figures(path: str, pages: Sequence[str], asked: Asked) -> list[Figure]:
     Raises:
         BalcliError: An option does not suit a page, or the file lacks data for a page.
     """
-    found: dict[str, Figure] = {}
+    figures: dict[str, Figure] = {}
     of_torsion = [page for page in pages if page in OF_TORSION]
     others = [page for page in pages if page not in OF_TORSION]
     if of_torsion:
         refuse_scheme(choose_beside(asked.scheme, asked.options), of_torsion[0])
         drawn = make_figures_of_torsion(path, of_torsion, asked.speeds, asked.orders, asked.units)
-        found |= zip(of_torsion, drawn, strict=True)
+        figures |= zip(of_torsion, drawn, strict=True)
     if others:
-        found |= zip(others, _make_pages(path, others, asked), strict=True)
-    return [found[page] for page in pages]
+        figures |= zip(others, _make_pages(path, others, asked), strict=True)
+    return [figures[page] for page in pages]
 
 
 def _make_pages(path: str, pages: Sequence[str], asked: Asked) -> Iterator[Figure]:

@@ -232,7 +232,8 @@ def parse_speeds(
     right = "give first:last:step in rpm, such as 1000:2500:25, or speeds such as 1500,2000"
     ranged = ":" in text
     try:
-        figures = [_read(part, SPEED) for part in text.split(":" if ranged else ",")]
+        parts = text.split(":") if ranged else text.split(",")
+        figures = [_read(part, SPEED) for part in parts]
     except ThousandsError as error:
         raise _refuse(argument, text, f"{error}; {right}") from None
     except ValueError:

@@ -455,7 +455,10 @@ def _find_needs(engine: Engine, factor: float, planes: tuple[float, ...] | None)
     if not pins:
         return _Planes(z[:0], np.zeros((3, 0), complex), [])
     if planes is None:
-        of_pins = np.array([[float(pin in members) for pin in pins] for members in sets])
+        of_pins = np.zeros((len(z), len(pins)))
+        for plane, members in enumerate(sets):
+            for k, pin in enumerate(pins):
+                of_pins[plane, k] = pin in members
     else:
         of_pins = share_by_lever(np.array([pin.z for pin in pins]), z)
     of_weights = np.zeros((len(z), len(places)))

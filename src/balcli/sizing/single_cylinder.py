@@ -300,27 +300,29 @@ def size_eccentric_slider(engine: Engine, options: SchemeOptions) -> Remedy:
     return fitting.remedy._replace(beyond=_make_shafts(engine, optima[chosen[0]], unit_kg_m))
 
 
-def _describe_shaft(engine: Engine, one: Optimum, unit_kg_m: float, radius: float | None) -> Node:
+def _describe_shaft(
+    engine: Engine, optimum: Optimum, unit_kg_m: float, radius: float | None
+) -> Node:
     """Return an optimum with the figures of each shaft. The weight loads its shaft with the forces
     `m_b r_b omega^2 phi'^2` outwards and `m_b r_b omega^2 phi''` along the path, and with the
     torque `m_b r_b^2 omega^2 phi''`.
 
     Args:
         engine: Engine.
-        one: Optimum.
+        optimum: Optimum.
         unit_kg_m: Reciprocating mass times crank radius, kg m.
         radius: Radius of pin and weight, m; None: the crank radius.
     """
-    unbalance = one.mu * unit_kg_m
+    unbalance = optimum.mu * unit_kg_m
     r_b = radius or float(engine.cylinders.radius[0])
-    fastest, slowest, bend = find_shaft_rates(one.design, one.k)
+    fastest, slowest, bend = find_shaft_rates(optimum.design, optimum.k)
     force = unbalance * float(engine.omega) ** 2
     rpm = float(engine.speed_rpm)
     return {
-        **to_document(one),
+        **to_document(optimum),
         "unbalance_kg_m": unbalance,
         "radius_mm": 1e3 * r_b,
-        "eccentricity_mm": 1e3 * r_b / one.k,
+        "eccentricity_mm": 1e3 * r_b / optimum.k,
         "mass_kg": unbalance / r_b,
         "largest_speed_rpm": rpm * fastest,
         "smallest_speed_rpm": rpm * slowest,

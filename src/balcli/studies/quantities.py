@@ -309,24 +309,28 @@ class Evaluator:
             InputError, BalcliError: A variant is impossible. The error names it if variants are
                 computed one by one.
         """
-        found: dict[AnyQuantity, Array] = {}
+        of_quantities: dict[AnyQuantity, Array] = {}
         if self.of_engine:
             engine = engine or self.build(figures, len(shape))
             values = evaluate_quantities(engine, self.of_engine)
-            found |= dict(zip(self.of_engine, values, strict=True))
+            of_quantities |= dict(zip(self.of_engine, values, strict=True))
         if self._chapters:
-            found |= self._evaluate_one_by_one(figures, shape)
-        return {q: np.broadcast_to(found[q], shape) for q in self._quantities}
+            of_quantities |= self._evaluate_one_by_one(figures, shape)
+        return {q: np.broadcast_to(of_quantities[q], shape) for q in self._quantities}
 
     def _evaluate_one_by_one(
         self, figures: Mapping[str, Array], shape: tuple[int, ...]
     ) -> dict[AnyQuantity, Array]:
         rows: list[list[float]] = []
         for own in _list_variants(figures, shape):
+            values: list[float] = []
             with naming_variant(tell_variant(own)), naming_file(""):
-                rows.append([v for _, one in self._chapters for v in one.evaluate(own)])
-        names = [q for members, _ in self._chapters for q in members]
-        return {q: column.reshape(shape) for q, column in zip(names, np.array(rows).T, strict=True)}
+                for _, chapter in self._chapters:
+                    values += chapter.evaluate(own)
+            rows.append(values)
+        quantities = [quantity for members, _ in self._chapters for quantity in members]
+        columns = [column.reshape(shape) for column in np.array(rows).T]
+        return dict(zip(quantities, columns, strict=True))
 
 
 # ------------------------------------------------------------------ lists of names

@@ -93,14 +93,14 @@ class Search(Result):
         """
         if self.constant:
             return ()
-        known = find_numbers(self.model)
+        numbers = find_numbers(self.model)
         best = self.results[0].design
         return tuple(
             key
             for key, number in self.ranges.items()
             if key not in ANGLES
             for end in number.values.tolist()
-            if end not in (known[key].least, known[key].most)
+            if end not in (numbers[key].least, numbers[key].most)
             if abs(best[key] - end) <= NEAR_AN_END * np.ptp(number.values)
         )
 
@@ -163,8 +163,8 @@ def search_arrangements(
         candidates = search_throws(model, objective, count, even_firing, tell)
     else:
         candidates = search_firing_order(model, objective, tell)
-    found = tuple(islice(drop_mirror_images(candidates, model), count))
-    if not found:
+    arrangements = tuple(islice(drop_mirror_images(candidates, model), count))
+    if not arrangements:
         limits = ["keep these limits"] * bool(objective.limits) + ["fire evenly"] * even_firing
         words = named if "." in named else named.replace("_", " ")
         raise BalcliError(f"no {words} can {' and '.join(limits or ['make an engine'])}")
@@ -172,7 +172,7 @@ def search_arrangements(
         model=model,
         assumed=list_assumed(model, objective.quantities, varied),
         over=named,
-        results=found,
+        results=arrangements,
         objective=objective,
         ranges=ranges,
         constant=constant,

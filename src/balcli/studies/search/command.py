@@ -181,12 +181,15 @@ def search(
         engine = build.build(model)
         unlikely = *engine.unlikely, *engine.doubt_speeds(engine.speed_rpm)
     varied = [text.partition("=")[0] for text in over]
-    warn_each((doubt for doubt in unlikely if not any(one in doubt for one in varied)), name)
+    for doubt in unlikely:
+        if not any(path in doubt for path in varied):
+            warn_each([doubt], name)
     if write is not None:
         refuse_leaving_files(text, path, write)
     with_gas = model.gas is not None
     goal = designs.parse_objective(minimise, limit or (), maximise=maximise, with_gas=with_gas)
-    watching = reporting if any("=" in one for one in over) else reporting_until_stopped
+    has_ranges = any("=" in text for text in over)
+    watching = reporting if has_ranges else reporting_until_stopped
     with watching("arrangements") as progress, naming_file(name):
         result = answer.search_arrangements(model, over, goal, top, bool(require), progress)
     show([result], RENDERER, form, output)

@@ -77,7 +77,7 @@ def list_changes(design: Design) -> dict[str, object]:
     return changed
 
 
-def drop_mirror_images(found: Iterable[Found], model: EngineFile) -> Iterator[Found]:
+def drop_mirror_images(arrangements: Iterable[Found], model: EngineFile) -> Iterator[Found]:
     """Yield the arrangements, except mirror images of earlier ones: the same crank seen from the
     other end or turning the other way, with the same objective.
     """
@@ -90,7 +90,7 @@ def drop_mirror_images(found: Iterable[Found], model: EngineFile) -> Iterator[Fo
     alike = all(strokes[number] == strokes[other] for number, other in other_end.items())
     alike = alike and masses == masses[::-1]
     seen: dict[tuple[float, ...], float] = {}
-    for arrangement in found:
+    for arrangement in arrangements:
         images = list(_find_images(arrangement.design, other_end if alike else {}))
         cost = arrangement.objective
         earlier = [seen[image] for image in images if image in seen]
@@ -256,8 +256,8 @@ def _refuse_several_units(quantities: Iterable[AnyQuantity], argument: str) -> N
 
 def _parse_sizes(name: str, with_gas: bool) -> tuple[AnyQuantity, ...]:
     """Return the quantities of these names; raise BalcliError if one is no magnitude."""
-    found = parse_quantities(name, with_gas=with_gas)
-    for q in found:
+    sizes = parse_quantities(name, with_gas=with_gas)
+    for q in sizes:
         if isinstance(q, Quantity) and (q.signed or q.part == "axis"):
             raise BalcliError(
                 f"{q.name} has a sign or a direction; name a magnitude such as "
@@ -266,7 +266,7 @@ def _parse_sizes(name: str, with_gas: bool) -> tuple[AnyQuantity, ...]:
         if q.part in _SIGNED:
             size = f"{q.name.rpartition('.')[0]}.max"
             raise BalcliError(f"{q.name} may be negative; name a quantity such as {size}")
-    return found
+    return sizes
 
 
 def _parse_positive(text: str, whole: str, unit: str = "") -> float:
