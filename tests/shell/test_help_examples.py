@@ -59,7 +59,7 @@ OFFERED = {
     "": {*COMMANDS},
     "ana": {"analyze"},
     "balance --scheme k": {"knuckles"},
-    "tables liu-": {"liu-1", "liu-2", "liu-3"},
+    "tables liu-": {"liu-1", "liu-2", "liu-3", "liu-statements"},
     "engines vtwin": {"vtwin45", "vtwin90"},
 }
 

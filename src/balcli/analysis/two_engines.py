@@ -330,7 +330,8 @@ def _list_facts(result: Combined, system: System) -> Iterator[tuple[str, str]]:
     yield "crank", f"the second leads by {how.phase_deg:g} deg{against}"
     yield "speed", f"both at {tell_speed(first)}, the speed of the first"
     if fired := [which for which, engine in named.items() if engine.gas is not None]:
-        yield "gas", f"of the {' and the '.join(fired)}{' alone' * (len(fired) == 1)}"
+        alone = " alone" if len(fired) == 1 else ""
+        yield "gas", f"of the {' and the '.join(fired)}{alone}"
     if result.assumed:
         yield "assumed", tell_assumed(result.assumed)
     known = result.moments_known

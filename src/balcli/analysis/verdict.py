@@ -392,7 +392,7 @@ def _describe_compensated(
     introduced = abs(forward + backward.conjugate())
     if introduced <= _ROUNDING * square * sum(abs(complex(device.forward)) for device in pairs):
         introduced = 0.0
-    found = Compensated(
+    compensated = Compensated(
         order=order,
         at_m=tuple(sorted({float(device.z) for device in pairs})),
         introduced_N=introduced,
@@ -403,13 +403,15 @@ def _describe_compensated(
         noise = float(np.broadcast_to(moment.noise, moment.y.shape)[row])
         if vertical <= max(noise, _ROUNDING * scales.moment):
             vertical = 0.0
-        found = found._replace(vertical_Nm=vertical, across_Nm=float(abs(moment.x[row])))
+        compensated = compensated._replace(
+            vertical_Nm=vertical, across_Nm=float(abs(moment.x[row]))
+        )
     if "force" in vectors:
         force = vectors["force"]
         ahead = abs(force.forward[row] - forward)
         against = abs(force.backward[row] - backward)
-        found = found._replace(force_N=float(ahead + against))
-    return found
+        compensated = compensated._replace(force_N=float(ahead + against))
+    return compensated
 
 
 def _find_rocking(spectra: Spectra, scales: Scales, engine: Engine | None) -> Rocking | None:

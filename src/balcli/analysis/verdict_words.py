@@ -252,37 +252,37 @@ class VerdictWords(NamedTuple):
         ]
         return ", ".join(written)
 
-    def write_compensated(self, found: Compensated) -> str:
+    def write_compensated(self, compensated: Compensated) -> str:
         """Return sentences on an order with moment compensators."""
         system = self.system
         sentences = []
-        if found.vertical_Nm is not None:
-            sentences.append(self._write_vertical(found, found.vertical_Nm))
-        if found.across_Nm and found.across_Nm > NEGLIGIBLE * self.scales.moment:
-            left = size_text(found.across_Nm, system.moment)
+        if compensated.vertical_Nm is not None:
+            sentences.append(self._write_vertical(compensated, compensated.vertical_Nm))
+        if compensated.across_Nm and compensated.across_Nm > NEGLIGIBLE * self.scales.moment:
+            left = size_text(compensated.across_Nm, system.moment)
             sentences.append(f"Moment left: up to {left} about x.")
-        if found.force_N and found.force_N > NEGLIGIBLE * self.scales.force:
-            most = size_text(found.force_N, system.force)
+        if compensated.force_N and compensated.force_N > NEGLIGIBLE * self.scales.force:
+            most = size_text(compensated.force_N, system.force)
             sentences.append(f"The engine's own force of this order is up to {most}.")
         return " ".join(sentences)
 
-    def _write_vertical(self, found: Compensated, vertical_Nm: float) -> str:
+    def _write_vertical(self, compensated: Compensated, vertical_Nm: float) -> str:
         """Return a sentence on the vertical moment that compensators leave, and on their force."""
         unit = self.system.length
-        where = join_words([f"z = {number(unit.of(z))} {unit.name}" for z in found.at_m])
+        where = join_words([f"z = {number(unit.of(z))} {unit.name}" for z in compensated.at_m])
         named = "compensators"
         verb = "introduce"
-        if len(found.at_m) == 1:
+        if len(compensated.at_m) == 1:
             named = "compensator"
             verb = "introduces"
         left = "balanced by"
         if vertical_Nm:
             left = f"of {size_text(vertical_Nm, self.system.moment)} left with"
         force = "no force"
-        if found.introduced_N:
-            force = f"a force of {size_text(found.introduced_N, self.system.force)} by design"
+        if compensated.introduced_N:
+            force = f"a force of {size_text(compensated.introduced_N, self.system.force)} by design"
         return (
-            f"{name_order(found.order)}: vertical moment {left} the {named} at {where}; "
+            f"{name_order(compensated.order)}: vertical moment {left} the {named} at {where}; "
             f"the {named} {verb} {force}."
         )
 

@@ -32,6 +32,7 @@ from ..engine.parts import Parts
 from ..errors import ArgumentError, BalcliError, InputError, check_type, list_values
 from ..file.assumed import Assumed
 from ..file.edit import format_value, remove_tables, rewrite, set_keys
+from ..file.fields import counted
 from ..file.model import EngineFile, Sector
 from ..forces.crankshaft import find_crank_loads
 from ..limits import SMALL
@@ -150,8 +151,7 @@ class Balance(Result):
     def summary(self) -> str:
         """Name of the scheme, its devices and the engine, in words."""
         count = len(self.remedy.devices) + len(self.remedy.beyond)
-        devices = f"{count} device{'s' * (count != 1)}"
-        return f"{self.remedy.scheme}: {devices} for {self.before.engine.summary}"
+        return f"{self.remedy.scheme}: {counted(count, 'device')} for {self.before.engine.summary}"
 
 
 def balance(
@@ -439,7 +439,9 @@ def _explain(
     """
     largest = float(np.abs(np.where(hung & done, turn_deg, 0)).max(initial=0.0))
     turned = f"turned by up to {largest:.3g} deg" if largest > _STAYS_DEG else "stay where they are"
-    reasons = [f"knuckle pins {turned}: {result}"] * bool(np.any(hung & done))
+    reasons = []
+    if np.any(hung & done):
+        reasons.append(f"knuckle pins {turned}: {result}")
     if left := [str(bank + 1) for bank in np.flatnonzero(hung & ~done)]:
         reasons.append(
             f"no angle makes bank {', '.join(left)} even: the knuckle pin stays where it is"
@@ -516,15 +518,15 @@ def _write_tables(remedy: Remedy) -> Iterator[str]:
     """Yield the tables of the devices; each reason is a comment above the first of its devices."""
     if remedy.devices:
         yield f"\n# fitted by balcli, scheme {remedy.scheme}\n"
-    told = ""
+    reason_before = ""
     rows = zip(remedy.devices, remedy.reasons, find_free(remedy.devices), strict=True)
     for device, reason, anywhere in rows:
-        if reason != told:
+        if reason != reason_before:
             yield f"# {reason}\n"
-        told = reason
+        reason_before = reason
         yield f"[[{name_kind(device)}]]\n"
         for key, value in _list_entries(device).items():
-            note = "  # free: it may stand anywhere" * (anywhere and key == "at")
+            note = "  # free: it may stand anywhere" if anywhere and key == "at" else ""
             yield f"{key} = {format_value(value)}{note}\n"
         yield "\n"
 

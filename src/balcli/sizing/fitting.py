@@ -160,7 +160,10 @@ def find_effect(
         -1: device.backward,
         0: -1j * (np.conj(place) * device.forward - place * np.conj(device.backward)),
     }
-    effects = [vectors[part.sense] * (z if part.kind == "moment" else 1) for part in parts]
+    effects = []
+    for part in parts:
+        effect = vectors[part.sense]
+        effects.append(z * effect if part.kind == "moment" else effect)
     return np.array(effects, complex)
 
 

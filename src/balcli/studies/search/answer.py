@@ -165,7 +165,11 @@ def search_arrangements(
         candidates = search_firing_order(model, objective, tell)
     arrangements = tuple(islice(drop_mirror_images(candidates, model), count))
     if not arrangements:
-        limits = ["keep these limits"] * bool(objective.limits) + ["fire evenly"] * even_firing
+        limits = []
+        if objective.limits:
+            limits.append("keep these limits")
+        if even_firing:
+            limits.append("fire evenly")
         words = named if "." in named else named.replace("_", " ")
         raise BalcliError(f"no {words} can {' and '.join(limits or ['make an engine'])}")
     return Search(
