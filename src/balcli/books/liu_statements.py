@@ -9,7 +9,6 @@ sliders over the crank angle are cos 3x - c (Zx) and cos 3x + c (Zy), in units o
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -53,20 +52,33 @@ def _find_angles(zero: Polynomial) -> list[float]:
     return angles
 
 
-def _find_extreme(curve: Polynomial) -> tuple[float, float]:
-    """Return bank angle (deg) and value of a curve's extreme inside the range of bank angles."""
+class _Extreme(NamedTuple):
+    """The extreme of a curve inside the range of bank angles."""
+
+    bank_deg: float
+    value: float
+
+
+def _find_extreme(curve: Polynomial) -> _Extreme:
     (x,) = _find_angles(curve.deriv())
-    return float(np.degrees(2 * x)), _Turning(curve).at(x)
+    return _Extreme(float(np.degrees(2 * x)), _Turning(curve).at(x))
 
 
-def _find_crossing(other: Polynomial) -> tuple[float, float]:
-    """Return bank angle at which a curve crosses the circle, and the angle between both, deg."""
+class _Crossing(NamedTuple):
+    """Where a curve crosses the circle: the bank angle, and the angle between both curves."""
+
+    bank_deg: float
+    between_deg: float
+
+
+def _find_crossing(other: Polynomial) -> _Crossing:
     (x,) = _find_angles(other - _CIRCLE)
-    directions = [
-        np.arctan2(curve.at(x), curve.slope(x)) for curve in (_Turning(other), _Turning(_CIRCLE))
-    ]
-    between = np.degrees(directions[1] - directions[0]) % 180
-    return float(np.degrees(2 * x)), float(min(between, 180 - between))
+    curve = _Turning(other)
+    circle = _Turning(_CIRCLE)
+    direction_of_curve = np.arctan2(curve.at(x), curve.slope(x))
+    direction_of_circle = np.arctan2(circle.at(x), circle.slope(x))
+    between = np.degrees(direction_of_circle - direction_of_curve) % 180
+    return _Crossing(float(np.degrees(2 * x)), float(min(between, 180 - between)))
 
 
 def _find_fastest() -> float:
@@ -77,26 +89,33 @@ def _find_fastest() -> float:
     return float(ratio[np.abs(ratio).argmax()])
 
 
-_QUANTITIES: dict[str, Callable[[], float]] = {
-    "bank angle, from opposite sides": lambda: _find_crossing(_ROSE)[0],
-    "bank angle, at the crank axis": lambda: float(np.degrees(2 * np.arccos(0))),
-    "path of the shaft at b''": _Turning(_ROSE).walk,
-    "path of the shaft at b'''": _Turning(_CIRCLE).walk,
-    "largest ratio of speeds": _find_fastest,
-    "bank angle of the extreme of Zx": lambda: _find_extreme(_SLIDER_X)[0],
-    "extreme of Zx": lambda: _find_extreme(_SLIDER_X)[1],
-    "bank angle of the extreme of Zy": lambda: _find_extreme(_SLIDER_Y)[0],
-    "extreme of Zy": lambda: _find_extreme(_SLIDER_Y)[1],
-    "bank angle, circle and rose": lambda: _find_crossing(_ROSE)[0],
-    "angle between circle and rose": lambda: _find_crossing(_ROSE)[1],
-    "bank angle, circle and four leaves": lambda: _find_crossing(_FOUR_LEAVES)[0],
-    "angle between circle and four leaves": lambda: _find_crossing(_FOUR_LEAVES)[1],
-}
+def _compute_quantities() -> dict[str, float]:
+    """Return the figures by their names in the print, angles in degrees."""
+    rose = _find_crossing(_ROSE)
+    four_leaves = _find_crossing(_FOUR_LEAVES)
+    slider_x = _find_extreme(_SLIDER_X)
+    slider_y = _find_extreme(_SLIDER_Y)
+    return {
+        "bank angle, from opposite sides": rose.bank_deg,
+        "bank angle, at the crank axis": float(np.degrees(2 * np.arccos(0))),
+        "path of the shaft at b''": _Turning(_ROSE).walk(),
+        "path of the shaft at b'''": _Turning(_CIRCLE).walk(),
+        "largest ratio of speeds": _find_fastest(),
+        "bank angle of the extreme of Zx": slider_x.bank_deg,
+        "extreme of Zx": slider_x.value,
+        "bank angle of the extreme of Zy": slider_y.bank_deg,
+        "extreme of Zy": slider_y.value,
+        "bank angle, circle and rose": rose.bank_deg,
+        "angle between circle and rose": rose.between_deg,
+        "bank angle, circle and four leaves": four_leaves.bank_deg,
+        "angle between circle and four leaves": four_leaves.between_deg,
+    }
 
 
 def tabulate_liu_statements(printed: Print, ranges: Ranges) -> Table:
     """Return the computed figures of Liu's statements, and of crossings for which he gives the
     formula (7.2) alone.
     """
-    quantities = printed.column("quantity")
-    return printed.compare_answers([_QUANTITIES[name]() for name in quantities], [])
+    quantities = _compute_quantities()
+    answers = [quantities[name] for name in printed.column("quantity")]
+    return printed.compare_answers(answers, [])

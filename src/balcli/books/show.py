@@ -8,8 +8,8 @@ precision.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
-from typing import TypeAlias
+from collections.abc import Iterable, Sequence
+from typing import NamedTuple, TypeAlias
 
 from ..core.records import Node, to_document
 from ..show.formats import Renderer, Rows
@@ -38,27 +38,36 @@ def sheet(table: Table, _system: System) -> Sheet:
     title = f"{table.name}: {table.title}"
     if STATEMENT in table.columns:
         return Sheet(title, (facts, *map(_lay_out_statement, table.errata), _explain(table.errata)))
-    columns = []
-    for j, head in enumerate(table.columns):
-        cells = [_shown(table, i, j) for i, _ in enumerate(table.exact)]
-        words = j == 0 or all(_is_word(row[j]) for row in table.exact)
-        marked = [erratum.row for erratum in table.errata if erratum.column == head]
-        columns.append(Column(head, cells, words, marked))
+    columns = [_lay_out_column(table, j) for j, _ in enumerate(table.columns)]
     grid = Grid("", columns, count_deviations(table))
     return Sheet(title, (facts, grid))
 
 
+def _lay_out_column(table: Table, j: int) -> Column:
+    """Return a column with the printed figures that deviate beside the exact ones."""
+    head = table.columns[j]
+    cells = []
+    only_words = True
+    for i, row in enumerate(table.exact):
+        cells.append(_show_cell(table, i, j))
+        only_words = only_words and _is_word(row[j])
+    marked = [erratum.row for erratum in table.errata if erratum.column == head]
+    return Column(head, cells, j == 0 or only_words, marked)
+
+
 def rows(table: Table, _system: System) -> Rows:
     """Return the exact figures as CSV, in full precision."""
-
     return Rows(table.columns, table.exact)
 
 
 def count_deviations(table: Table) -> str:
     """Return a sentence on how many printed figures differ from the rounded exact ones."""
-    printed = sum(_is_figure(text) for row in table.printed for text in row[table.stub :])
-    wrong = f"{len(table.errata)} of {printed} printed figures deviate (exact ≠ printed)"
-    return wrong if printed else "no printed source"
+    printed = 0
+    for row in table.printed:
+        printed += sum(map(_is_figure, row[table.stub :]))
+    if printed == 0:
+        return "no printed source"
+    return f"{len(table.errata)} of {printed} printed figures deviate (exact ≠ printed)"
 
 
 # ------------------------------------------------------------------ cells
@@ -70,12 +79,17 @@ def _is_word(cell: Cell) -> bool:
     return isinstance(cell, str) and not _is_figure(cell)
 
 
-def _shown(table: Table, i: int, j: int) -> str:
+def _show_cell(table: Table, i: int, j: int) -> str:
     """Return a cell in the form of the print, followed by the print if it deviates."""
     value = table.exact[i][j]
     text = table.printed[i][j]
-    shown = _round_as_printed(value, text or "") if isinstance(value, (int, float)) else value or ""
-    return f"{shown} ≠ {text}" if text is not None and deviates(value, text) else shown
+    if isinstance(value, (int, float)):
+        exact = _round_as_printed(value, text or "")
+    else:
+        exact = value or ""
+    if text is None or not deviates(value, text):
+        return exact
+    return f"{exact} ≠ {text}"
 
 
 def _round_as_printed(value: float, text: str) -> str:
@@ -97,61 +111,79 @@ RENDERER = Renderer(sheet=sheet, rows=rows)
 Errata: TypeAlias = Sequence[tuple[str, Erratum]]
 
 
+class _Cause(NamedTuple):
+    """What the errata of one grid have in common; `kind` is empty for statements."""
+
+    table: str
+    category: str
+    kind: str
+
+
 def lay_out_errata(errata: Errata, _system: System) -> Sheet:
     """Return a grid for each table and cause, a paragraph for each statement, and the classes."""
-    groups: dict[tuple[str, str, str], list[Erratum]] = {}
-    for table, e in errata:
-        kind = "" if e.column in (STATEMENT, ANSWER) else e.kind
-        groups.setdefault((table, e.category, kind), []).append(e)
+    groups: dict[_Cause, list[Erratum]] = {}
+    for table, erratum in errata:
+        is_statement = erratum.column in (STATEMENT, ANSWER)
+        cause = _Cause(table, erratum.category, "" if is_statement else erratum.kind)
+        groups.setdefault(cause, []).append(erratum)
     parts: list[Grid | Text] = []
-    for (table, category, kind), members in groups.items():
-        if kind:
-            columns = [
-                Column("row", [e.label for e in members], words=True),
-                Column("column", [e.column for e in members]),
-                Column("printed", [e.printed for e in members]),
-                Column("exact", [_exact(e) for e in members]),
-            ]
-            note = kind if kind != category else ""
-            parts.append(Grid(f"{table}, {category}", columns, note))
+    for cause, members in groups.items():
+        if cause.kind:
+            parts.append(_lay_out_figures(cause, members))
         else:
             parts += map(_lay_out_statement, members)
-    return Sheet("Errata", (*parts, _explain([e for _, e in errata])))
+    parts.append(_explain([erratum for _, erratum in errata]))
+    return Sheet("Errata", tuple(parts))
 
 
-def _lay_out_statement(e: Erratum) -> Text:
-    title = "\n".join(fold(f"{e.label} ({e.category})", WIDTH))
-    return Text(title, (f"printed: {e.printed}", f"right: {_exact(e)}", e.kind))
+def _lay_out_figures(cause: _Cause, errata: Sequence[Erratum]) -> Grid:
+    """Return a table of wrong figures with the same cause."""
+    heads = [Column("row", words=True), Column("column"), Column("printed"), Column("exact")]
+    rows = []
+    for erratum in errata:
+        rows.append((erratum.label, erratum.column, erratum.printed, _write_exact(erratum)))
+    note = cause.kind if cause.kind != cause.category else ""
+    return Grid.of_rows(f"{cause.table}, {cause.category}", heads, rows, note)
+
+
+def _lay_out_statement(erratum: Erratum) -> Text:
+    title = "\n".join(fold(f"{erratum.label} ({erratum.category})", WIDTH))
+    right = f"right: {_write_exact(erratum)}"
+    return Text(title, (f"printed: {erratum.printed}", right, erratum.kind))
 
 
 def _explain(errata: Sequence[Erratum]) -> Grid:
     """Return the classes of these errata, with their counts and meanings."""
-    counts = Counter(e.category for e in errata)
-    found = [name for name in CLASSES if counts[name]]
-    columns = [
-        Column("class", found, words=True),
-        Column("errata", [str(counts[name]) for name in found]),
-        Column("meaning", [CLASSES[name] for name in found], words=True),
-    ]
-    figures = sum(e.column != STATEMENT for e in errata)
+    counts = Counter(erratum.category for erratum in errata)
+    heads = [Column("class", words=True), Column("errata"), Column("meaning", words=True)]
+    rows = []
+    for name, meaning in CLASSES.items():
+        if counts[name]:
+            rows.append((name, str(counts[name]), meaning))
+    figures = sum(erratum.column != STATEMENT for erratum in errata)
     note = f"{figures} printed figures, {len(errata) - figures} equations and sentences"
-    return Grid("Classes", columns, note)
+    return Grid.of_rows("Classes", heads, rows, note)
 
 
 def describe_errata(errata: Errata) -> list[Node]:
     """Return the errata as a list for JSON, each with its table's name."""
-    return [{"name": table, **to_document(e)} for table, e in errata]
+    return [{"name": table, **to_document(erratum)} for table, erratum in errata]
 
 
 def list_errata(errata: Errata, _system: System) -> Rows:
     """Return CSV with one erratum in each line."""
     columns = ("table", "row", "column", "printed", "exact", "kind", "class")
-    lines = [(t, e.label, e.column, e.printed, _exact(e), e.kind, e.category) for t, e in errata]
+    lines = []
+    for table, e in errata:
+        line = (table, e.label, e.column, e.printed, _write_exact(e), e.kind, e.category)
+        lines.append(line)
     return Rows(columns, lines)
 
 
-def _exact(erratum: Erratum) -> str:
-    return f"{erratum.exact:.8g}" if isinstance(erratum.exact, float) else str(erratum.exact)
+def _write_exact(erratum: Erratum) -> str:
+    if isinstance(erratum.exact, float):
+        return f"{erratum.exact:.8g}"
+    return str(erratum.exact)
 
 
 ERRATA = Renderer(sheet=lay_out_errata, document=describe_errata, rows=list_errata)
@@ -159,15 +191,16 @@ ERRATA = Renderer(sheet=lay_out_errata, document=describe_errata, rows=list_erra
 
 def lay_out_list(tables: Sequence[Table], _system: System) -> Sheet:
     """Return a list of the tables with their errata, and a list of sources."""
-    columns = [
-        Column("name", [t.name for t in tables], words=True),
-        Column("errata", [str(len(t.errata)) for t in tables]),
-        Column("title", [t.title for t in tables], words=True),
-    ]
-    of_problems = sum(len(t.errata) for t in tables if t.name == PUBLISHED_PROBLEMS)
-    errata = sum(len(t.errata) for t in tables) - of_problems
+    of_problems = 0
+    of_sources = 0
+    for table in tables:
+        if table.name == PUBLISHED_PROBLEMS:
+            of_problems += len(table.errata)
+        else:
+            of_sources += len(table.errata)
     note = (
-        f"{errata} errata of the five sources (--errata lists them, --errata liu those of liu), "
+        f"{of_sources} errata of the five sources "
+        "(--errata lists them, --errata liu those of liu), "
         f"{of_problems} of published problems (--errata {PUBLISHED_PROBLEMS}). tables NAME shows "
         "one table, tables liu what there is of that source."
     )
@@ -175,8 +208,15 @@ def lay_out_list(tables: Sequence[Table], _system: System) -> Sheet:
         Column("source", [source.key for source in SOURCES], words=True),
         Column("printed in", [source.citation for source in SOURCES], words=True),
     ]
-    parts = (Grid("", columns, note), Grid("Sources", printed))
+    parts = (_tabulate("", tables, note), Grid("Sources", printed))
     return Sheet("Printed tables, recomputed", parts)
+
+
+def _tabulate(title: str, tables: Iterable[Table], note: str) -> Grid:
+    """Return name, number of errata and title of each table."""
+    heads = [Column("name", words=True), Column("errata"), Column("title", words=True)]
+    rows = [(table.name, str(len(table.errata)), table.title) for table in tables]
+    return Grid.of_rows(title, heads, rows, note)
 
 
 def describe_list(tables: Sequence[Table]) -> list[Node]:
@@ -195,24 +235,17 @@ def list_tables(tables: Sequence[Table], _system: System) -> Rows:
 
 def lay_out_source(found: SourceTables, _system: System) -> Sheet:
     """Return the tables of a source and its wrong statements, a line for each."""
-    tables = found.tables
-    columns = [
-        Column("name", [table.name for table in tables], words=True),
-        Column("errata", [str(len(table.errata)) for table in tables]),
-        Column("title", [table.title for table in tables], words=True),
-    ]
-    wrong = [
-        Column("place", [e.place for e in found.statements], words=True),
-        Column("printed", [e.printed for e in found.statements], words=True),
-        Column("right", [_exact(e) for e in found.statements], words=True),
-    ]
     key = found.source.key
+    note = f"tables {key}-… shows a table, tables --errata {key} all errata"
     parts: list[Facts | Grid] = [
         Facts((("source", found.source.citation),)),
-        Grid("Tables", columns, f"tables {key}-… shows a table, tables --errata {key} all errata"),
+        _tabulate("Tables", found.tables, note),
     ]
     if found.statements:
-        parts.append(Grid("Wrong equations and sentences", wrong))
+        names = ("place", "printed", "right")
+        heads = [Column(name, words=True) for name in names]
+        wrong = [(e.place, e.printed, _write_exact(e)) for e in found.statements]
+        parts.append(Grid.of_rows("Wrong equations and sentences", heads, wrong))
     return Sheet(f"{key}: {found.source.authors}", tuple(parts))
 
 
@@ -229,9 +262,13 @@ def describe_source(found: SourceTables) -> Node:
 
 def list_source(found: SourceTables, _system: System) -> Rows:
     """Return CSV with a line for each table, and one for each wrong statement."""
-    lines = [("table", t.name, t.title, len(t.errata), None) for t in found.tables]
-    wrong = [("statement", e.label, e.printed, None, _exact(e)) for e in found.statements]
-    return Rows(("kind", "name", "text", "errata", "right"), [*lines, *wrong])
+    lines: list[tuple[object, ...]] = []
+    for table in found.tables:
+        lines.append(("table", table.name, table.title, len(table.errata), None))
+    for erratum in found.statements:
+        right = _write_exact(erratum)
+        lines.append(("statement", erratum.label, erratum.printed, None, right))
+    return Rows(("kind", "name", "text", "errata", "right"), lines)
 
 
 SOURCE = Renderer(sheet=lay_out_source, document=describe_source, rows=list_source)
@@ -248,17 +285,21 @@ _NOTE = (
 
 def lay_out_layouts(table: Table, _system: System) -> Sheet:
     """Return force and moment of orders 1 and 2, and the firing intervals of each engine."""
-    names = map(str, _list_exact(table, "engine"))
     titles = [str(title).partition(" (")[0] for title in _list_exact(table, "layout")]
-    # Such as 90/150 for uneven firing.
-    gaps = ["/".join(f"{gap:g}" for gap in find_gaps(name)) for name in names]
     columns = [Column("engine", titles, words=True)]
     for name in ("F1", "F2", "M1", "M2"):
         sizes = _list_exact(table, f"{name}_major")
         columns.append(Column(name, [number(float(size or 0.0)) for size in sizes]))
-    columns.append(Column("fires every", [each or UNKNOWN for each in gaps]))
+    intervals = [_tell_intervals(str(name)) for name in _list_exact(table, "engine")]
+    columns.append(Column("fires every", intervals))
     grid = Grid("", columns, _NOTE)
     return Sheet("Free forces and moments of common engines", (grid,))
+
+
+def _tell_intervals(engine: str) -> str:
+    """Return the firing intervals of an engine, such as 90/150 for uneven firing."""
+    gaps = [f"{gap:g}" for gap in find_gaps(engine)]
+    return "/".join(gaps) or UNKNOWN
 
 
 def _list_exact(table: Table, heading: str) -> list[Cell]:
@@ -274,24 +315,24 @@ def lay_out_published(table: Table, _system: System) -> Sheet:
     """Return a table for each chapter (forces, balancing and so on), with a line for each problem
     and the verdicts on its figures.
     """
+    chapter_column = _list_exact(table, "chapter")
+    source_column = _list_exact(table, "source")
+    title_column = _list_exact(table, "title")
     verdicts = [str(verdict) for verdict in _list_exact(table, "verdict")]
-    names = ("chapter", "source", "title")
-    places = zip(*(_list_exact(table, name) for name in names), strict=True)
     chapters: dict[str, dict[str, Counter[str]]] = {}
-    for (chapter, source, title), verdict in zip(places, verdicts, strict=True):
+    for chapter, source, title, verdict in zip(
+        chapter_column, source_column, title_column, verdicts, strict=True
+    ):
         problems = chapters.setdefault(str(chapter), {})
         problems.setdefault(f"{source}: {title}", Counter()).update([verdict])
+    heads = [Column("problem", words=True), Column("figures", words=True)]
     grids = []
-    for chapter, problems in chapters.items():
-        figures = [_tell_verdicts(counts) for counts in problems.values()]
-        columns = [
-            Column("problem", [*problems], words=True),
-            Column("figures", figures, words=True),
-        ]
-        grids.append(Grid(chapter, columns))
-    told = _tell_verdicts(Counter(verdicts))
+    for name, problems in chapters.items():
+        rows = [(problem, _tell_verdicts(counts)) for problem, counts in problems.items()]
+        grids.append(Grid.of_rows(name, heads, rows))
+    count = sum(map(len, chapters.values()))
     note = (
-        f"{sum(map(len, chapters.values()))} problems, {len(table.exact)} figures: {told} "
+        f"{count} problems, {len(table.exact)} figures: {_tell_verdicts(Counter(verdicts))} "
         "(listed by --errata). --format csv lists every figure."
     )
     return Sheet(table.title, (*grids, Text("", (note,))))
@@ -306,8 +347,11 @@ _VERDICTS = {
 
 
 def _tell_verdicts(verdicts: Counter[str]) -> str:
-    told = (f"{verdicts[key]} {words}" for key, words in _VERDICTS.items() if verdicts[key])
-    return ", ".join(told)
+    parts = []
+    for key, words in _VERDICTS.items():
+        if verdicts[key]:
+            parts.append(f"{verdicts[key]} {words}")
+    return ", ".join(parts)
 
 
 PUBLISHED = Renderer(sheet=lay_out_published, rows=rows)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import NamedTuple
 
 from ..core.records import Node, angle_deg, find_unit, list_figures, remove_unit, to_document
@@ -28,6 +28,20 @@ Results = Sequence[LocomotiveBalance]
 Values = list[float | None]  # in SI units; None: unknown
 
 
+class _Place(NamedTuple):
+    """A wheel, axle or rail, or the whole locomotive, with its cells in CSV.
+
+    Attributes:
+        axle: Name of the axle; empty for rails and the locomotive.
+        plane: Place of the wheel or rail along the axle; None for axles and the locomotive.
+        figures: The part of the document that belongs to it.
+    """
+
+    axle: str
+    plane: float | None
+    figures: Node
+
+
 class _Series(NamedTuple):
     """A figure of several wheels or factors, for a column.
 
@@ -43,7 +57,8 @@ class _Series(NamedTuple):
 
     def write(self, *, words: bool = False) -> Column:
         """Return a column in the unit that fits the values; `words`: as for `Column`."""
-        unit = self.unit.fit(max((v for v in self.values if v is not None), default=0.0))
+        known = [value for value in self.values if value is not None]
+        unit = self.unit.fit(max(known, default=0.0))
         return Column(name_with_unit(self.name, unit.name), _write(self.values, unit), words)
 
 
@@ -55,20 +70,24 @@ def rows(result: LocomotiveBalance, system: System) -> Rows:
     """Return the rows of CSV, one for each figure of a wheel, an axle, a rail or the locomotive.
     The cell `plane` is empty for an axle, `axle` for a rail, and both for the locomotive.
     """
-    document = to_document(result)
     planes = [system.length.of(wheel.plane_mm / 1e3) for wheel in result.axles[0].wheels]
-    places: list[tuple[str, float | None, Node]] = [("", None, document)]
-    places += zip(("", ""), planes, document["rails"], strict=True)
+    lines = []
+    for place in _list_places(to_document(result), planes):
+        for figure, value, _ in list_figures(place.figures, _LEFT_OUT):
+            lines.append((place.axle, place.plane, *_convert(figure, value, system)))
+    return Rows(("axle", "plane", "figure", "value", "unit"), lines)
+
+
+def _list_places(document: Node, planes: Sequence[float]) -> Iterator[_Place]:
+    """Yield the locomotive, its rails, and each axle with its wheels."""
+    yield _Place("", None, document)
+    for plane, rail in zip(planes, document["rails"], strict=True):
+        yield _Place("", plane, rail)
     for axle in document["axles"]:
         name = name_cell(axle["name"])
-        places.append((name, None, axle))
-        places += zip((name, name), planes, axle["wheels"], strict=True)
-    lines = [
-        (name, z, *_convert(figure, value, system))
-        for name, z, part in places
-        for figure, value, _ in list_figures(part, _LEFT_OUT)
-    ]
-    return Rows(("axle", "plane", "figure", "value", "unit"), lines)
+        yield _Place(name, None, axle)
+        for plane, wheel in zip(planes, axle["wheels"], strict=True):
+            yield _Place(name, plane, wheel)
 
 
 def _convert(name: str, value: object, system: System) -> tuple[str, object, str]:
@@ -77,7 +96,9 @@ def _convert(name: str, value: object, system: System) -> tuple[str, object, str
     unit = system.unbalance if written == "kg·m" else system.instead_of(written)
     if isinstance(value, float):
         value = unit.of(value * SI.instead_of(written).size)
-    return (name if unit.name in ("deg", "rpm") else remove_unit(name)), value, unit.name
+    if unit.name not in ("deg", "rpm"):
+        name = remove_unit(name)
+    return name, value, unit.name
 
 
 # ------------------------------------------------------------------ for people
@@ -95,16 +116,20 @@ def sheet(result: LocomotiveBalance, system: System) -> Sheet:
         ("tractive effort", _tell_variation(*tractive, force)),
         ("swaying couple", f"{_tell_variation(*swaying, system.moment)}; about z = {middle}"),
     )
-    blow = size_text(max(wheel.hammer_blow_N for wheel in result.wheels), force)
-    speed = _tell_speed(result.speed_rpm, result.speed_km_h, system)
-    lifts = [(w.lift_rpm, w.lift_km_h) for w in result.wheels if w.lift_rpm is not None]
-    verdict = (
-        f"Hammer blow up to {blow} per wheel at {speed}.",
-        *(f"The first wheel lifts at {_tell_speed(*at, system)}." for at in sorted(lifts)[:1]),
-    )
     title = f"{result.engine.name or NAMELESS}: balance of the wheels"
+    verdict = Text("", tuple(_judge(result, system)))
     wheels = _make_wheel_table(result, system)
-    return Sheet(title, (Text("", verdict), wheels, Facts(pairs, "In all")))
+    return Sheet(title, (verdict, wheels, Facts(pairs, "In all")))
+
+
+def _judge(result: LocomotiveBalance, system: System) -> Iterator[str]:
+    """Yield sentences on the largest hammer blow, and on the first wheel that lifts."""
+    blow = size_text(max(wheel.hammer_blow_N for wheel in result.wheels), system.force)
+    speed = _tell_speed(result.speed_rpm, result.speed_km_h, system)
+    yield f"Hammer blow up to {blow} per wheel at {speed}."
+    lifts = [(w.lift_rpm, w.lift_km_h) for w in result.wheels if w.lift_rpm is not None]
+    if lifts:
+        yield f"The first wheel lifts at {_tell_speed(*min(lifts), system)}."
 
 
 def _tell_variation(first: float, peak: float, unit: ShownUnit) -> str:
@@ -113,17 +138,18 @@ def _tell_variation(first: float, peak: float, unit: ShownUnit) -> str:
 
 
 def _tell_speed(rpm: float, km_h: float | None, system: System) -> str:
+    turning = f"{number(rpm)} rpm"
+    if km_h is None:
+        return turning
     unit = system.velocity
-    on_track = "" if km_h is None else f"{number(unit.of(km_h / 3.6))} {unit.name}, "
-    return f"{on_track}{number(rpm)} rpm"
+    return f"{number(unit.of(km_h / 3.6))} {unit.name}, {turning}"
 
 
 def _make_wheel_table(result: LocomotiveBalance, system: System) -> Grid:
     wheels = result.wheels
-    blow, least, most = (
-        _list_values(wheels, f"{key}_N")
-        for key in ("hammer_blow", "least_rail_load", "most_rail_load")
-    )
+    blow = _list_values(wheels, "hammer_blow_N")
+    least = _list_values(wheels, "least_rail_load_N")
+    most = _list_values(wheels, "most_rail_load_N")
     force = system.force.fit(max(value or 0.0 for value in (*blow, *most)))
     loads = zip(_write(least, force), _write(most, force), strict=True)
     angles = [degrees(angle_deg(w.unbalance)) if w.unbalance else "" for w in wheels]
@@ -146,8 +172,11 @@ def _make_wheel_table(result: LocomotiveBalance, system: System) -> Grid:
 def _list_values(parts: Iterable[object], key: str) -> Values:
     """Return a figure of every part, in SI units."""
     size = SI.instead_of(find_unit(key)).size
-    values = (getattr(part, key) for part in parts)
-    return [None if value is None else value * size for value in values]
+    values: Values = []
+    for part in parts:
+        value = getattr(part, key)
+        values.append(None if value is None else value * size)
+    return values
 
 
 def _write(values: Values, unit: ShownUnit) -> list[str]:
@@ -178,17 +207,26 @@ def rows_of_factors(results: Results, system: System) -> Rows:
 def _list_series(results: Results, system: System) -> Iterator[_Series]:
     """Yield the figures of every column."""
     yield _Series("factor", _list_values(results, "factor"), ShownUnit("", 1))
-    for name, choose, of_which, key, unit in (
-        ("largest mass", max, "wheels", "mass_kg", system.mass),
-        ("wheel blow", max, "wheels", "hammer_blow_N", system.force),
-        ("rail blow", max, "rails", "hammer_blow_N", system.force),
-        ("tractive effort", max, "", "tractive_variation_N", system.force),
-        ("swaying couple", max, "", "swaying_couple_Nm", system.moment),
-        ("lifts at", min, "wheels", "lift_km_h", system.velocity),
+    wheels = [result.wheels for result in results]
+    rails = [result.rails for result in results]
+    whole = [[result] for result in results]
+    for name, choose, parts, key, unit in (
+        ("largest mass", max, wheels, "mass_kg", system.mass),
+        ("wheel blow", max, wheels, "hammer_blow_N", system.force),
+        ("rail blow", max, rails, "hammer_blow_N", system.force),
+        ("tractive effort", max, whole, "tractive_variation_N", system.force),
+        ("swaying couple", max, whole, "swaying_couple_Nm", system.moment),
+        ("lifts at", min, wheels, "lift_km_h", system.velocity),
     ):
-        each = [getattr(result, of_which) if of_which else [result] for result in results]
-        known = ([v for v in _list_values(parts, key) if v is not None] for parts in each)
-        yield _Series(name, [choose(values) if values else None for values in known], unit)
+        yield _Series(name, [_choose_known(choose, each, key) for each in parts], unit)
+
+
+def _choose_known(
+    choose: Callable[[Sequence[float]], float], parts: Iterable[object], key: str
+) -> float | None:
+    """Return the value of the parts that `choose` selects; None if all are unknown."""
+    known = [value for value in _list_values(parts, key) if value is not None]
+    return choose(known) if known else None
 
 
 RENDERER = Renderer(sheet=sheet, rows=rows)
