@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
+from operator import attrgetter
 from typing import NamedTuple
 
 import numpy as np
@@ -47,6 +48,7 @@ _MOST_CRITICALS = 24  # largest number of listed criticals
 _LEAST_SHARE = 0.01  # least share of work of a listed critical speed
 _MOST_LISTED = 8  # largest number of orders, or shafts without a diameter, in one sentence
 _MOST_ORDERS = 3  # number of orders that are listed for a shaft's torque
+_LEAST_AMPLITUDE = 1e-3  # least amplitude of a listed order, as a share of the largest one
 
 
 # ------------------------------------------------------------------ for programs
@@ -71,8 +73,10 @@ def rows(result: TorsionAnalysis, system: System) -> Rows:
 
 def _choose_units(system: System) -> dict[str, ShownUnit]:
     """Return the units of `system` that replace SI units in CSV, by the names in CSV."""
-    names = (*System._fields, "torsional_damping", "torsional_stiffness")
-    units = {getattr(SI, name).name.translate(IN_CSV): getattr(system, name) for name in names}
+    units = {}
+    for name in (*System._fields, "torsional_damping", "torsional_stiffness"):
+        in_si = getattr(SI, name).name.translate(IN_CSV)
+        units[in_si] = getattr(system, name)
     return units | {"m": system.length}
 
 
@@ -129,6 +133,13 @@ def _list_extras(found: Node) -> Iterator[Line]:
 
 def _list_response(response: Node) -> Iterator[Line]:
     """Yield the lines for every speed, then lines for the largest values over all speeds."""
+    if response:
+        yield from _list_speeds(response)
+        yield from _list_worst(response)
+
+
+def _list_speeds(response: Node) -> Iterator[Line]:
+    """Yield the lines for every speed."""
     shafts = response.get("shafts", ())
     dampers = response.get("dampers", ())
     pendulums = response.get("pendulums", ())
@@ -139,29 +150,38 @@ def _list_response(response: Node) -> Iterator[Line]:
         for shaft in shafts:
             yield from _put(head._replace(name=shaft["name"]), list_series(shaft, s))
         yield from _put(head, [Figure("free_end", response["free_end_deg"][s], "deg")])
-        for each in dampers:
-            yield from _put(head._replace(name=each["node"]), list_series(each, s))
-        for each in pendulums:
-            swing = Figure("pendulums", each["half_swing_deg"][s], "deg")
-            yield from _put(head._replace(name=each["node"]), [swing])
-    for each in (*shafts, *dampers):
-        worst = each["worst"]
-        head = Line("worst", None, worst["speed_rpm"], name=each.get("name") or each["node"])
+        for damper in dampers:
+            yield from _put(head._replace(name=damper["node"]), list_series(damper, s))
+        for group in pendulums:
+            swing = Figure("pendulums", group["half_swing_deg"][s], "deg")
+            yield from _put(head._replace(name=group["node"]), [swing])
+
+
+def _list_worst(response: Node) -> Iterator[Line]:
+    """Yield the lines for the largest values over all speeds."""
+    for part in (*response.get("shafts", ()), *response.get("dampers", ())):
+        worst = part["worst"]
+        head = Line("worst", None, worst["speed_rpm"], name=part.get("name") or part["node"])
         yield from _put(head, list_figures(worst, ("speed_rpm", "orders")))
-        for one in worst.get("orders", ()):
-            yield from _put(head._replace(order=one["order"]), list_figures(one, ("order",)))
-    swings = [("pendulums", each["node"], each["worst"]) for each in pendulums]
-    swings += [("free_end", "", response["free_end_worst"])] if response else []
-    for key, name, worst in swings:
-        head = Line("worst", None, worst["speed_rpm"], worst.get("order"), name=name)
-        yield from _put(head, [Figure(key, worst["half_swing_deg"], "deg")])
+        for share in worst.get("orders", ()):
+            yield from _put(head._replace(order=share["order"]), list_figures(share, ("order",)))
+    for group in response.get("pendulums", ()):
+        yield from _put_swing("pendulums", group["node"], group["worst"])
+    yield from _put_swing("free_end", "", response["free_end_worst"])
+
+
+def _put_swing(figure: str, node: str, worst: Node) -> Iterator[Line]:
+    """Yield the line of the largest swing of the pendulums at a node, or of the free end."""
+    head = Line("worst", None, worst["speed_rpm"], worst.get("order"), name=node)
+    yield from _put(head, [Figure(figure, worst["half_swing_deg"], "deg")])
 
 
 # ------------------------------------------------------------------ for people
 def sheet(result: TorsionAnalysis, system: System) -> Sheet:
     """Return the sheet: modes first, then the requested parts."""
-    silent = tuple(list_silent(result.system.silent))
-    parts: list[Grid | Facts | Text] = [Facts(silent)] if silent else []
+    parts: list[Grid | Facts | Text] = []
+    if silent := tuple(list_silent(result.system.silent)):
+        parts.append(Facts(silent))
     parts += assumed_facts(result.assumed)
     if hasattr(result, "damper"):
         parts.append(_show_damper(result.damper, system))
@@ -194,30 +214,45 @@ def _show_damper(sized: SizedDamper, system: System) -> Facts:
                 start = number(shown.of(sized.start / size))
                 text += f" (best for mode {sized.mode} alone: {start})"
             pairs.append((label, text))
-    for when, size in (("without the damper", sized.before), ("with it", sized.after)):
-        text = f"±{number(unit.of(size))} {unit.name}" if math.isfinite(size) else "without bound"
-        pairs.append((f"largest {sized.measure} {when}", text))
+    largest = f"largest {sized.measure}"
+    pairs.append((f"{largest} without the damper", _tell_largest(sized.before, unit)))
+    pairs.append((f"{largest} with it", _tell_largest(sized.after, unit)))
     if sized.heat_W:
         heat = size_text(sized.heat_W, system.heat)
         pairs.append(("heat", f"up to {heat}, at {number(sized.heat_rpm)} rpm"))
     return Facts(tuple(pairs), f"Sized: a {sized.kind} damper")
 
 
+def _tell_largest(size: float, unit: ShownUnit) -> str:
+    if not math.isfinite(size):
+        return "without bound"
+    return f"±{number(unit.of(size))} {unit.name}"
+
+
 def _show_modes(result: TorsionAnalysis) -> Grid | Text:
     if not result.modes:
         return Text("Natural modes", ("None: no inertia can swing on a shaft.",))
-    modes = result.modes
-    places = ([*mode.node_in, *(f"at {name}" for name in mode.node_at)] for mode in modes)
-    columns = [
-        Column("mode", [str(mode.number) for mode in modes], words=True),
-        Column("Hz", [number(mode.frequency_Hz, 6) for mode in modes]),
-        Column("1/min", [number(mode.frequency_Hz * 60, 6) for mode in modes]),
-        Column("nodes", [str(mode.nodes) for mode in modes]),
-        Column("node in", [", ".join(each) or UNKNOWN for each in places], words=True),
+    heads = [
+        Column("mode", words=True),
+        Column("Hz"),
+        Column("1/min"),
+        Column("nodes"),
+        Column("node in", words=True),
     ]
+    rows = []
+    for mode in result.modes:
+        places = [*mode.node_in, *(f"at {name}" for name in mode.node_at)]
+        row = (
+            str(mode.number),
+            number(mode.frequency_Hz, 6),
+            number(mode.frequency_Hz * 60, 6),
+            str(mode.nodes),
+            ", ".join(places) or UNKNOWN,
+        )
+        rows.append(row)
     note = "Node in: shafts whose ends turn against each other."
     note += _name_left_out(result.system, ".")
-    return Grid("Natural modes", columns, note)
+    return Grid.of_rows("Natural modes", heads, rows, note)
 
 
 def _show_shapes(result: TorsionAnalysis, system: System) -> Grid:
@@ -243,23 +278,35 @@ def _count_in_json(left: int, what: str) -> str:
 
 
 def _show_criticals(result: TorsionAnalysis) -> Grid | Text:
-    span = f", {_name_span(result.response.speeds_rpm)}" if hasattr(result, "response") else ""
-    title = f"Critical speeds{span}"
+    title = "Critical speeds"
+    if hasattr(result, "response"):
+        title += f", {_name_span(result.response.speeds_rpm)}"
     scope = _name_scope(result)
     criticals = result.criticals
     if not criticals:
         return Text(title, (f"None: no order meets a mode that it drives. {scope}",))
-    shown = [each for each in criticals if each.work_share >= _LEAST_SHARE][:_MOST_CRITICALS]
-    columns = [
-        Column("mode", [str(each.mode) for each in shown], words=True),
-        Column("order", [order_name(each.order) for each in shown]),
-        Column("rpm", [number(each.speed_rpm) for each in shown]),
-        Column("phase sum", [number(each.phase_sum) for each in shown]),
-        Column("share", [f"{each.work_share:.1%}" for each in shown]),
+    large = [critical for critical in criticals if critical.work_share >= _LEAST_SHARE]
+    shown = large[:_MOST_CRITICALS]
+    heads = [
+        Column("mode", words=True),
+        Column("order"),
+        Column("rpm"),
+        Column("phase sum"),
+        Column("share"),
     ]
+    rows = []
+    for critical in shown:
+        row = (
+            str(critical.mode),
+            order_name(critical.order),
+            number(critical.speed_rpm),
+            number(critical.phase_sum),
+            f"{critical.work_share:.1%}",
+        )
+        rows.append(row)
     note = f"Sorted by work. Share: part of all work done on that mode. {scope}"
     note += _count_in_json(len(criticals) - len(shown), "critical speed")
-    return Grid(title, columns, note)
+    return Grid.of_rows(title, heads, rows, note)
 
 
 def _name_scope(result: TorsionAnalysis) -> str:
@@ -269,7 +316,8 @@ def _name_scope(result: TorsionAnalysis) -> str:
     note += _name_left_out(result.system, ", which shift the critical speeds.")
     if hasattr(result, "response"):
         return note
-    note += f" Up to {number(BEYOND * rated)} rpm, {BEYOND:g} × the file's speed." if rated else ""
+    if rated:
+        note += f" Up to {number(BEYOND * rated)} rpm, {BEYOND:g} × the file's speed."
     return note + _name_gas(result)
 
 
@@ -277,39 +325,50 @@ def _list_orders(orders: Sequence[float]) -> str:
     """Return the orders by name; if there are many, only the first and the last."""
     if len(orders) > _MOST_LISTED:
         return f"{len(orders)} orders, {order_name(orders[0])} to {order_name(orders[-1])}"
-    return f"order{'s' * (len(orders) > 1)} {', '.join(map(order_name, orders))}"
+    word = "orders" if len(orders) > 1 else "order"
+    return f"{word} {', '.join(map(order_name, orders))}"
 
 
 def _name_left_out(system: TorsionalSystem, end: str) -> str:
     """Return a note on the dampers that modes and criticals ignore."""
-    dampers = ["viscous rings"] * bool(system.rings) + ["pendulums"] * bool(system.pendulums)
+    dampers = []
+    if system.rings:
+        dampers.append("viscous rings")
+    if system.pendulums:
+        dampers.append("pendulums")
     return f" Excluded: {' and '.join(dampers)}{end}" if dampers else ""
 
 
 def _show_holzer(result: TorsionAnalysis, table: HolzerTable, system: System) -> Grid:
     inertia = system.inertia
     stiffness = system.torsional_stiffness
-    rows = table.rows
-    angles = [row.angle for row in rows]
-    torques = [row.torque_Nm for row in rows]
-    sums = [row.sum_Nm for row in rows]
+    angles = [row.angle for row in table.rows]
+    torques = [row.torque_Nm for row in table.rows]
+    sums = [row.sum_Nm for row in table.rows]
     unit = system.moment.fit(max(map(abs, (*torques, *sums))))
-    rigidities = []
-    twists = []
-    for row in rows:
+    heads = [
+        Column("node", words=True),
+        Column(f"J, {inertia.name}"),
+        Column("angle"),
+        Column("J ω² angle"),
+        Column("sum"),
+        Column(f"k, {stiffness.name}"),
+        Column("twist"),
+    ]
+    lines = []
+    for row in table.rows:
         has_shaft = row.stiffness_Nm_per_rad != 0  # the last node has none
         rigidity = row.stiffness_Nm_per_rad if has_shaft else math.nan
-        rigidities.append(number(stiffness.of(rigidity)).replace("inf", "rigid"))
-        twists.append(number(row.twist if has_shaft else math.nan))
-    columns = [
-        Column("node", [row.node for row in rows], words=True),
-        Column(f"J, {inertia.name}", [number(inertia.of(row.inertia_kg_m2)) for row in rows]),
-        Column("angle", [number(_settle(angle, angles), 6) for angle in angles]),
-        Column("J ω² angle", [number(unit.of(_settle(torque, torques))) for torque in torques]),
-        Column("sum", [number(unit.of(_settle(size, torques))) for size in sums]),
-        Column(f"k, {stiffness.name}", rigidities),
-        Column("twist", twists),
-    ]
+        line = (
+            row.node,
+            number(inertia.of(row.inertia_kg_m2)),
+            number(_settle(row.angle, angles), 6),
+            number(unit.of(_settle(row.torque_Nm, torques))),
+            number(unit.of(_settle(row.sum_Nm, torques))),
+            number(stiffness.of(rigidity)).replace("inf", "rigid"),
+            number(row.twist if has_shaft else math.nan),
+        )
+        lines.append(line)
     what = f"mode {table.mode}" if table.mode else "trial"
     omega = 2 * np.pi * table.frequency_Hz
     title = f"Holzer's table, {what}: {number(omega, 7)} rad/s; torques in {unit.name}"
@@ -318,7 +377,7 @@ def _show_holzer(result: TorsionAnalysis, table: HolzerTable, system: System) ->
         end = table.rows[table.end]
         angle = number(_settle(end.angle, angles), 6)
         left = f"an angle of {angle} at {end.node}, which is fixed."
-    return Grid(title, columns, f"Left over at the end: {left}")
+    return Grid.of_rows(title, heads, lines, f"Left over at the end: {left}")
 
 
 def _settle(value: float, others: Sequence[float]) -> float:
@@ -333,27 +392,42 @@ def _show_response(
     worst = _describe_worst(result, response, system)
     if not response.shafts:
         return Text(f"Vibration, {span}", (worst,))
-    sums = [sum(one.amplitude_Nm for one in s.worst.orders) for s in response.shafts]
-    unit = system.moment.fit(max(sums))
-    each = [shaft.worst for shaft in response.shafts]
-    columns = [
-        Column("shaft", [shaft.name for shaft in response.shafts], words=True),
-        Column(f"± {unit.name}", [number(unit.of(most.half_peak_to_peak_Nm)) for most in each]),
-        Column("at rpm", [number(most.speed_rpm) for most in each]),
-        Column(f"sum, {unit.name}", [number(unit.of(total)) for total in sums]),
+    unit = system.moment.fit(max(_add_amplitudes(shaft.worst) for shaft in response.shafts))
+    stress = system.stress.fit(0.0)
+    with_stress = any(result.system.stress_by_torque)
+    heads = [
+        Column("shaft", words=True),
+        Column(f"± {unit.name}"),
+        Column("at rpm"),
+        Column(f"sum, {unit.name}"),
     ]
-    if any(result.system.stress_by_torque):
-        stress = system.stress.fit(0.0)
-        known = (math.nan if most.stress_Pa is None else most.stress_Pa for most in each)
-        columns.append(Column(stress.name, [number(stress.of(size)) for size in known]))
-    orders = [_name_orders(most, unit) for most in each]
-    columns.append(Column("largest orders", orders, words=True))
+    if with_stress:
+        heads.append(Column(stress.name))
+    heads.append(Column("largest orders", words=True))
+    rows = []
+    for shaft in response.shafts:
+        most = shaft.worst
+        row = [
+            shaft.name,
+            number(unit.of(most.half_peak_to_peak_Nm)),
+            number(most.speed_rpm),
+            number(unit.of(_add_amplitudes(most))),
+        ]
+        if with_stress:
+            row.append(number(math.nan if most.stress_Pa is None else stress.of(most.stress_Pa)))
+        row.append(_name_orders(most, unit))
+        rows.append(row)
     note = (
         "±: half of peak to peak at the worst speed, all orders added with their phases. sum: sum "
         f"of their amplitudes, too large because orders do not peak together. {worst}"
         f"{_name_gas(result, ' The gas torque is the same at every speed.')}"
     )
-    return Grid(f"Vibratory torque, {span}", columns, note)
+    return Grid.of_rows(f"Vibratory torque, {span}", heads, rows, note)
+
+
+def _add_amplitudes(torque: WorstTorque) -> float:
+    """Return the sum of the amplitudes of all orders."""
+    return sum(order.amplitude_Nm for order in torque.orders)
 
 
 def _name_span(ends: Sequence[float] | Real) -> str:
@@ -392,24 +466,24 @@ def _describe_worst(result: TorsionAnalysis, response: TorsionResponse, system: 
 
 def _name_orders(torque: WorstTorque, unit: ShownUnit) -> str:
     """Return the largest orders of a shaft's torque and their amplitudes in this unit."""
-    falling = sorted(torque.orders, key=lambda each: -each.amplitude_Nm)
-    return ", ".join(
-        f"{order_name(each.order)}: {number(unit.of(each.amplitude_Nm), 3)}"
-        for each in falling[:_MOST_ORDERS]
-        if each.amplitude_Nm > 1e-3 * falling[0].amplitude_Nm
-    )
+    falling = sorted(torque.orders, key=attrgetter("amplitude_Nm"), reverse=True)
+    largest = falling[0].amplitude_Nm if falling else 0.0
+    named = []
+    for each in falling[:_MOST_ORDERS]:
+        if each.amplitude_Nm > _LEAST_AMPLITUDE * largest:
+            amplitude = number(unit.of(each.amplitude_Nm), 3)
+            named.append(f"{order_name(each.order)}: {amplitude}")
+    return ", ".join(named)
 
 
 def _judge_limits(result: TorsionAnalysis, units: System) -> Iterator[tuple[str, str]]:
     """Yield the limits of the file, the barred speeds, and the shafts that cannot be checked."""
     system = result.system
     limits = []
-    bare = []
+    bare: list[str] = []
     if system.limit_pa is not None:
         limits.append(size_text(system.limit_pa, units.stress, None))
-        each = zip(system.shafts, system.stress_by_torque, system.chain.stiffness, strict=True)
-        rings = system.nodes[system.last + 1 :]  # rubber has no section
-        bare = [s for s, stress, k in each if not stress and math.isfinite(k) and s not in rings]
+        bare = list(_list_without_section(system))
     if system.angle_limit is not None:
         limits.append(f"±{number(math.degrees(system.angle_limit))} deg at {system.free_end}")
     if limits:
@@ -418,8 +492,20 @@ def _judge_limits(result: TorsionAnalysis, units: System) -> Iterator[tuple[str,
         spans = ", ".join(map(_name_span, result.barred_rpm))
         yield "barred speeds", spans or "none in this range"
     if bare:
-        named = ", ".join(bare[:_MOST_LISTED]) + ", ..." * (len(bare) > _MOST_LISTED)
-        yield "not checked", f"{named}: stress unknown without a diameter"
+        named = bare[:_MOST_LISTED]
+        if len(bare) > _MOST_LISTED:
+            named.append("...")
+        yield "not checked", f"{', '.join(named)}: stress unknown without a diameter"
+
+
+def _list_without_section(system: TorsionalSystem) -> Iterator[str]:
+    """Yield the names of the elastic shafts of unknown section, whose stress is not known."""
+    rings = system.nodes[system.last + 1 :]  # rubber has no section
+    for name, stress, stiffness in zip(
+        system.shafts, system.stress_by_torque, system.chain.stiffness, strict=True
+    ):
+        if not stress and math.isfinite(stiffness) and name not in rings:
+            yield name
 
 
 RENDERER = Renderer(sheet=sheet, rows=rows)
