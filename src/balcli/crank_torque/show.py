@@ -8,7 +8,7 @@ from itertools import chain
 from typing import Any
 
 from ..core.records import Node, find_unit, list_figures, remove_unit, to_document
-from ..engine.engine import CylinderNumber
+from ..engine.engine import CylinderNumber, Engine
 from ..forces.curves import find_constant_inertia
 from ..forces.kinds import GAS, TORQUE, TORQUE_TOTAL
 from ..limits import MOST_HARMONICS_UNASKED
@@ -29,7 +29,7 @@ from ..show.sheet import (
     size_text,
     tell_assumed,
 )
-from ..show.units import System
+from ..show.units import ShownUnit, System
 from .flywheel import Flywheel
 from .loads import CycleLoads
 from .records import TorqueAnalysis, Torques, write_whole
@@ -97,7 +97,8 @@ def _write(quantity: str, part: Node, system: System) -> Iterator[FigureRow]:
 # ------------------------------------------------------------------ for people
 def sheet(result: TorqueAnalysis, system: System) -> Sheet:
     """Return the sheet: work, torque over the cycle, flywheel, loads, and torque by order."""
-    title = f"{result.name or NAMELESS}: torque{' on the crank' if result.engine else ''}"
+    what = "torque on the crank" if result.engine else "torque"
+    title = f"{result.name or NAMELESS}: {what}"
     parts: list[Grid | Facts | Text] = [Facts(tuple(_list_work(result, system)))]
     parts.append(_describe_course(result, system))
     if hasattr(result, "flywheel"):
@@ -116,7 +117,7 @@ def tenths(angle_deg: float) -> str:
 
 
 def _list_work(result: TorqueAnalysis, system: System) -> Iterator[tuple[str, str]]:
-    kinds = {"": 1.0}
+    efficiencies = {"": 1.0}
     period = f"{write_whole(result.cycle_deg)} deg"
     if (engine := result.engine) is None:
         yield "period", period
@@ -127,9 +128,9 @@ def _list_work(result: TorqueAnalysis, system: System) -> Iterator[tuple[str, st
         yield "speed", tell_speed(engine, steady=True)
         if result.assumed:
             yield "assumed", tell_assumed(result.assumed)
-        kinds = {" indicated": 1.0}
+        efficiencies = {" indicated": 1.0}
         if engine.mechanical_efficiency is not None:
-            kinds[" brake"] = engine.mechanical_efficiency
+            efficiencies[" brake"] = engine.mechanical_efficiency
         if result.max_pressure_Pa is not None:
             size = _size(result.max_pressure_Pa, system.pressure)
             at = result.max_pressure_deg
@@ -142,11 +143,20 @@ def _list_work(result: TorqueAnalysis, system: System) -> Iterator[tuple[str, st
     ):
         if value is not None:
             unit = of.fit(value)  # the same unit for indicated and brake value
-            sizes = (f"{number(unit.of(value * k))} {unit.name}{kind}" for kind, k in kinds.items())
+            sizes = []
+            for kind, efficiency in efficiencies.items():
+                sizes.append(f"{number(unit.of(value * efficiency))} {unit.name}{kind}")
             yield name, ", ".join(sizes)
     if result.load_Nm is not None:
-        mean, rest = (_size(size, system.moment) for size in result.load_Nm)
-        yield "load", f"{mean} on average" + (f", and {rest} constant" if result.load_Nm[1] else "")
+        yield "load", _tell_load(*result.load_Nm, system.moment)
+
+
+def _tell_load(mean: float, constant: float, unit: ShownUnit) -> str:
+    """Return in words the mean torque of the load, and its constant part in addition."""
+    load = f"{_size(mean, unit)} on average"
+    if constant:
+        load += f", and {_size(constant, unit)} constant"
+    return load
 
 
 def _describe_course(result: TorqueAnalysis, system: System) -> Facts:
@@ -174,31 +184,44 @@ def _list_flywheel(
     unit = system.inertia
     moving = wheel.moving_parts_kg_m2
     if hasattr(wheel, "inertia_kg_m2"):
-        parts = f", including {number(unit.of(moving))} of moving parts" if moving else ""
-        yield "inertia", _size(wheel.inertia_kg_m2, unit) + parts
+        inertia = _size(wheel.inertia_kg_m2, unit)
+        if moving:
+            inertia += f", including {number(unit.of(moving))} of moving parts"
+        yield "inertia", inertia
     if hasattr(wheel, "fluctuation"):
         share = wheel.fluctuation
         small = number(100 * wheel.fluctuation_small)
         one_in = f"1/{number(1 / share)}" if share else "0"
         exact = number(100 * share)
         yield "fluctuation", f"{exact} % ({one_in}); {small} % by the rule for small fluctuations"
-        lowest = (wheel.speed_min_rpm, wheel.speed_min_deg)
-        ends = (lowest, (wheel.speed_max_rpm, wheel.speed_max_deg))
-        yield "speed", " to ".join(f"{number(rpm, 6)} rpm at {tenths(at)} deg" for rpm, at in ends)
+        lowest = f"{number(wheel.speed_min_rpm, 6)} rpm at {tenths(wheel.speed_min_deg)} deg"
+        highest = f"{number(wheel.speed_max_rpm, 6)} rpm at {tenths(wheel.speed_max_deg)} deg"
+        yield "speed", f"{lowest} to {highest}"
     if wheel.stall:
         yield "speed", wheel.stall
     if hasattr(wheel, "needed_kg_m2"):
-        needed = wheel.needed_kg_m2
-        told = f"{_size(needed, unit)} in total"
-        engine = result.engine
-        if engine is not None and moving:
-            others = (find_constant_inertia(engine) or 0.0) - float(engine.flywheel_inertia or 0.0)
-            known = engine.rotary or engine.crank_inertia is not None
-            place = "the flywheel" if known else "crankshaft and flywheel"
-            rest = needed - moving - others
-            there = f"including {number(unit.of(rest))} in {place}"
-            told += f", {there if rest > 0 else 'which needs no flywheel'}"
-        yield "needed", told
+        needed = f"{_size(wheel.needed_kg_m2, unit)} in total"
+        if result.engine is not None and moving:
+            rest = _tell_rest(result.engine, wheel.needed_kg_m2 - moving, unit)
+            needed += f", {rest}"
+        yield "needed", needed
+
+
+def _tell_rest(engine: Engine, turning: float, unit: ShownUnit) -> str:
+    """Return in words how much of the needed inertia the flywheel must have.
+
+    Args:
+        engine: Engine with or without a flywheel.
+        turning: Needed inertia of all parts that only turn, kg m2.
+        unit: Unit of the text.
+    """
+    own = (find_constant_inertia(engine) or 0.0) - float(engine.flywheel_inertia or 0.0)
+    rest = turning - own
+    if rest <= 0:
+        return "which needs no flywheel"
+    is_crank_known = engine.rotary or engine.crank_inertia is not None
+    place = "the flywheel" if is_crank_known else "crankshaft and flywheel"
+    return f"including {number(unit.of(rest))} in {place}"
 
 
 def _make_load_tables(loads: CycleLoads, system: System) -> Iterator[Grid | Text]:
@@ -206,24 +229,32 @@ def _make_load_tables(loads: CycleLoads, system: System) -> Iterator[Grid | Text
         "Bearings are assumed half-way between neighbouring throws; the end bearings are the same "
         "distance outside the end throws. The shaft is treated as cut in each bearing."
     )
-    for title, word, each, note in (
+    for title, word, loaded, note in (
         ("Crank pins", "cylinder", getattr(loads, "pin", ()), ""),
         ("Knuckle pins", "cylinder", loads.knuckle or (), ""),
         ("Main bearings", "bearing", getattr(loads, "main", ()), cut),
     ):
-        unit = system.force.fit(max((load.max_N for load in each), default=0.0))
-        columns = [
-            Column(word, [str(getattr(load, word)) for load in each], words=True),
-            Column(f"largest, {unit.name}", [number(unit.of(load.max_N)) for load in each]),
-            Column("at, deg", [tenths(load.max_deg) for load in each]),
-            Column(f"mean, {unit.name}", [number(unit.of(load.mean_N)) for load in each]),
+        if not loaded:
+            continue
+        unit = system.force.fit(max(load.max_N for load in loaded))
+        heads = [
+            Column(word, words=True),
+            Column(f"largest, {unit.name}"),
+            Column("at, deg"),
+            Column(f"mean, {unit.name}"),
         ]
-        pressures = [load.pressure_Pa for load in each if load.pressure_Pa is not None]
-        if len(pressures) == len(each):
-            stress = system.stress.fit(max(pressures, default=0.0))
-            columns.append(Column(stress.name, [number(stress.of(one)) for one in pressures]))
-        if each:
-            yield Grid(title, columns, note)
+        rows = []
+        for load in loaded:
+            largest = number(unit.of(load.max_N))
+            mean = number(unit.of(load.mean_N))
+            rows.append([str(getattr(load, word)), largest, tenths(load.max_deg), mean])
+        pressures = [load.pressure_Pa for load in loaded if load.pressure_Pa is not None]
+        if len(pressures) == len(loaded):
+            stress = system.stress.fit(max(pressures))
+            heads.append(Column(stress.name))
+            for row, pressure in zip(rows, pressures, strict=True):
+                row.append(number(stress.of(pressure)))
+        yield Grid.of_rows(title, heads, rows, note)
     if loads.obstacle:
         yield Text("Main bearings", (f"Not known: {loads.obstacle}.",))
 
@@ -237,7 +268,7 @@ def _make_order_table(result: TorqueAnalysis, system: System) -> Grid:
     if result.engine is None:
         kinds = {"torque": _list_harmonics(every, "torque_Nm")}
         angle = "peak, deg"
-        note = "--orders lists higher orders." * (len(every) == MOST_HARMONICS_UNASKED)
+        note = "--orders lists higher orders." if len(every) == MOST_HARMONICS_UNASKED else ""
         shown = [*range(len(every))]
         names = [f"{order.order:g}" for order in result.orders]
     else:
@@ -253,7 +284,8 @@ def _make_order_table(result: TorqueAnalysis, system: System) -> Grid:
         shown = [k for k, row in rows if not all(harmonic.balanced for harmonic in row)]
         names = [order_name(order.order) for order in result.orders]
     columns = [Column("order", [names[k] for k in shown], words=True)]
-    unit = system.moment.fit(max((h.amplitude for h in chain(*kinds.values(), alone)), default=0.0))
+    amplitudes = [harmonic.amplitude for harmonic in chain(*kinds.values(), alone)]
+    unit = system.moment.fit(max(amplitudes, default=0.0))
 
     def write(harmonics: list[Harmonic], digits: int) -> list[str]:
         cells = []

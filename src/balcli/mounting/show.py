@@ -111,11 +111,15 @@ def _answer(result: MountReport, response: BodyResponse, kinds: Sequence[Kind]) 
         place = kind.find_highest(response)
         yield f"Largest motion: {kind.tell_worst(place)} at point {place.name}."
     yield f"Orders included: {', '.join(map(order_name, response.orders))}."
-    yield (gas := _tell_gas(response))
+    gas = _tell_gas(response)
+    yield gas
     for other in result.beside:
         changes = "; ".join(_compare(response, other.response, kind) for kind in kinds)
+        sentences = [f"With {other.name} {changes}."]
         other_gas = _tell_gas(other.response)
-        yield f"With {other.name} {changes}." + f" {other_gas}" * (other_gas != gas)
+        if other_gas != gas:
+            sentences.append(other_gas)
+        yield " ".join(sentences)
 
 
 def _tell_gas(response: BodyResponse) -> str:
@@ -156,9 +160,8 @@ def _explain(result: MountReport, response: BodyResponse, worst: WorstForce | Wo
 
 def _grid_worst(result: MountReport, kind: Kind) -> Grid:
     """Return a table of the largest value of each mount or point, in this and other responses."""
-    columns = [
-        Column(kind.part, [place.name for place in kind.places(result.responses[0])], words=True)
-    ]
+    names = [place.name for place in kind.places(result.responses[0])]
+    columns = [Column(kind.part, names, words=True)]
     heads = ["all orders", *(f"with {other.name}" for other in result.beside)]
     for head, response in zip(heads, result.responses, strict=True):
         every = [place.worst for place in kind.places(response)]
@@ -173,65 +176,81 @@ def _grid_worst(result: MountReport, kind: Kind) -> Grid:
 
 
 def _grid_modes(result: MountReport) -> Grid:
-    modes = result.modes
-    columns = [
-        Column("mode", [str(k) for k, _ in enumerate(modes, 1)], words=True),
-        Column("Hz", [number(mode.frequency_Hz, 4) for mode in modes]),
-        Column("motion", [mode.motion for mode in modes], words=True),
+    heads = [
+        Column("mode", words=True),
+        Column("Hz"),
+        Column("motion", words=True),
+        *(Column(f"{axis} %") for axis in AXES),
     ]
-    for axis in AXES:
-        shares = (round(mode.energy_percent[axis], 1) + 0.0 for mode in modes)
-        columns.append(Column(f"{axis} %", [f"{share:.1f}" for share in shares]))
-    if any(mode.loss_factor for mode in modes):
-        damping = [f"{50 * mode.loss_factor:.1f}" for mode in modes]
-        columns.append(Column("damping %", damping))
+    damped = any(mode.loss_factor for mode in result.modes)
+    if damped:
+        heads.append(Column("damping %"))
+    rows = []
+    for k, mode in enumerate(result.modes, 1):
+        row = [str(k), number(mode.frequency_Hz, 4), mode.motion]
+        for axis in AXES:
+            share = round(mode.energy_percent[axis], 1) + 0.0
+            row.append(f"{share:.1f}")
+        if damped:
+            row.append(f"{50 * mode.loss_factor:.1f}")
+        rows.append(row)
     note = (
         "x, y, z %: kinetic energy of motion along the axes; rx, ry, rz %: of rotation about them; "
         "products of inertia may make some negative. Hz: with dynamic stiffness, without damping."
     )
-    return Grid("Natural modes", columns, note)
+    return Grid.of_rows("Natural modes", heads, rows, note)
 
 
 def _tell_body(result: MountReport, length: ShownUnit) -> Facts:
     point = np.round(result.elastic_centre_mm, 6) / length.size + 0.0
     axis = np.round(result.roll_axis, 9) + 0.0
-    place, along = (", ".join(number(float(v), 4) for v in each) for each in (point, axis))
     angle = degrees(math.degrees(math.acos(min(1.0, abs(result.roll_axis[2])))))
-    rolls = f"({along}) through the centre of gravity, {angle} deg from z"
-    pairs = (("torque roll axis", rolls), ("elastic centre", f"({place}) {length.name}"))
-    return Facts(pairs, "The body")
+    rolls = f"{_write_vector(axis)} through the centre of gravity, {angle} deg from z"
+    centre = f"{_write_vector(point)} {length.name}"
+    return Facts((("torque roll axis", rolls), ("elastic centre", centre)), "The body")
+
+
+def _write_vector(vector: Real) -> str:
+    """Return the components of a vector in brackets."""
+    components = [number(float(component), 4) for component in vector]
+    return f"({', '.join(components)})"
 
 
 def _grid_rest(result: MountReport, system: System, length: ShownUnit) -> Grid:
-    mounts = result.static.mounts
-    columns = [Column("mount", [mount.name for mount in mounts], words=True)]
-    for k, axis in enumerate("xyz"):
-        forces = [number(system.force.of(mount.force_N[k]), 4) for mount in mounts]
-        columns.append(Column(f"{axis}, {system.force.name}", forces))
-    for k, axis in enumerate("xyz"):
-        travels = [number(length.of(mount.travel_mm[k]), 3) for mount in mounts]
-        columns.append(Column(f"travel {axis}, {length.name}", travels))
+    heads = [
+        Column("mount", words=True),
+        *(Column(f"{axis}, {system.force.name}") for axis in "xyz"),
+        *(Column(f"travel {axis}, {length.name}") for axis in "xyz"),
+    ]
+    rows = []
+    for mount in result.static.mounts:
+        forces = [number(system.force.of(force), 4) for force in mount.force_N]
+        travels = [number(length.of(travel), 3) for travel in mount.travel_mm]
+        rows.append([mount.name, *forces, *travels])
     leaning = ""
     torque = result.response.loads.mean if hasattr(result, "response") else 0.0
     if torque and not result.mounted.carries_load:
         mean = number(system.moment.of(abs(torque)), 4)
         leaning = f" and the reaction to the load's mean torque of {mean} {system.moment.name}"
     note = f"Forces of the body on its mounts under its weight{leaning}, with static stiffness."
-    return Grid("At rest", columns, note)
+    return Grid.of_rows("At rest", heads, rows, note)
 
 
 def _grid_meetings(result: MountReport) -> Grid:
-    met = [{one.order: one.speed_rpm for one in mode.meets} for mode in result.modes]
-    every = sorted({order for each in met for order in each})
-    columns = [
-        Column("mode", [str(k) for k, _ in enumerate(met, 1)], words=True),
-        Column("Hz", [number(mode.frequency_Hz, 4) for mode in result.modes]),
+    orders = sorted({meeting.order for mode in result.modes for meeting in mode.meets})
+    shown = orders[:_COLUMNS]
+    heads = [
+        Column("mode", words=True),
+        Column("Hz"),
+        *(Column(f"order {order_name(order)}") for order in shown),
     ]
-    for order in every[:_COLUMNS]:
-        speeds = [number(rpm.get(order, math.nan), 4) for rpm in met]
-        columns.append(Column(f"order {order_name(order)}", speeds))
-    note = "The JSON output has all orders." if len(every) > _COLUMNS else ""
-    return Grid("Where orders meet modes, rpm", columns, note)
+    rows = []
+    for k, mode in enumerate(result.modes, 1):
+        rpm = {meeting.order: meeting.speed_rpm for meeting in mode.meets}
+        speeds = [number(rpm.get(order, math.nan), 4) for order in shown]
+        rows.append([str(k), number(mode.frequency_Hz, 4), *speeds])
+    note = "The JSON output has all orders." if len(orders) > _COLUMNS else ""
+    return Grid.of_rows("Where orders meet modes, rpm", heads, rows, note)
 
 
 def _pick(count: int, most: int) -> list[int]:
@@ -327,8 +346,9 @@ def _list_lines(result: MountReport, system: System) -> Iterator[tuple[object, .
         for axis, share in mode.energy_percent.items():
             yield *head, f"energy {axis}", clean(share), "%"
     for k, mode in enumerate(result.modes, 1):
-        for one in mode.meets:
-            yield "meeting", f"mode {k}", one.order, one.speed_rpm, "speed", one.speed_rpm, "rpm"
+        for meeting in mode.meets:
+            rpm = meeting.speed_rpm
+            yield "meeting", f"mode {k}", meeting.order, rpm, "speed", rpm, "rpm"
     for mount in result.static.mounts:
         head = ("static", name_cell(mount.name), None, None)
         for axis, own, travel in zip("xyz", mount.force_N, mount.travel_mm, strict=True):
