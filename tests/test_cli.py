@@ -103,7 +103,7 @@ def test_a_warning_does_not_stop_the_analysis(balcli, tmp_path):
     status, out, err = balcli("analyze", file, "--format", "json")
     assert status == 0
     assert json.loads(out)["engine"]["cylinders"] == 4
-    assert err.startswith(f"warning: {file}: piston.mass is 65 kg in a bore of 86 mm, where ")
+    assert err.startswith(f"warning: {file}: piston.mass: 65 kg in a bore of 86 mm, where ")
 
 
 # ------------------------------------------------------------------ formats

@@ -62,7 +62,7 @@ def test_the_crankshaft_counts_in_the_couple_at_uneven_speed():
     made = engine(**parts)
     spectra = compute_spectra(made, [2, 4])
     assert list(spectra.couple.major) == pytest.approx([1119.1, 27.98], rel=1e-4)
-    assert not any("crank.inertia" in doubt for doubt in made.doubts)
+    assert "crank.inertia" not in [doubt.path for doubt in made.doubts]
     without = engine(**{**parts, "crank": {"stroke": 120, "throw_mass": 1.1}})
     assert Assumed("crank.inertia", 0.0, "kg mm^2") in without.inferred
     alike = compute_spectra(without, [2, 4]).roll.major

@@ -117,7 +117,8 @@ def test_the_propeller_law_is_a_square_down_to_no_heat(kind):
         assert alone == pytest.approx(exact, abs=3e-3 * np.abs(exact).max())
         assert found == pytest.approx(alone, abs=1e-11 * np.abs(exact).max())
     (doubt,) = engine.doubt_speeds([50.0, RATED])
-    assert float(doubt.split()[3]) == pytest.approx(RATED * np.sqrt(lowest / 16), rel=1e-3)
+    assert doubt.path == "gas.law"
+    assert float(doubt.message.split()[2]) == pytest.approx(RATED * np.sqrt(lowest / 16), rel=1e-3)
     assert not engine.doubt_speeds([0.5 * RATED])
 
 

@@ -73,7 +73,7 @@ def test_of_several_cycles_the_mean_is_taken_and_said(tmp_path, restarts):
     values = [BAR, BAR * 1.1, BAR * 0.9]
     found, doubts = torque_of(tmp_path, diagram(angles=np.concatenate(every), values=np.concatenate(values)))
     assert found == pytest.approx(torque_of(tmp_path, diagram())[0], rel=1e-12)
-    assert "gas.indicator: p.csv: has 3 cycles; their mean is used" in doubts
+    assert "gas.indicator: p.csv: has 3 cycles; their mean is used" in map(str, doubts)
 
 
 @cases("file/columns", "a_torque_has_the_unit_of_its_heading")

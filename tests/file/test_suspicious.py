@@ -7,7 +7,7 @@ from support.paths import ENGINE_FILES
 
 from balcli.engine.parse import parse
 from balcli.file import examples as new
-from balcli.file.doubts import find_suspicious
+from balcli.file.doubts import Doubt, find_suspicious, name_files
 
 FREE = ("firing_order = [1, 3, 4, 2]\n", "")  # no firing order, which throws would have to fit
 DEGREES = (
@@ -17,6 +17,11 @@ DEGREES = (
 LAMBDA = (
     "where 0.15 to 0.4 is usual; crank.stroke is twice the crank radius, rod.length the distance between its centres"
 )
+
+
+def list_doubts(text):
+    """The doubts about a file, in words."""
+    return [str(doubt) for doubt in find_suspicious(parse(text))]
 
 
 @pytest.mark.parametrize("text", [GOOD, *map(new.template, new.ENGINE_KINDS)], ids=["good", *new.ENGINE_KINDS])
@@ -37,7 +42,7 @@ def test_one_throw_may_stand_at_the_origin_unsaid():
 
 @cases("file/suspicious", "warnings", DEGREES=DEGREES, FREE=FREE, LAMBDA=LAMBDA)
 def test_warnings(changes, more, warning):
-    assert find_suspicious(parse(changed(*changes, more=more))) == [warning]
+    assert list_doubts(changed(*changes, more=more)) == [warning]
 
 
 @pytest.mark.parametrize(("key", "value"), [("intake", 14.7), ("exhaust", 0.101), ("crankcase", 14.7)])
@@ -45,7 +50,7 @@ def test_gas_of_no_engine_is_doubted(key, value):
     """Psi and MPa for bar."""
     gas = f'[gas]\ncycle = "otto"\ncompression_ratio = 10\nimep = 9\n{key} = {value}\n'
     told = 'where 0.15 to 12 is usual; is it in bar? Give another unit as in "130 psi" or "0.9 MPa"'
-    assert find_suspicious(parse(changed(more=gas))) == [f"gas.{key} is {value:g} bar absolute, {told}"]
+    assert list_doubts(changed(more=gas)) == [f"gas.{key}: {value:g} bar absolute, {told}"]
 
 
 def test_engines_of_the_project_are_of_usual_size():
@@ -69,15 +74,15 @@ LIGHT = "where at least 89 is usual; is it in kg mm^2? Give another unit as in "
 
 @cases("file/suspicious", "inertias_in_kg_m2_are_asked_back", LIGHT=LIGHT)
 def test_inertias_in_kg_m2_are_asked_back(more, told):
-    assert "\n".join(find_suspicious(parse(changed(more=more)))) == told
+    assert "\n".join(list_doubts(changed(more=more))) == told
 
 
 def test_loss_factors_in_percent_are_asked_back():
     more = TWIST.replace("[torsion]\n", "[torsion]\nloss = 3.5\n", 1)
     told = "where at most 1 is usual; {} % is {}, and a relative damping psi is a loss factor of"
-    assert find_suspicious(parse(changed(more=more + "loss = 1.13\n"))) == [
-        f"torsion.loss is 3.5, {told.format(3.5, 0.035)} psi/(2 pi)",
-        f"torsion.rear.1.loss is 1.13, {told.format(1.13, 0.0113)} psi/(2 pi)",
+    assert list_doubts(changed(more=more + "loss = 1.13\n")) == [
+        f"torsion.loss: 3.5, {told.format(3.5, 0.035)} psi/(2 pi)",
+        f"torsion.rear.1.loss: 1.13, {told.format(1.13, 0.0113)} psi/(2 pi)",
     ]
 
 
@@ -85,8 +90,32 @@ def test_a_flywheel_that_torsion_lacks():
     """[flywheel] is for `torque`; without one of its own the crankshaft twists at far higher frequencies."""
     wheel = "[flywheel]\ninertia = 250000\n"
     alone = TWIST.partition("[[torsion.rear]]")[0]
-    assert find_suspicious(parse(changed(more=wheel + alone))) == [
-        "`torsion` does not use [flywheel]; also write it as [[torsion.rear]]"
+    assert list_doubts(changed(more=wheel + alone)) == [
+        "torsion.rear: is missing; `torsion` does not use [flywheel]: also write it as [[torsion.rear]]"
     ]
     assert find_suspicious(parse(changed(more=wheel + TWIST))) == []
     assert find_suspicious(parse(changed(more=alone))) == []
+
+
+# ------------------------------------------------------------------ records
+@pytest.mark.parametrize(
+    ("number", "concerned"),
+    [
+        ("crank.throws", True),
+        ("crank.throws.2", True),
+        ("crank.throw_mass", False),
+        ("layout.bank_angle", True),
+        ("layout.bank", False),
+        ("crank", False),
+    ],
+)
+def test_a_doubt_concerns_its_keys_and_their_members(number, concerned):
+    assert Doubt("crank.throws", "3 deg", ("layout.bank_angle",)).concerns(number) is concerned
+    assert not Doubt("", "the free end swings").concerns(number)
+
+
+def test_a_file_that_is_named_twice_is_doubted_once():
+    doubt = Doubt("rod.cg", "-45 mm")
+    named = name_files([("a.toml", [doubt]), ("b.toml", [doubt]), ("a.toml", [doubt])])
+    assert [str(each) for each in named] == ["a.toml: rod.cg: -45 mm", "b.toml: rod.cg: -45 mm"]
+    assert str(Doubt("", "the free end swings")) == "the free end swings"

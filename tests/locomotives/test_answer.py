@@ -338,5 +338,5 @@ def test_no_scheme_divides_weights_between_axles(tmp_path: Path) -> None:
 
 def test_an_uneven_speed_is_said_to_be_ignored() -> None:
     ripple = {"speed": 240, "speed_ripple": [{"order": 2, "amplitude": 0.02, "angle": 0}]}
-    told = locomotive(engine(**changed(operation=ripple))).doubts
-    assert told == ("operation.speed_ripple is ignored: the speed is taken as steady",)
+    (doubt,) = locomotive(engine(**changed(operation=ripple))).doubts
+    assert str(doubt) == "operation.speed_ripple: has no effect, because the speed is taken as steady"

@@ -103,8 +103,8 @@ def test_a_wrong_variable_is_refused(monkeypatch, option, value):
 # ------------------------------------------------------------------ -q and -v
 LONG_ROD = "crank.stroke = 90\nrod.length = 1600\npiston.mass = 0.5\n"
 WARNING = (
-    "warning: standard input: crank radius / rod length is 0.02813, where 0.15 to 0.4 is usual; crank.stroke is "
-    "twice the crank radius, rod.length the distance between its centres\n"
+    "warning: standard input: rod.length: crank radius / rod length is 0.02813, where 0.15 to 0.4 is usual; "
+    "crank.stroke is twice the crank radius, rod.length the distance between its centres\n"
 )
 
 

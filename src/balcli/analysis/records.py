@@ -11,6 +11,7 @@ from ..core.phasors import Array, Phasors
 from ..core.records import HIDDEN, INLINE, Reached, WrittenAs, remove_unit
 from ..engine.engine import CylinderNumber
 from ..file import model
+from ..file.doubts import Doubt
 from ..file.fields import order_number
 from ..forces.crankshaft import AlongCrank, CrankLoads, InnerLoads
 from ..forces.guide import GuideMoments
@@ -516,15 +517,15 @@ class BalanceParts(NamedTuple):
     counterweights: tuple[CounterweightPart, ...]
 
     @property
-    def doubts(self) -> Iterator[str]:
+    def doubts(self) -> Iterator[Doubt]:
         """Warnings about counterweights that would touch a piston."""
         for number, part in enumerate(self.counterweights, 1):
             if part.clearance_m is not None and part.clearance_m < 0:
                 gap = f"{1e3 * part.clearance_m:.4g} mm"
-                yield (
-                    f"counterweight.{number} has a clearance of {gap} to the lowest piston; make "
-                    "its outer radius smaller"
+                told = (
+                    f"has a clearance of {gap} to the lowest piston; make its outer radius smaller"
                 )
+                yield Doubt(f"counterweight.{number}", told)
 
 
 class RelatedMoment(NamedTuple):

@@ -14,6 +14,7 @@ from ..core.piecewise import PiecewiseCurve, merged_breaks, polyline, resolved
 from ..core.speed_ripple import surplus
 from ..errors import ArgumentError, BalcliError
 from ..file.csv_columns import ANGLE_SYMBOLS, Head, read_columns
+from ..file.doubts import Doubt
 from ..file.units import ANGLE, TORQUE
 from ..forces.spectrum import check_orders
 from ..limits import (
@@ -61,13 +62,14 @@ def read_curve(path: Path) -> PiecewiseCurve:
     return polyline(np.radians(angle), torque)
 
 
-def doubt_period(curve: PiecewiseCurve) -> Iterator[str]:
+def doubt_period(curve: PiecewiseCurve) -> Iterator[Doubt]:
     """Yield a warning if the period is neither a whole number of turns nor 720 degrees divided by a
     whole number. For example, a curve sampled from 0 to 359 degrees lacks its last row, 360.
     """
     turns = curve.period / (2 * np.pi)
     if min(abs(x - round(x)) / x for x in (turns, 2 / turns)) > _WHOLE:
-        yield f"its period is {360 * turns:g} deg; is the last row, which closes it, missing?"
+        told = f"its period is {360 * turns:g} deg; is the last row, which closes it, missing?"
+        yield Doubt("", told)
 
 
 def analyze_curve(

@@ -8,7 +8,6 @@ torque. Cylinders with equal mechanism, diagram and heat share one torque curve.
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import fields, replace
@@ -23,6 +22,7 @@ from ..core.phasors import Array
 from ..core.piecewise import resolved
 from ..errors import BalcliError, InputError, Problem
 from ..file.csv_columns import Head, NumberColumns, locate_beside, read_columns
+from ..file.doubts import Doubt
 from ..file.gas_tables import DIAGRAM_KEYS, MEAN_PRESSURES, Gas
 from ..file.model import Override
 from ..file.table import FileTable
@@ -116,16 +116,18 @@ def _follow_speed(
     Raises:
         InputError: The same errors as for `build_gas`.
     """
-    nodes = dict[float, EngineGas]()
-    problems = list[Problem]()
-    doubts = list[str]()
+    nodes: dict[float, EngineGas] = {}
+    problems: list[Problem] = []
+    doubts: list[Doubt] = []
     for number, speed in enumerate(gas.speeds, 1):
-        name = partial(_name_point, gas, number)
+        locate = partial(_locate_at_point, gas, number)
         try:
             nodes[speed] = make(_take_at(gas, speed))
-            doubts += map(name, nodes[speed].doubts)
         except InputError as error:
-            problems += (one._replace(path=name(one.path)) for one in error.problems)
+            problems += (one._replace(path=locate(one.path)) for one in error.problems)
+            continue
+        for path, message, also, _ in nodes[speed].doubts:
+            doubts.append(Doubt(locate(path), message, tuple(map(locate, also))))
     if problems:
         raise InputError(list(dict.fromkeys(problems)))
 
@@ -185,13 +187,17 @@ def _take_at(gas: Gas, speed: float) -> Gas:
     return Gas.model_construct(**{key: getattr(gas, key) for key in kept} | found)
 
 
-def _name_point(gas: Gas, number: int, text: str) -> str:
-    """Return a path or warning in which `gas.imep` and the other keys of a point of [[gas.at]] are
-    replaced by their full paths, such as `gas.at.1.imep`.
+def _locate_at_point(gas: Gas, number: int, path: str) -> str:
+    """Return the path `gas.at.1.imep` for `gas.imep` if the points of [[gas.at]] give this key;
+    other paths are returned unchanged.
+
+    Args:
+        gas: Table [gas] of the file.
+        number: Number of the point.
+        path: Path of a key.
     """
-    if not (keys := "|".join(gas.keys_of_points)):
-        return text
-    return re.sub(rf"\bgas\.({keys})\b", rf"gas.at.{number}.\1", text)
+    table, _, key = path.rpartition(".")
+    return f"gas.at.{number}.{key}" if table == "gas" and key in gas.keys_of_points else path
 
 
 def _build_steady(
@@ -230,8 +236,8 @@ def _build_steady(
         raise InputError([Problem("gas", many + told)])
 
     torques = dict[int, GasTorque]()
-    doubts = list[str]()
-    overfed = list[str]()
+    doubts: list[Doubt] = []
+    overfed: list[Doubt] = []
     for row in sorted(set(like)):
         source = sources[row]
         piston = found[row]
@@ -259,7 +265,8 @@ def _build_steady(
     measured = any(source.indicator is not None for source in sources)
     idle = gas.list_idle_keys(strokes, measured, computed=gas.cycle is not None)
     given = [key for key in ("crankcase", "exhaust") if key in gas.model_fields_set & idle]
-    doubts += [*overfed[:1], *(f"gas.{key} changes nothing in this engine" for key in given)]
+    doubts += overfed[:1]
+    doubts += [Doubt(f"gas.{key}", "changes nothing in this engine") for key in given]
     nominal = _find_nominal(parts, [piston.top for piston in found])
     cylinders = (
         CylinderGas(piston, torques[row], angle, source.share, source.heat, row)
@@ -442,17 +449,18 @@ def _locate(error: GasError, gas: Gas, source: _Source) -> Problem:
     return Problem(f"gas.{error.field}", str(error))
 
 
-def _doubt_heat(gas: Gas, source: _Source, piston: GasPiston, cycle: GasCycle) -> Iterator[str]:
+def _doubt_heat(gas: Gas, source: _Source, piston: GasPiston, cycle: GasCycle) -> Iterator[Doubt]:
     """Yield a warning if the heat is more than the air of the charge can burn."""
     ratio = gas.compression_ratio or math.nan
     charge = gas.intake * BAR * float(piston.volume(cycle.breaks[0], ratio))
     if cycle.heat > HEAT_MOST * charge:
         path = _locate(GasError(_find_goal(gas, source.heat).name, ""), gas, source).path
-        yield (
-            f"{path} needs {cycle.heat:.4g} J of heat in each cycle, more than the air of the "
-            f"charge can burn; is gas.intake = {gas.intake:.4g} bar right? It is an absolute "
-            "pressure, higher in a supercharged engine"
+        told = (
+            f"needs {cycle.heat:.4g} J of heat in each cycle, more than the air of the charge can "
+            f"burn; is the intake pressure of {gas.intake:.4g} bar right? It is absolute, and "
+            "higher in a supercharged engine"
         )
+        yield Doubt(path, told, ("gas.intake",))
 
 
 # ------------------------------------------------------------------ firing

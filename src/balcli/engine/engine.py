@@ -20,7 +20,7 @@ from ..core.records import HIDDEN, Node, WrittenAs
 from ..core.speed_ripple import RippleLine
 from ..errors import MOMENTS_UNKNOWN, BalcliError, wrong_type
 from ..file.assumed import Assumed, join_assumed, select_assumed
-from ..file.doubts import find_suspicious
+from ..file.doubts import Doubt, find_suspicious, name_files
 from ..file.fields import join_words
 from ..file.model import EngineFile
 from ..file.plain_tables import list_tables
@@ -265,29 +265,28 @@ class Engine:
         return list_tables(take_model(self))
 
     @property
-    def doubts(self) -> tuple[str, ...]:
+    def doubts(self) -> tuple[Doubt, ...]:
         """Warnings of unlikely figures in the file, of missing positions, and of a speed for which
         the file does not give the gas.
         """
-        unknown = () if self.places_known else (MOMENTS_UNKNOWN,)
+        unknown = () if self.places_known else (Doubt("crank.spacing", MOMENTS_UNKNOWN),)
         return (*unknown, *self.unlikely, *self.doubt_speeds(self.speed_rpm))
 
     @property
-    def unlikely(self) -> tuple[str, ...]:
+    def unlikely(self) -> tuple[Doubt, ...]:
         """Warnings of figures in the file that are allowed but unlikely."""
-        of_gas = () if self.gas is None else self.gas.doubts
         if self.placed:
-            each = ((one.file, doubt) for one in self.placed for doubt in one.engine.unlikely)
-            return tuple(dict.fromkeys(f"{file}: {doubt}" for file, doubt in each))
+            return name_files((one.file, one.engine.unlikely) for one in self.placed)
+        of_gas = () if self.gas is None else self.gas.doubts
         if self.model is None:
             return of_gas
         return (*find_suspicious(self.model), *doubt_firing(self.model), *of_gas)
 
-    def doubt_speeds(self, speeds_rpm: ArrayLike) -> tuple[str, ...]:
+    def doubt_speeds(self, speeds_rpm: ArrayLike) -> tuple[Doubt, ...]:
         """Return warnings if the file does not give the gas at some of these speeds (rpm)."""
         if self.placed:
-            each = ((one.file, one.engine.doubt_speeds(speeds_rpm)) for one in self.cranks)
-            return tuple(dict.fromkeys(f"{file}: {told}" for file, own in each for told in own))
+            of_files = ((one.file, one.engine.doubt_speeds(speeds_rpm)) for one in self.cranks)
+            return name_files(of_files)
         law = None if self.gas is None else self.gas.law
         return () if law is None else tuple(law.list_doubts(speeds_rpm))
 

@@ -19,6 +19,7 @@ from ..core.cylinder_pressure import GasPiston, GasTorque
 from ..core.phasors import Array
 from ..core.piecewise import PiecewiseCurve, polyline, resolved
 from ..errors import BalcliError
+from ..file.doubts import Doubt
 
 
 class CylinderGas(NamedTuple):
@@ -69,7 +70,7 @@ class EngineGas:
         cycle_deg: Length of a cycle: 720, or 360 for a two-stroke engine.
         mechanical_efficiency: Brake work over indicated work; None if the file gives none.
         compression_ratio: Compression ratio; None if the file gives none.
-        doubts: Warnings, each with its path in the file.
+        doubts: Warnings of unlikely figures of the gas.
         law: Law for the gas at other speeds; None: the gas is the same at all speeds.
     """
 
@@ -77,7 +78,7 @@ class EngineGas:
     cycle_deg: int
     mechanical_efficiency: float | None = None
     compression_ratio: float | None = None
-    doubts: tuple[str, ...] = ()
+    doubts: tuple[Doubt, ...] = ()
     law: GasLaw | None = None
 
     @property
@@ -185,7 +186,7 @@ class GasLaw:
     power: int = 1
     least_rpm: float = 0.0
 
-    def list_doubts(self, speeds_rpm: ArrayLike) -> Iterator[str]:
+    def list_doubts(self, speeds_rpm: ArrayLike) -> Iterator[Doubt]:
         """Yield warnings if some of these speeds (rpm) are outside the points of [[gas.at]], or if
         the propeller law demands less imep there than a cycle has without heat.
         """
@@ -194,12 +195,16 @@ class GasLaw:
         least = self.least_rpm
         first = self.nodes_rpm[0]
         last = self.nodes_rpm[-1]
-        ends = [f"the gas of {first:g} rpm is used at {low:g} rpm"] * bool(low < first)
-        ends += [f"the gas of {last:g} rpm is used at {high:g} rpm"] * bool(high > last)
+        ends = []
+        if low < first:
+            ends.append(f"the gas of {first:g} rpm is used at {low:g} rpm")
+        if high > last:
+            ends.append(f"the gas of {last:g} rpm is used at {high:g} rpm")
         if ends and self.power == 1:
-            yield f"gas.at: outside its points {' and '.join(ends)}"
+            yield Doubt("gas.at", f"outside its points {' and '.join(ends)}")
         if low < least:
-            yield (
-                f"gas.law: up to {least:.4g} rpm it demands less imep than the cycle has without "
-                "heat; the cycle without heat is used there"
+            told = (
+                f"up to {least:.4g} rpm it demands less imep than the cycle has without heat; the "
+                "cycle without heat is used there"
             )
+            yield Doubt("gas.law", told)

@@ -17,7 +17,7 @@ from ..core.phasors import Array
 from ..core.piecewise import PiecewiseCurve, polyline
 from ..errors import BalcliError
 from ..file.csv_columns import ANGLE_SYMBOLS, GAUGE_UNITS, Head, NumberColumns
-from ..file.doubts import MAX_PRESSURE
+from ..file.doubts import MAX_PRESSURE, Doubt
 from ..file.gas_tables import Gas
 from ..file.units import ANGLE, BAR, PRESSURE
 
@@ -40,7 +40,7 @@ SAME_IMEP = 0.03  # a larger relative difference from the stated imep gives a wa
 
 def build_diagram(
     gas: Gas, path: str, name: str, columns: NumberColumns, strokes: int
-) -> tuple[PiecewiseCurve, list[str]]:
+) -> tuple[PiecewiseCurve, list[Doubt]]:
     """Return the absolute pressure (Pa) over the cycle angle, and warnings if cycles are averaged
     or the last row is not used.
 
@@ -69,15 +69,18 @@ def build_diagram(
         raise BalcliError(f"{name}: {line}{message}")
     firing = 360.0 if gas.zero == "gas-exchange" else 0.0
     curve = draw_diagram(angle, pressure, strokes=strokes, firing_deg=firing - gas.phase)
-    left = [f"{path}: {name}: has {count} cycles; their mean is used"] if count > 1 else []
+    doubts = []
+    if count > 1:
+        doubts.append(Doubt(path, f"{name}: has {count} cycles; their mean is used"))
     first, last = (float(pressure[k]) / (columns.scales[1] * BAR) for k in (0, -1))
     if first != last and _is_closed(angle, period):
         unit = _name_unit(columns)
-        left.append(
-            f"{path}: {name}: the last row closes the cycle with {last:.4g} {unit}, but the first "
-            f"row has {first:.4g} {unit}; the first is used"
+        told = (
+            f"{name}: the last row closes the cycle with {last:.4g} {unit}, but the first row has "
+            f"{first:.4g} {unit}; the first is used"
         )
-    return curve, left
+        doubts.append(Doubt(path, told))
+    return curve, doubts
 
 
 def _name_unit(columns: NumberColumns) -> str:
@@ -172,7 +175,7 @@ def find_diagram_mistakes(
 
 def list_doubts(
     gas: Gas, path: str, columns: NumberColumns, found: PiecewiseCurve, imep: float
-) -> Iterator[str]:
+) -> Iterator[Doubt]:
     """Yield warnings of unlikely pressures in a diagram.
 
     Args:
@@ -186,27 +189,31 @@ def list_doubts(
     scale = columns.scales[1] * BAR  # Pa
     top, value = find_highest(found)
     if abs(math.degrees(top)) > NEAR_DEG:
-        yield (
-            f"{path}: the highest pressure, {value / scale:.4g} {unit}, is at "
-            f"{math.degrees(top):.4g} deg from the firing dead centre, where within "
-            f"{NEAR_DEG:g} is usual; are gas.zero and gas.phase right?"
+        told = (
+            f"the highest pressure, {value / scale:.4g} {unit}, is at {math.degrees(top):.4g} deg "
+            f"from the firing dead centre, where within {NEAR_DEG:g} is usual; are zero and phase "
+            "right?"
         )
+        yield Doubt(path, told, ("gas.zero", "gas.phase"))
     if value > MAX_PRESSURE * BAR:
-        yield (
-            f"{path}: the highest pressure is {value / scale:.4g} {unit}, where at most "
+        told = (
+            f"the highest pressure is {value / scale:.4g} {unit}, where at most "
             f"{MAX_PRESSURE * BAR / scale:.4g} is usual; does the heading of its column "
             "name the right unit?"
         )
+        yield Doubt(path, told)
     lowest = found.extremes()[0].value / scale
     if lowest * scale < LOW_PRESSURE * BAR:
-        yield (
-            f"{path}: the lowest pressure is {lowest:.4g} {unit} absolute, where at least "
+        told = (
+            f"the lowest pressure is {lowest:.4g} {unit} absolute, where at least "
             f"{LOW_PRESSURE * BAR / scale:.4g} is usual{ASK_GAUGE}"
         )
+        yield Doubt(path, told)
     stated = gas.imep if path == "gas.indicator" else None
     measured = imep / BAR
     if stated is not None and abs(measured - stated) > SAME_IMEP * abs(stated):
-        yield (
-            f"gas.imep is {stated:g} bar, but the diagram has {measured:.4g} bar; a phase error of "
-            "one degree changes it by 3 to 7 %: is gas.phase right?"
+        told = (
+            f"{stated:g} bar, but the diagram has {measured:.4g} bar; a phase error of one degree "
+            "changes it by 3 to 7 %: is phase right?"
         )
+        yield Doubt("gas.imep", told, ("gas.phase",))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from ..core.phases import TURN
+from ..file.doubts import Doubt
 from ..file.firing_order import write_order
 from ..file.model import EngineFile
 from ..limits import SMALL
@@ -28,7 +29,7 @@ USUAL_FLAT_ORDERS = {
 }
 
 
-def doubt_firing(model: EngineFile) -> Iterator[str]:
+def doubt_firing(model: EngineFile) -> Iterator[Doubt]:
     """Yield warnings of unlikely firing: a less usual numbering was inferred, nobody builds the
     crank for this order, or with these throws all cylinders fire within one of two revolutions.
     Without a firing order, warn of a splay with the wrong sign.
@@ -39,38 +40,42 @@ def doubt_firing(model: EngineFile) -> Iterator[str]:
         return
     layout = model.layout
     plan = parts.plan
-    if layout.numbering is not None and "numbering" not in layout.model_fields_set:
+    if layout.numbering is not None and not layout.has("numbering"):
         rows = layout.numbering
         if rows != next(list_tiers(plan, radial=layout.radial is not None))[0]:
-            yield (
-                f"layout.numbering is not given; {write_rows(rows)} is used, with which the firing "
-                "order fits; add this key if it is right"
+            told = (
+                f"is not given; {write_rows(rows)} is used, with which the firing order fits; add "
+                "this key if it is right"
             )
+            yield Doubt("layout.numbering", told)
     order = write_order(parts.order)
     if parts.throws_given:
         gaps = list_gaps(parts)
         together = list_together(parts)
         if layout.firing_intervals is None and together:
-            yield (
-                f"layout.firing_order: {describe_together(together)} with these crank.throws; "
-                f"if that is right, give layout.firing_intervals = [{_join(gaps)}]"
+            told = (
+                f"{describe_together(together)} with these crank.throws; if that is right, give "
+                f"layout.firing_intervals = [{_join(gaps)}]"
             )
+            yield Doubt("layout.firing_order", told, ("crank.throws",))
         if layout.firing_intervals is None and len(gaps) > 2 and max(gaps) > TURN + TOLERANCE_DEG:
-            yield (
-                f"layout.firing_order: {order} has the intervals {_join(gaps)} deg with these "
-                f"crank.throws; if that is right, give layout.firing_intervals = [{_join(gaps)}]"
+            told = (
+                f"{order} has the intervals {_join(gaps)} deg with these crank.throws; if that is "
+                f"right, give layout.firing_intervals = [{_join(gaps)}]"
             )
+            yield Doubt("layout.firing_order", told, ("crank.throws",))
     elif layout.firing_intervals is None and layout.strokes == 4:
         usual = _find_usual_orders(parts)
         if usual:
             listed = _join(count_throws_from_first(parts))
-            yield (
-                f"layout.firing_order: {order} needs the throws {listed}, which nobody builds; "
-                f"usual is {usual}; if this order is right, give crank.throws"
+            told = (
+                f"{order} needs the throws {listed}, which nobody builds; usual is {usual}; if "
+                "this order is right, give crank.throws"
             )
+            yield Doubt("layout.firing_order", told)
 
 
-def _doubt_splay(model: EngineFile) -> Iterator[str]:
+def _doubt_splay(model: EngineFile) -> Iterator[Doubt]:
     """Yield a warning if split pins leave a backward vector of order 1 that the opposite splay
     would balance.
     """
@@ -78,11 +83,12 @@ def _doubt_splay(model: EngineFile) -> Iterator[str]:
     opposite = model.with_table("crank", splay=-splay)
     here, there = (Candidate(each).backward_share for each in (model, opposite))
     if there < SMALL <= here:
-        yield (
-            f"crank.splay = {splay:g}: the part of order 1 that turns against the crank is "
+        told = (
+            f"with {splay:g} deg, the part of order 1 that turns against the crank is "
             f"{100 * here:.3g} % of one cylinder's first order, and {100 * there:.3g} % with "
-            f"crank.splay = {-splay:g}; change the sign, or give layout.firing_order"
+            f"{-splay:g} deg; change the sign, or give layout.firing_order"
         )
+        yield Doubt("crank.splay", told)
 
 
 def _find_usual_orders(parts: Parts) -> str:

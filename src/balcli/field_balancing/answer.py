@@ -21,6 +21,7 @@ from ..core.phasors import Complex
 from ..core.records import HIDDEN, INLINE, Axes, Polar, angle_deg
 from ..core.unbalance import find_permitted_unbalance
 from ..errors import ArgumentError, InputError, Message, Problem, check_type, list_words
+from ..file.doubts import Doubt
 from ..file.fields import counted, join_words, shorten, suggest_nearest
 from ..file.plain_tables import take_tables
 from ..file.units import ask_unit
@@ -47,12 +48,12 @@ _ROUNDING = 1e-13  # a prediction below this share of the largest reading is a r
 _SURPRISING = 0.5
 
 
-def find_doubts(result: FieldBalance) -> Iterator[str]:
+def find_doubts(result: FieldBalance) -> Iterator[Doubt]:
     """Yield warnings of everything suspicious in a result and its runs."""
     file = result.file
     alike = [each for each in result.corrections if each.own_effect < _NEARLY_DEPENDENT]
     if len(alike) > 1:
-        yield Message(
+        told: str = Message(
             "planes {planes} have nearly the same effect: {share:.1%} of the effect of one can "
             "come from the others (condition number {condition:.3g}), so small reading errors "
             "change the weights much; if the weights are large, try {without} {plane}",
@@ -61,24 +62,27 @@ def find_doubts(result: FieldBalance) -> Iterator[str]:
             condition=result.condition,
             plane=alike[0].plane,
         )
+        yield Doubt("", told)
     if file.grade is not None or file.shares is not None:
         for key, hint in list_missing(file).items():
-            yield f"{key}: is missing, so the grade is not checked; give it, such as {hint}"
+            yield Doubt(key, f"is missing, so the grade is not checked; give it, such as {hint}")
     if result.left_out and result.permitted is not None:
-        yield (
+        remaining = f"{result.largest:.4g} {result.unit or ''}".rstrip()
+        told = (
             f"the permitted unbalance is checked without {' and '.join(result.left_out)}, whose "
-            f"unbalance is unknown; readings of up to {result.largest:.4g} {result.unit or ''}"
-        ).rstrip() + " remain"
+            f"unbalance is unknown; readings of up to {remaining} remain"
+        )
+        yield Doubt("", told)
     series = collect_series(file)
     if file.influence is None:
         yield from _doubt_trials(result, series)
     for each in series:
         yield from _doubt_runs(result, each)
     if file.radius is not None and (radius := max(file.radius)) < _SMALLEST_RADIUS:
-        yield f"radius is {radius:g} mm; {ask_unit('mm', f'{radius:g} m')}"
+        yield Doubt("radius", f"{radius:g} mm; {ask_unit('mm', f'{radius:g} m')}")
 
 
-def _doubt_trials(result: FieldBalance, series: list[Series]) -> Iterator[str]:
+def _doubt_trials(result: FieldBalance, series: list[Series]) -> Iterator[Doubt]:
     """Yield warnings of weak trial weights, and of corrections far above all trial weights."""
     for correction in result.corrections:
         plane = correction.plane
@@ -89,20 +93,22 @@ def _doubt_trials(result: FieldBalance, series: list[Series]) -> Iterator[str]:
             change = np.abs(np.outer(alpha[:, k], each.weights[:, k])).max()
             if change < _SMALL_CHANGE * (largest := np.abs(found).max()):
                 at = f" at {each.speed_rpm:g} rpm" if len(series) > 1 else ""
-                yield (
+                told = (
                     f"the trial weight in {plane}{at} changes no reading by more than "
                     f"{change:.3g}, {100 * change / largest:.2g}% of the largest; make it heavier"
                 )
+                yield Doubt("", told)
         trial = max(float(np.abs(each.weights[:, k]).max()) for each in series)
         if weight > _FAR_BEYOND * trial:
-            yield (
+            told = (
                 f"the correction of {weight:.3g} {result.weight_unit} in {plane} is "
                 f"{weight / trial:.3g} times the largest weight tried there; put it on, read "
                 "again, and add that run to the file"
             )
+            yield Doubt("", told)
 
 
-def _doubt_runs(result: FieldBalance, series: Series) -> Iterator[str]:
+def _doubt_runs(result: FieldBalance, series: Series) -> Iterator[Doubt]:
     """Yield a warning of the reading (at one speed) that differs most from its prediction by the
     other runs, if it differs much.
     """
@@ -122,10 +128,11 @@ def _doubt_runs(result: FieldBalance, series: Series) -> Iterator[str]:
     if np.abs(series.readings - turned).max() <= _SURPRISING * largest:
         other = "with" if file.senses[1] == "against" else "against"
         remedy = f'the run fits if angles of weights count the other way: weights = "{other}"'
-    yield (
+    told = (
         f"'{file.name_run(series.numbers[row])}' reads {read} at "
         f"{result.readings[sensor].sensor}; the other runs predict {expected}; {remedy}"
     )
+    yield Doubt("", told)
 
 
 def _predict(series: Series, used: list[int]) -> tuple[Complex, float]:
@@ -311,7 +318,7 @@ class FieldBalance(Result):
         return [plane for plane in self.file.planes if plane not in used]
 
     @property
-    def doubts(self) -> tuple[str, ...]:
+    def doubts(self) -> tuple[Doubt, ...]:
         """Warnings of valid but suspicious runs and weights, each with its value and a remedy."""
         return tuple(find_doubts(self))
 

@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..errors import NameArgument, tell
 from .fields import WrittenFigure, count_lambda_digits, printable
 from .model import PISTON_PARTS, EngineFile
 from .plain_tables import list_tables
@@ -37,8 +38,8 @@ SPEED = 9.0  # lowest speed, rpm; the largest ship engines idle at 15, and 1 rad
 # Engines with a stroke above 1 m, and slow engines with a stroke above two bores, are usually
 # two-strokes.
 CROSSHEAD_STROKE = 1000.0  # mm
-SLOW_SPEED = 250.0
-SLOW_BORES = 2.0  # rpm, bores
+SLOW_SPEED = 250.0  # rpm
+SLOW_BORES = 2.0  # largest usual stroke of a slow four-stroke engine, bores
 OFFSET = 0.2  # largest offset / stroke: up to 0.05 is usual, in narrow-angle vees up to 0.15
 MAX_PRESSURE = 500.0  # largest cylinder pressure, bar; engines have 50 to 250
 # Absolute pressures: 0.26 bar at an altitude of 10 km, 10 bar after two stages of charging; figures
@@ -73,31 +74,85 @@ DEGREES = (
 RADIANS = 'bare numbers are degrees; give radians as in "1.3 rad"'
 OFF_AXIS = "is it in kg? It is the unbalanced mass of one throw, not the mass of the crankshaft"
 GRAMS = 'is it in kg? Give grams as in "47 g"'
+# Keys on which the mass of a piston depends
+_MASSES_OF_PISTON = (*(f"piston.{key}" for key in ("mass", *PISTON_PARTS)), "crosshead.mass")
+
+
+class Doubt(NamedTuple):
+    """A warning: a figure of a file, or of a result, is allowed but unlikely.
+
+    Attributes:
+        path: Dotted name of the doubted key or table; empty if no single key is doubted.
+        message: The figure, its usual range and a remedy, as words that follow the path.
+        also: Further keys of which one may be wrong instead.
+        file: Name of the file of the key, if an engine consists of several files.
+    """
+
+    path: str
+    message: str
+    also: tuple[str, ...] = ()
+    file: str = ""
+
+    def __str__(self) -> str:
+        return self.tell(str)
+
+    def tell(self, name_argument: NameArgument) -> str:
+        """Return file, path and message, with the names that `name_argument` returns for arguments
+        that the message names.
+        """
+        message = tell(self.message, name_argument)
+        return ": ".join(filter(None, (self.file, self.path, message)))
+
+    def concerns(self, number: str) -> bool:
+        """Return whether a number of the file is one of the doubted keys, or belongs to one of
+        them as the member of a list or a key of a table.
+
+        Args:
+            number: Dotted name of the number, such as `crank.throws.2`.
+        """
+        keys = filter(None, (self.path, *self.also))
+        return any(f"{number}.".startswith(f"{key}.") for key in keys)
+
+
+def name_files(of_files: Iterable[tuple[str, Iterable[Doubt]]]) -> tuple[Doubt, ...]:
+    """Return the doubts about several files, with the names of the files. A doubt about a file that
+    is named several times appears once.
+
+    Args:
+        of_files: Name of each file, and the doubts about it.
+    """
+    named = [doubt._replace(file=file) for file, doubts in of_files for doubt in doubts]
+    return tuple(dict.fromkeys(named))
 
 
 class Figure(NamedTuple):
     """A figure of a file and its usual range.
 
     Attributes:
-        name: Name of the figure with a verb, such as "rod.cg is".
-        value: Value in the file.
+        path: Dotted name of the key that gives the figure.
+        value: Value of the figure.
         least: Lower end of the usual range.
         most: Upper end of the usual range.
         unit: Unit of value and range, with a space before it; empty for a plain number.
         hint: Text about the probable mistake.
+        subject: Name of the figure with a verb, such as "the mean piston speed is", if the figure
+            is not the value of the key itself.
+        also: Further keys on which the figure depends.
         digits: Number of digits of the value that are shown.
     """
 
-    name: str
+    path: str
     value: float
     least: float
     most: float
     unit: str
     hint: str
+    subject: str = ""
+    also: tuple[str, ...] = ()
     digits: int = 4
 
 
-def find_suspicious(model: EngineFile) -> list[str]:
+def find_suspicious(model: EngineFile) -> list[Doubt]:
     """Return warnings for figures that are allowed but unlikely; empty for an ordinary engine.
 
     Args:
@@ -107,15 +162,15 @@ def find_suspicious(model: EngineFile) -> list[str]:
     if model.locomotive is not None and model.locomotive.wheel_load is not None:
         load = model.locomotive.wheel_load
         hint = ask_unit("N", "40 kN", "9.5 t")
-        figures.append(Figure("locomotive.wheel_load is", load, WHEEL_LOAD, math.inf, " N", hint))
+        figures.append(Figure("locomotive.wheel_load", load, WHEEL_LOAD, math.inf, " N", hint))
     question = ask_unit("bar", "130 psi", "0.9 MPa")
     for path, key, value in walk_figures("gas", list_tables(model.gas)):
         if key in PRESSURES:
-            figures.append(Figure(f"{path} is", value, *PRESSURES[key], question))
+            figures.append(Figure(path, value, *PRESSURES[key], question))
     return [*_find_missing(model), *_doubt(figures), *doubt_losses("torsion", model.torsion)]
 
 
-def doubt_losses(path: str, tables: object) -> Iterator[str]:
+def doubt_losses(path: str, tables: object) -> Iterator[Doubt]:
     """Yield warnings for impossibly large loss factors, which are probably given in percent.
 
     Args:
@@ -124,7 +179,7 @@ def doubt_losses(path: str, tables: object) -> Iterator[str]:
     """
     hint = "{0:g} % is {1:g}, and a relative damping psi is a loss factor of psi/(2 pi)"
     yield from _doubt(
-        Figure(f"{place} is", loss, 0, LOSS, "", hint.format(loss, loss / 100))
+        Figure(place, loss, 0, LOSS, "", hint.format(loss, loss / 100))
         for place, key, loss in walk_figures(path, list_tables(tables))
         if key == "loss"
     )
@@ -147,9 +202,9 @@ def walk_figures(path: str, tables: Any) -> Iterator[tuple[str, Any, Any]]:
             yield place, key, value
 
 
-def _doubt(figures: Iterable[Figure]) -> Iterator[str]:
+def _doubt(figures: Iterable[Figure]) -> Iterator[Doubt]:
     """Yield a warning for each figure outside its usual range."""
-    for name, value, least, most, unit, hint, digits in figures:
+    for path, value, least, most, unit, hint, subject, also, digits in figures:
         if least <= value <= most:
             continue
         usual = f"{_round(least)} to {_round(most)}"
@@ -158,7 +213,8 @@ def _doubt(figures: Iterable[Figure]) -> Iterator[str]:
         elif least == 0 <= value:
             usual = f"at most {_round(most)}"
         written = f' ("{printable(value.text)}")' if isinstance(value, WrittenFigure) else ""
-        yield f"{name} {value:.{digits}g}{unit}{written}, where {usual} is usual; {hint}"
+        found = f"{subject} {value:.{digits}g}{unit}{written}".lstrip()
+        yield Doubt(path, f"{found}, where {usual} is usual; {hint}", also)
 
 
 def _round(value: float) -> str:
@@ -166,41 +222,45 @@ def _round(value: float) -> str:
     return f"{float(f'{value:.2g}'):.12g}"
 
 
-def _find_missing(model: EngineFile) -> Iterator[str]:
+def _find_missing(model: EngineFile) -> Iterator[Doubt]:
     """Yield warnings for keys that were probably forgotten, and for keys that contradict others."""
     if _weigh_piston(model) == 0:
-        yield "piston.mass is 0; give the mass of piston, pin, rings and locks"
+        yield Doubt("piston.mass", "0 kg; give the mass of piston, pin, rings and locks")
     if model.rod.mass and model.rod.cg is None:
-        yield "rod.cg is not given, and 0 is taken; measure it from the big-end centre"
+        yield Doubt("rod.cg", "is not given, and 0 is taken; measure it from the big-end centre")
     crank = model.crank
     throws, rods = _count_throws_and_rods(model)
     # A single figure is repeated for all throws; lists of a wrong length are rejected elsewhere.
     masses, strokes = (np.resize(each, throws) for each in (crank.throw_masses, crank.strokes))
     of_throws = float(masses @ (strokes / 2) ** 2)
     if crank.inertia is not None and crank.inertia < of_throws and not model.layout.rotary:
-        yield (
-            f"crank.inertia is {crank.inertia:.4g} kg mm^2, less than the {of_throws:.4g} kg mm^2 "
-            "of its throws alone (crank.throw_mass at the crank radius)"
+        told = (
+            f"{crank.inertia:.4g} kg mm^2, less than the {of_throws:.4g} kg mm^2 of its throws "
+            "alone (crank.throw_mass at the crank radius)"
         )
+        yield Doubt("crank.inertia", told, ("crank.throw_mass",))
     placed = [number for number, own in model.cylinder.items() if own.position is not None]
     left = rods - len(placed)
     if crank.spacing is None and crank.positions is None and placed and left > rods / throws:
-        yield (
-            f"cylinder.{placed[0]}.position is given, but {left} cylinders have no position and "
-            "are all at 0: give the position of each, or crank.spacing"
+        told = (
+            f"is given, but {left} cylinders have no position and are all at 0: give the position "
+            "of each, or crank.spacing"
         )
+        yield Doubt(f"cylinder.{placed[0]}.position", told)
     stroke = max(crank.strokes)
     speed = model.operation.speed
     bore = model.piston.bore
     slow = speed < SLOW_SPEED and bore is not None and stroke > SLOW_BORES * bore
-    if "strokes" not in model.layout.model_fields_set and (stroke > CROSSHEAD_STROKE or slow):
-        yield (
-            f"layout.strokes is not given, and 4 is taken; engines with a stroke of {stroke:g} mm "
-            f"at {speed:g} rpm are mostly two-strokes: give layout.strokes = 2, or 4 if it is right"
+    if not model.layout.has("strokes") and (stroke > CROSSHEAD_STROKE or slow):
+        told = (
+            f"is not given, and 4 is taken; engines with a stroke of {stroke:g} mm at {speed:g} "
+            "rpm are mostly two-strokes: give layout.strokes = 2, or 4 if it is right"
         )
+        yield Doubt("layout.strokes", told)
     torsion = model.torsion
     if model.flywheel is not None and torsion is not None and not (torsion.front or torsion.rear):
-        yield "`torsion` does not use [flywheel]; also write it as [[torsion.rear]]"
+        told = "is missing; `torsion` does not use [flywheel]: also write it as [[torsion.rear]]"
+        yield Doubt("torsion.rear", told)
 
 
 def _list_pistons(model: EngineFile) -> Iterator[Figure]:
@@ -208,27 +268,61 @@ def _list_pistons(model: EngineFile) -> Iterator[Figure]:
     bore = model.piston.bore
     speed = model.operation.speed
     stroke = max(strokes)
-    narrow, wide = (BORE[0] * min(strokes), BORE[1] * stroke) if bore is None else (bore, bore)
-    heavy = CROSSHEAD_HEAVY if _has_crosshead(model) else PISTON[1]
-    least = PISTON[0] * (narrow * 1e-3) ** 3
-    most = heavy * (wide * 1e-3) ** 3
-    unit = f" kg at a stroke of {stroke:g} mm" if bore is None else f" kg in a bore of {bore:g} mm"
-    units = "are the units right? Bare numbers are kg and mm"
-    name = "the parts of [piston] weigh" if model.piston.mass is None else "piston.mass is"
-    if model.crosshead.mass:
-        name = "piston and crosshead weigh"
     if mass := _weigh_piston(model):
-        yield Figure(name, mass, least, most, unit, units)
+        yield _describe_piston(model, mass)
     if bore is not None:
         for each in dict.fromkeys(strokes):
-            yield Figure("piston.bore / crank.stroke is", bore / each, *BORE, "", SAME_UNIT)
+            subject = "bore / stroke is"
+            also = ("crank.stroke",)
+            yield Figure("piston.bore", bore / each, *BORE, "", SAME_UNIT, subject, also)
     most = OFFSET * stroke
-    yield Figure("piston.offset is", model.piston.offset, -most, most, " mm", "is it in mm?")
-    mean = stroke * speed / 30e3
-    right = "are operation.speed and crank.stroke right?"
-    yield Figure("the mean piston speed is", mean, 0, PISTON_SPEED, " m/s", right)
+    yield Figure("piston.offset", model.piston.offset, -most, most, " mm", "is it in mm?")
+    yield Figure(
+        path="operation.speed",
+        value=stroke * speed / 30e3,
+        least=0,
+        most=PISTON_SPEED,
+        unit=" m/s",
+        hint="are operation.speed and crank.stroke right?",
+        subject="the mean piston speed is",
+        also=("crank.stroke",),
+    )
     thousands = "a point separates decimals, not thousands"
-    yield Figure("operation.speed is", speed, SPEED, math.inf, " rpm", thousands)
+    yield Figure("operation.speed", speed, SPEED, math.inf, " rpm", thousands)
+
+
+def _describe_piston(model: EngineFile, mass: float) -> Figure:
+    """Return the mass of a piston with its crosshead, kg, and its usual range for the bore, or for
+    the bores that are usual with the strokes of the engine.
+    """
+    strokes = model.crank.strokes
+    bore = model.piston.bore
+    if bore is None:
+        narrow = BORE[0] * min(strokes)
+        wide = BORE[1] * max(strokes)
+        unit = f" kg at a stroke of {max(strokes):g} mm"
+    else:
+        narrow = bore
+        wide = bore
+        unit = f" kg in a bore of {bore:g} mm"
+    heavy = CROSSHEAD_HEAVY if _has_crosshead(model) else PISTON[1]
+    path = "piston.mass"
+    subject = ""
+    if model.piston.mass is None:
+        path = "piston.piston"
+        subject = "the parts of [piston] weigh"
+    if model.crosshead.mass:
+        subject = "piston and crosshead weigh"
+    return Figure(
+        path=path,
+        value=mass,
+        least=PISTON[0] * (narrow * 1e-3) ** 3,
+        most=heavy * (wide * 1e-3) ** 3,
+        unit=unit,
+        hint="are the units right? Bare numbers are kg and mm",
+        subject=subject,
+        also=_MASSES_OF_PISTON,
+    )
 
 
 def _list_rods(model: EngineFile) -> Iterator[Figure]:
@@ -236,21 +330,27 @@ def _list_rods(model: EngineFile) -> Iterator[Figure]:
     mass = _weigh_rod(model)
     piston = _weigh_piston(model)
     length = rod.length or (max(model.crank.strokes) / 2 / rod.ratio if rod.ratio else math.inf)
-    most = CROSSHEAD_LAMBDA if _has_crosshead(model) else LAMBDA[1]
-    meaning = "crank.stroke is twice the crank radius, rod.length the distance between its centres"
     for stroke in dict.fromkeys(model.crank.strokes) if rod.motion == "exact" else ():
-        ratio = rod.ratio or stroke / 2 / length
-        digits = count_lambda_digits(ratio)
-        yield Figure("crank radius / rod length is", ratio, LAMBDA[0], most, "", meaning, digits)
+        yield _describe_ratio(model, rod.ratio or stroke / 2 / length)
     if mass and piston:
-        name = f"the rod weighs {mass:.4g} kg,"
-        yield Figure(name, mass / piston, *ROD, " times the piston", SAME_UNIT)
+        yield Figure(
+            path="rod.small_end" if rod.mass is None else "rod.mass",
+            value=mass / piston,
+            least=ROD[0],
+            most=ROD[1],
+            unit=" times the piston",
+            hint=SAME_UNIT,
+            subject=f"the rod weighs {mass:.4g} kg,",
+            also=("rod.big_end", *_MASSES_OF_PISTON),
+        )
     if rod.small_end is not None and rod.big_end is not None:
         exchanged = "are small_end and big_end exchanged?"
-        yield Figure("rod.small_end is", rod.small_end, 0, SMALL_END * mass, " kg", exchanged)
+        also = ("rod.big_end",)
+        most = SMALL_END * mass
+        yield Figure("rod.small_end", rod.small_end, 0, most, " kg", exchanged, also=also)
     if rod.cg is not None:
         measured = f"it is measured from the big-end centre; the small end is at {length:g} mm"
-        yield Figure("rod.cg is", rod.cg, 0, SMALL_END * length, " mm", measured)
+        yield Figure("rod.cg", rod.cg, 0, SMALL_END * length, " mm", measured)
     if mass and rod.inertia is not None:
         least, most = (share * mass * length**2 for share in INERTIA)
         about = "it is taken about the centre of mass, in kg mm^2"
@@ -259,7 +359,22 @@ def _list_rods(model: EngineFile) -> Iterator[Figure]:
             if two_masses < rod.inertia <= most:
                 most = two_masses
                 about = "does it belong to this mass, cg and length?"
-        yield Figure("rod.inertia is", rod.inertia, least, most, " kg mm^2", about)
+        yield Figure("rod.inertia", rod.inertia, least, most, " kg mm^2", about)
+
+
+def _describe_ratio(model: EngineFile, ratio: float) -> Figure:
+    """Return the ratio of crank radius to rod length, and its usual range."""
+    return Figure(
+        path="rod.length" if model.rod.ratio is None else "rod.ratio",
+        value=ratio,
+        least=LAMBDA[0],
+        most=CROSSHEAD_LAMBDA if _has_crosshead(model) else LAMBDA[1],
+        unit="",
+        hint="crank.stroke is twice the crank radius, rod.length the distance between its centres",
+        subject="crank radius / rod length is",
+        also=("crank.stroke",) if model.rod.ratio is None else (),
+        digits=count_lambda_digits(ratio),
+    )
 
 
 def _list_cranks(model: EngineFile) -> Iterator[Figure]:
@@ -268,41 +383,63 @@ def _list_cranks(model: EngineFile) -> Iterator[Figure]:
     """
     crank = model.crank
     shares = model.bobweight
-    wheel = model.flywheel
     angles = crank.throws or (0.0,)
     if (span := max(angles) - min(angles)) >= THROWS[0]:
-        name = "crank.throws: the largest difference between two is"
-        yield Figure(name, span, THROWS[1], math.inf, " deg", DEGREES)
+        subject = "the largest difference between two is"
+        yield Figure("crank.throws", span, THROWS[1], math.inf, " deg", DEGREES, subject)
     if bank := model.layout.bank_angle:
-        yield Figure("layout.bank_angle is", bank, BANK, math.inf, " deg", RADIANS)
+        yield Figure("layout.bank_angle", bank, BANK, math.inf, " deg", RADIANS)
     throws, rods = _count_throws_and_rods(model)
     one = _weigh_piston(model) + _weigh_rod(model)
     radius = max(crank.strokes) / 2
     throw_mass = max(crank.throw_masses)
     if one:
         most = THROW * rods / throws * one
-        yield Figure("crank.throw_mass is", throw_mass, 0, most, " kg", OFF_AXIS)
+        yield Figure("crank.throw_mass", throw_mass, 0, most, " kg", OFF_AXIS)
+        most = BEARING * one
+        yield Figure("bobweight.rod_bearing", shares.rod_bearing, 0, most, " kg", GRAMS)
+        yield Figure("bobweight.oil", shares.oil, 0, most, " kg", GRAMS)
         per_rod = (shares.oil_per_pin or 0.0) * throws / rods
-        for key, mass in (
-            ("rod_bearing", shares.rod_bearing),
-            ("oil", shares.oil),
-            ("oil_per_pin, for each rod,", per_rod),
-        ):
-            yield Figure(f"bobweight.{key} is", mass, 0, BEARING * one, " kg", GRAMS)
+        yield Figure("bobweight.oil_per_pin", per_rod, 0, most, " kg for each rod", GRAMS)
     most = UNBALANCE * (throws * throw_mass + rods * one) * 1e3 * radius
     for number, weight in enumerate(model.counterweight if most else (), 1):
-        unbalance = weight.unbalance or (weight.mass or 0.0) * 1e3 * (weight.radius or 0.0)
-        name = f"counterweight.{number}: its unbalance is"
-        yield Figure(name, abs(unbalance), 0, most, " g mm", "is it in g mm?")
-    turning = {"crank": crank.inertia}
+        path = f"counterweight.{number}"
+        question = "is it in g mm?"
+        if weight.unbalance:
+            size = abs(weight.unbalance)
+            yield Figure(f"{path}.unbalance", size, 0, most, " g mm", question)
+        elif weight.mass and weight.radius:
+            size = weight.mass * 1e3 * weight.radius
+            subject = "mass times radius is"
+            also = (f"{path}.radius",)
+            yield Figure(f"{path}.mass", size, 0, most, " g mm", question, subject, also)
+    yield from _list_turning(model, least=TURNING * rods * one * radius**2)
+
+
+def _list_turning(model: EngineFile, least: float) -> Iterator[Figure]:
+    """Yield the inertias of crankshaft and flywheel.
+
+    Args:
+        model: Engine file.
+        least: Lower end of the usual range, kg mm2.
+    """
+    wheel = model.flywheel
+    turning = {"crank.inertia": model.crank.inertia}
     if wheel:
         arm = wheel.radius_of_gyration or 0.0
-        turning["flywheel"] = wheel.inertia or (wheel.mass or 0.0) * arm**2
-    least = TURNING * rods * one * radius**2
-    for name, inertia in turning.items():
+        turning["flywheel.inertia"] = wheel.inertia or (wheel.mass or 0.0) * arm**2
+    also = {"flywheel.inertia": ("flywheel.mass", "flywheel.radius_of_gyration")}
+    for path, inertia in turning.items():
         if inertia:
-            question = ask_unit("kg mm^2", f"{inertia:.4g} kg m^2")
-            yield Figure(f"{name}.inertia is", inertia, least, math.inf, " kg mm^2", question)
+            yield Figure(
+                path=path,
+                value=inertia,
+                least=least,
+                most=math.inf,
+                unit=" kg mm^2",
+                hint=ask_unit("kg mm^2", f"{inertia:.4g} kg m^2"),
+                also=also.get(path, ()),
+            )
 
 
 def _has_crosshead(model: EngineFile) -> bool:

@@ -33,6 +33,7 @@ from ..core.phasors import Array, Complex, unit, wrap_degrees
 from ..core.records import HIDDEN, INLINE, Polar, angle_deg
 from ..engine.engine import Engine, check_engine, refuse_geared, take_model
 from ..errors import MOMENTS_UNKNOWN, Argument, ArgumentError, InputError, Problem
+from ..file.doubts import Doubt
 from ..file.edit import set_keys, set_speed
 from ..file.fields import Number
 from ..file.locomotive_tables import FACTOR, Axle, Locomotive
@@ -151,15 +152,18 @@ class LocomotiveBalance(Result):
         return tuple(wheel for axle in self.axles for wheel in axle.wheels)
 
     @property
-    def doubts(self) -> tuple[str, ...]:
+    def doubts(self) -> tuple[Doubt, ...]:
         """Warnings of an uneven speed, and of cylinders that do not lie along the track."""
-        uneven = bool(take_model(self.engine).operation.speed_ripple)
+        found = []
+        if take_model(self.engine).operation.speed_ripple:
+            told = "has no effect, because the speed is taken as steady"
+            found.append(Doubt("operation.speed_ripple", told))
         aside = np.abs(wrap_degrees(self.engine.cylinders.axis_of_each_deg, 180))
-        each = sorted(zip(self.engine.numbers, aside.tolist(), strict=True))
-        far = (f"cylinder {n} is {deg:.4g} deg from the track" for n, deg in each if deg > 45)
-        ignored = ("operation.speed_ripple is ignored: the speed is taken as steady",) * uneven
-        along = "in a locomotive file x points along the track"
-        return (*ignored, *(f"{told}; {along}" for told in far))
+        for number, degrees in sorted(zip(self.engine.numbers, aside.tolist(), strict=True)):
+            if degrees > 45:
+                far = f"cylinder {number} is {degrees:.4g} deg from the track"
+                found.append(Doubt("", f"{far}; in a locomotive file x points along the track"))
+        return tuple(found)
 
 
 # ------------------------------------------------------------------ unbalances in the wheels

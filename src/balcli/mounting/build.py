@@ -21,7 +21,7 @@ from ..engine.figures import find_first_largest
 from ..engine.load import build_named
 from ..engine.parse import join_engines
 from ..errors import InputError, Problem
-from ..file.doubts import doubt_losses
+from ..file.doubts import Doubt, doubt_losses
 from ..file.fields import printable, shorten
 from ..file.model import EngineFile
 from ..file.mount_tables import Mount, Point
@@ -256,7 +256,7 @@ SAG_MOST = 200.0  # plausible travel under the weight, mm; rubber mounts: 1 to 2
 SMALL_BODY = 0.01  # least plausible ratio of radius of gyration to mount distance; usual: 0.2 to 1
 
 
-def read_mounted(path: str | Path) -> tuple[EngineFile, Engine | None, tuple[str, ...]]:
+def read_mounted(path: str | Path) -> tuple[EngineFile, Engine | None, tuple[Doubt, ...]]:
     """Return the file at a path (or standard input for "-"), its engine if it has one, and
     warnings.
 
@@ -268,7 +268,7 @@ def read_mounted(path: str | Path) -> tuple[EngineFile, Engine | None, tuple[str
     return check_mounted(read_tables(read_bytes(path), name, bare=True), name)
 
 
-def check_mounted(draft: Draft, name: str) -> tuple[EngineFile, Engine | None, tuple[str, ...]]:
+def check_mounted(draft: Draft, name: str) -> tuple[EngineFile, Engine | None, tuple[Doubt, ...]]:
     """Check the readable part of a file, and build its engine if it has one.
 
     Args:
@@ -292,7 +292,7 @@ def check_mounted(draft: Draft, name: str) -> tuple[EngineFile, Engine | None, t
     return draft.model, engine, (*doubts, *_find_doubts(draft.model))
 
 
-def _find_doubts(model: EngineFile) -> Iterator[str]:
+def _find_doubts(model: EngineFile) -> Iterator[Doubt]:
     """Yield warnings of impossible or unlikely figures of body and mounts, such as wrong units."""
     body = model.body
     mounts = model.mount
@@ -302,21 +302,24 @@ def _find_doubts(model: EngineFile) -> Iterator[str]:
     name, largest = max(moments.items(), key=lambda moment: moment[1])
     others = sum(moments.values()) - largest
     if largest > others:
-        yield (
-            f"body.inertia: {name} of {largest:g} exceeds the sum of the other two ({others:g}), "
-            "which is impossible; are the axes right? z is along the crankshaft"
+        told = (
+            f"{name} of {largest:g} exceeds the sum of the other two ({others:g}), which is "
+            "impossible; are the axes right? z is along the crankshaft"
         )
+        yield Doubt("body.inertia", told)
     across = math.sqrt(largest / body.mass)
     farthest = max(math.dist(mount.at, body.cg) for mount in mounts)
     if not SMALL_BODY * farthest <= across <= farthest / SMALL_BODY:
-        yield (
-            f"body.inertia: {name} of {largest:g} kg mm^2 is a radius of gyration of {across:.2g} "
-            f"mm, and the farthest mount is {farthest:.3g} mm away; are the units kg mm^2 and mm?"
+        told = (
+            f"{name} of {largest:g} kg mm^2 is a radius of gyration of {across:.2g} mm, and the "
+            f"farthest mount is {farthest:.3g} mm away; are the units kg mm^2 and mm?"
         )
+        yield Doubt("body.inertia", told)
     sag = STANDARD_GRAVITY * body.mass / sum(sum(mount.stiffness) / 3 for mount in mounts)
     if not SAG_LEAST <= sag <= SAG_MOST:
-        yield (
-            f"mount.stiffness: under its weight the body would sink by about {sag:.2g} mm, where "
-            f"{SAG_LEAST:g} to {SAG_MOST:g} mm is usual; {ask_unit('N/mm', '250 kN/m')}"
+        told = (
+            f"under its weight the body would sink by about {sag:.2g} mm, where {SAG_LEAST:g} to "
+            f"{SAG_MOST:g} mm is usual; {ask_unit('N/mm', '250 kN/m')}"
         )
+        yield Doubt("mount.stiffness", told, ("body.mass",))
     yield from doubt_losses("mount", mounts)

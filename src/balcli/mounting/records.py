@@ -17,6 +17,7 @@ from ..core.records import HIDDEN, Asked, Axes
 from ..core.vibration import Complex, Real
 from ..engine.engine import CylinderNumber
 from ..file.assumed import Assumed
+from ..file.doubts import Doubt
 from ..file.fields import printable
 from ..show.result import Result
 from ..sizing.remedy import Remedy
@@ -308,7 +309,7 @@ class MountReport(Result):
         return (*own, *(other.response for other in self.beside))
 
     @property
-    def doubts(self) -> tuple[str, ...]:
+    def doubts(self) -> tuple[Doubt, ...]:
         """Warnings of speeds for which the file gives no gas, and of the mount that travels most
         if its travel exceeds TRAVEL_MOST.
         """
@@ -330,4 +331,4 @@ class MountReport(Result):
             "usually allow 10 to 20 mm; are loss and damping right, and does the engine run at "
             "that speed, or only pass through it?"
         )
-        return (*of_gas, told)
+        return (*of_gas, Doubt("", told))

@@ -22,7 +22,6 @@ from ..errors import (
     name_option,
     note,
     say,
-    tell,
     warn,
 )
 from ..file.toml import find_near_file, name_file, read_bytes
@@ -32,6 +31,7 @@ from .values import parse_cylinder
 
 if TYPE_CHECKING:
     from ..engine.engine import Engine
+    from ..file.doubts import Doubt
     from ..file.model import EngineFile
 
 
@@ -105,15 +105,15 @@ def _tell_unknown(name: str, asked: Collection[str] | None) -> None:
         warn(f"{name}: {MOMENTS_UNKNOWN}")
 
 
-def warn_each(doubts: Iterable[str], name: str) -> None:
+def warn_each(doubts: Iterable[Doubt], name: str) -> None:
     """Print warnings about a file on standard error.
 
     Args:
-        doubts: Texts of the warnings.
+        doubts: Warnings.
         name: Name of the file.
     """
     for doubt in doubts:
-        warn(f"{name}: {tell(doubt, name_option)}")
+        warn(f"{name}: {doubt.tell(name_option)}")
 
 
 def try_each(

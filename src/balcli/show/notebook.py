@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from html import escape
 
 from ..engine.engine import Engine
+from ..file.doubts import Doubt
 from .engine_facts import engine_facts
 from .formats import Columns, Values
 from .sheet import NAMELESS, Column, Facts, Grid, Sheet, Text, number
@@ -38,18 +40,21 @@ def _write_ends(values: Values) -> list[str]:
     return [*map(number, values[:ENDS]), "...", *map(number, values[-ENDS:])]
 
 
-def html_text(sheet: Sheet, doubts: tuple[str, ...] = ()) -> str:
+def html_text(sheet: Sheet, doubts: Iterable[Doubt] = ()) -> str:
     """Return a sheet and doubts as HTML: tables and paragraphs without style, except left-aligned
     words.
 
     Args:
         sheet: Sheet to write.
-        doubts: Doubts about the result, in words.
+        doubts: Doubts about the result.
     """
     blocks = [_block(part) for part in sheet.parts]
-    if doubts:
-        blocks.append(_block(Text("Doubtful", doubts)))
-    return f"<div>\n<h4>{escape(sheet.title)}</h4>\n{''.join(blocks)}</div>"
+    lines = tuple(str(doubt) for doubt in doubts)
+    if lines:
+        blocks.append(_block(Text("Doubtful", lines)))
+    return f"<div>
+<h4>{escape(sheet.title)}</h4>
+{''.join(blocks)}</div>"
 
 
 def _block(part: Grid | Facts | Text) -> str:

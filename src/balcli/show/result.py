@@ -28,6 +28,8 @@ from .units import SI, SYSTEMS, System
 if TYPE_CHECKING:
     import pandas
 
+    from ..file.doubts import Doubt
+
 
 class Result:
     """A result that can be kept, shown and exported."""
@@ -38,7 +40,7 @@ class Result:
         return ""
 
     @property
-    def doubts(self) -> tuple[str, ...]:
+    def doubts(self) -> tuple[Doubt, ...]:
         """Warnings of possible but unlikely figures, which commands print on standard error.
         Warnings on the engine file belong to the engine.
         """

@@ -29,7 +29,7 @@ from ..engine.numbering import doubt_firing
 from ..engine.parse import read
 from ..errors import ArgumentError, BalcliError, InputError, check_type, naming_file
 from ..file.assumed import Assumed
-from ..file.doubts import find_suspicious
+from ..file.doubts import Doubt, find_suspicious, name_files
 from ..file.model import EngineFile
 from ..file.toml import name_file
 from ..forces.kinds import DEFAULT_QUANTITIES, GAS_KINDS
@@ -71,6 +71,18 @@ class Chunk(NamedTuple):
     values: list[Array]
 
 
+def _doubt_fixed(model: EngineFile, varied: Sequence[str]) -> Iterator[Doubt]:
+    """Yield the warnings of unlikely figures of a file that do not concern varied numbers.
+
+    Args:
+        model: File of a single engine.
+        varied: Names of the numbers that vary.
+    """
+    for doubt in (*find_suspicious(model), *doubt_firing(model)):
+        if not any(doubt.concerns(number) for number in varied):
+            yield doubt
+
+
 @dataclass(frozen=True)
 class Sweep:
     """A sweep: an engine file, the parameters that vary, and the requested quantities."""
@@ -98,19 +110,32 @@ class Sweep:
         return Evaluator(self.file, self.quantities)
 
     @property
-    def doubts(self) -> list[str]:
-        """Warnings of unlikely figures of the file. Figures that vary cause no warning."""
+    def doubts(self) -> tuple[Doubt, ...]:
+        """Warnings of unlikely figures of the file, and of speeds for which the file does not give
+        the gas. Figures that vary cause no warning.
+        """
+        varied = [parameter.path for parameter in self.parameters]
         with naming_file(self.name):
-            all_of_file = [
-                doubt
-                for crank in self.file.cranks
-                for doubt in (*find_suspicious(crank), *doubt_firing(crank))
-            ]
+            if self.file.engine:
+                found = name_files(self._doubt_geared(varied))
+            else:
+                found = tuple(_doubt_fixed(self.file, varied))
             if any(crank.gas is not None and crank.gas.speeds for crank in self.file.cranks):
                 speeds = self.figures.get(SPEED, self.file.operation.speed)
-                all_of_file += build(self.file).doubt_speeds(speeds)
-        varied = [p.path.rstrip(".0123456789") for p in self.parameters]
-        return [d for d in all_of_file if not any(one in d for one in varied)]
+                found += build(self.file).doubt_speeds(speeds)
+        return found
+
+    def _doubt_geared(self, varied: Iterable[str]) -> Iterator[tuple[str, Iterator[Doubt]]]:
+        """Yield the name of the file of each engine in [[engine]], and the doubts about this file.
+
+        Args:
+            varied: Names of the numbers that vary, such as `engine.1.rod.length`.
+        """
+        engines = zip(self.file.engine, self.file.cranks, strict=True)
+        for number, (table, crank) in enumerate(engines, 1):
+            start = f"engine.{number}."
+            own = [path.removeprefix(start) for path in varied if path.startswith(start)]
+            yield table.file, _doubt_fixed(crank, own)
 
     @cached_property
     def assumed(self) -> tuple[Assumed, ...] | None:

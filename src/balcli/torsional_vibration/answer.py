@@ -20,6 +20,7 @@ from ..engine.engine import CylinderNumber, Engine, take_model
 from ..engine.load import build_tables
 from ..errors import Argument, ArgumentError, check_type
 from ..file.assumed import Assumed
+from ..file.doubts import Doubt
 from ..file.fields import counted, order_number, printable
 from ..file.plain_tables import take_tables
 from ..file.units import SPEED, convert
@@ -181,7 +182,7 @@ class TorsionAnalysis(Result):
     system: Annotated[TorsionalSystem, HIDDEN]
 
     @property
-    def doubts(self) -> tuple[str, ...]:
+    def doubts(self) -> tuple[Doubt, ...]:
         """Warnings of shafts whose inertia is left out, of speeds for which the file describes no
         gas, of swings that are too large for the linear model, and of a stress that breaks a shaft.
         """
@@ -200,30 +201,34 @@ class TorsionAnalysis(Result):
         return f"of {self.name or 'a chain'}: modes at {modes} Hz"
 
 
-def _find_doubts(response: TorsionResponse) -> Iterator[str]:
+def _find_doubts(response: TorsionResponse) -> Iterator[Doubt]:
+    """Yield warnings of swings and stresses that are too large."""
     for each in response.pendulums or ():
         wide = each.worst.half_swing_deg
         if wide > WIDE_SWING:
-            yield (
+            told = (
                 f"the pendulums of {printable(each.node)} swing by {wide:.3g} deg at "
                 f"{each.worst.speed_rpm:.4g} rpm, but the computation assumes small swings; "
                 f"{wide / WIDE_SWING:.3g} times their mass would limit the swing to about "
                 f"{WIDE_SWING:.0f} deg"
             )
+            yield Doubt("", told)
     hardest = max(response.shafts, key=lambda each: each.worst.stress_Pa or 0.0, default=None)
     if hardest is not None and (stress := hardest.worst.stress_Pa or 0.0) > BREAKING:
-        yield (
+        told = (
             f"{printable(hardest.name)} has {stress / 1e6:.4g} N/mm² at "
             f"{hardest.worst.speed_rpm:.5g} rpm, more than any steel bears; check the damping "
             "(loss, damping) of all shafts and nodes"
         )
+        yield Doubt("", told)
     swing = response.free_end_worst
     if swing.half_swing_deg > ASTOUNDING:
-        yield (
+        told = (
             f"the free end swings by {swing.half_swing_deg:.4g} deg at {swing.speed_rpm:.5g} rpm, "
             "but the computation assumes small swings; is an inertia or the damping missing, or "
             "the speed too low?"
         )
+        yield Doubt("", told)
 
 
 def answer_question(

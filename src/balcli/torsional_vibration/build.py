@@ -27,6 +27,7 @@ from ..core.vibration import Real
 from ..engine.engine import Engine
 from ..errors import BalcliError, InputError, Problem
 from ..file.assumed import STEADY, Assumed, assume
+from ..file.doubts import Doubt
 from ..file.fields import counted, shorten
 from ..file.model import EngineFile
 from ..file.torsion_tables import (
@@ -167,7 +168,7 @@ def _find_stress(table: ShaftKeys) -> float:
     return find_shear_stress(outer, inner) if outer else 0.0
 
 
-def _doubt_light_shafts(chain: Chain, shafts: Sequence[PlannedShaft]) -> Iterator[str]:
+def _doubt_light_shafts(chain: Chain, shafts: Sequence[PlannedShaft]) -> Iterator[Doubt]:
     """Yield a warning of plain shafts without a density if their inertia would matter."""
     lost = np.array([find_shaft_inertia(each.table, STEEL) for each in shafts])
     lost[[each.table.density is not None for each in shafts]] = 0
@@ -175,12 +176,14 @@ def _doubt_light_shafts(chain: Chain, shafts: Sequence[PlannedShaft]) -> Iterato
     near = np.minimum(ends[chain.start] / chain.ratio**2, ends[chain.end])
     if heavy := np.flatnonzero(lost > _LIGHT * near).tolist():
         named = [shorten(shafts[k].name) for k in heavy]
-        named[_MOST_NAMED:] = ["..."] * (len(named) > _MOST_NAMED)
-        yield (
+        if len(named) > _MOST_NAMED:
+            named[_MOST_NAMED:] = ["..."]
+        told = (
             f"{counted(len(heavy), 'plain shaft')} without a density ({', '.join(named)}): their "
             f"inertia, {lost[heavy].sum():.4g} kg m2 in steel, is left out; density = {STEEL} "
             "(g/cm3) adds half of the inertia to the node at each end"
         )
+        yield Doubt("", told)
 
 
 # ------------------------------------------------------------------ a chain file

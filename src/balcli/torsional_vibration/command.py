@@ -75,6 +75,7 @@ def torsion(
     form = text_format(output, form)
     drawn = None if plot is None else picture_form(plot, "--plot")
     require_ending(write, ".toml", "--write")
+    from ..file.doubts import Doubt
     from . import answer, dampers, load, plot as picture, show as pages
 
     asked = answer.parse_question(speeds, holzer or (), damper, damper_at, damper_inertia, units)
@@ -89,7 +90,7 @@ def torsion(
         result = answer.answer_question(source, asked, tell)
     sized = result.damper if hasattr(result, "damper") else None
     doubts = (sized and sized.doubts) or ()
-    warn_each(doubts, "--damper")
+    warn_each([Doubt("", told) for told in doubts], "--damper")
     if doubts and damper_inertia is not None:
         warn("--damper-inertia without a unit is in kg mm2")
     warn_each(result.doubts, name_file(path))

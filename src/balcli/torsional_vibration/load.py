@@ -11,7 +11,7 @@ from ..engine.engine import Engine, refuse_geared
 from ..engine.load import build_named
 from ..engine.parse import parse
 from ..errors import ArgumentError
-from ..file.doubts import doubt_losses, walk_figures
+from ..file.doubts import Doubt, doubt_losses, walk_figures
 from ..file.messages import CHAIN, ENGINE, refuse_other_kind
 from ..file.model import EngineFile
 from ..file.plain_tables import list_tables
@@ -52,7 +52,7 @@ class Source(NamedTuple):
     """
 
     text: bytes
-    doubts: tuple[str, ...]
+    doubts: tuple[Doubt, ...]
     system: Callable[[Mapping[str, Damper | None]], TorsionalSystem]
     dampers: Mapping[str, Damper | None]
     engine: Engine | None = None
@@ -68,13 +68,13 @@ def make_chain_source(
     return Source(text, doubts, partial(build_chain, model, name, orders), dampers)
 
 
-def _doubt_units(model: ChainFile) -> Iterator[str]:
+def _doubt_units(model: ChainFile) -> Iterator[Doubt]:
     """Yield warnings of inertias and diameters that were probably meant in kg m2 and m."""
     units = {"inertia": "kg mm^2", "diameter": "mm"}
     for path, key, value in walk_figures("", list_tables(model)):
         if key in units and value < _SMALL:
             larger = ask_unit(units[key], f"{value:.4g} {units[key].replace('mm', 'm')}")
-            yield f"{path} is {value:.4g} {units[key]}; {larger}"
+            yield Doubt(path, f"{value:.4g} {units[key]}; {larger}")
 
 
 def load_source(path: str, orders: Real | None = None, misfires: Sequence[str] = ()) -> Source:

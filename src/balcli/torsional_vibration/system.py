@@ -15,6 +15,7 @@ from ..core.vibration import Complex, Indices, Real
 from ..engine.engine import NONE_SILENT, SilentCylinders
 from ..errors import BalcliError
 from ..file.assumed import Assumed
+from ..file.doubts import Doubt
 from ..forces.spectrum import GasAtSpeeds
 from .chain import Chain, Damping, find_pieces, pendulum_inertia, pendulum_swing, viscous_inertia
 
@@ -109,7 +110,7 @@ class TorsionalSystem:
     angle_limit: float | None = None
     last: int = -1
     ends: tuple[int, int] = (0, -1)
-    doubts: tuple[str, ...] = ()
+    doubts: tuple[Doubt, ...] = ()
     rated_rpm: float | None = None
     reference: int = 0
     silent: SilentCylinders = NONE_SILENT

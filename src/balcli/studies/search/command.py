@@ -180,9 +180,9 @@ def search(
     with naming_file(name):
         engine = build.build(model)
         unlikely = *engine.unlikely, *engine.doubt_speeds(engine.speed_rpm)
-    varied = [text.partition("=")[0] for text in over]
+    varied = designs.list_paths(model, over)
     for doubt in unlikely:
-        if not any(path in doubt for path in varied):
+        if not any(doubt.concerns(path) for path in varied):
             warn_each([doubt], name)
     if write is not None:
         refuse_leaving_files(text, path, write)

@@ -37,7 +37,7 @@ from ...forces.kinds import GAS_KINDS
 from ...forces.quantity import Quantity
 from ...limits import MOST_DESIGNS_ONE_BY_ONE
 from ...process import Tell
-from ..parameters import tell_variant
+from ..parameters import find_numbers, resolve_name, tell_variant
 from ..quantities import AnyQuantity, Evaluator, parse_quantities
 
 # A design: the values that differ from the file, by a key of PATHS or the dotted name of a number.
@@ -67,6 +67,18 @@ class Found:
     design: Annotated[Design, INLINE]
     objective: float
     quantities: Mapping[str, float]
+
+
+def list_paths(model: EngineFile, over: Iterable[str]) -> list[str]:
+    """Return the dotted names of what a search varies.
+
+    Args:
+        model: Engine file.
+        over: Arrangements (`throws`), and numbers with a range (`rod.length=150:170`).
+    """
+    known = find_numbers(model)
+    names = [text.partition("=")[0].strip() for text in over]
+    return [PATHS.get(name) or resolve_name(name, known) for name in names]
 
 
 def list_changes(design: Design) -> dict[str, object]:
