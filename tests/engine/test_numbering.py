@@ -357,7 +357,7 @@ def test_cylinders_that_fire_together_on_a_given_crank(order, throws, banks, int
     starts = [sum(intervals[:k]) for k in range(len(intervals))]
     assert list(engine.fires_deg.values()) == pytest.approx(starts)
     assert Assumed("layout.firing_intervals", tuple(intervals), "deg") in (engine.list_assumed() or ())
-    assert any(doubt.startswith(f"layout.firing_order: {words}") for doubt in engine.doubts)
+    assert any(str(doubt).startswith(f"layout.firing_order: {words}") for doubt in engine.doubts)
     given = tables(order, None, throws=throws, **layout, firing_intervals=intervals)
     assert not load(given).doubts
 
