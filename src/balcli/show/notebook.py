@@ -52,9 +52,7 @@ def html_text(sheet: Sheet, doubts: Iterable[Doubt] = ()) -> str:
     lines = tuple(str(doubt) for doubt in doubts)
     if lines:
         blocks.append(_block(Text("Doubtful", lines)))
-    return f"<div>
-<h4>{escape(sheet.title)}</h4>
-{''.join(blocks)}</div>"
+    return f"<div>\n<h4>{escape(sheet.title)}</h4>\n{''.join(blocks)}</div>"
 
 
 def _block(part: Grid | Facts | Text) -> str:
