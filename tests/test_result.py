@@ -49,6 +49,7 @@ ANSWERS: dict[str, tuple[Callable[[], Result], str]] = {
         lambda: balcli.mounts(load("i4_mounts"), SPEEDS, orders=[2]),
         "mounts i4_mounts --speeds 1500,2000 --orders 2",
     ),
+    "SchemeComparison": (lambda: balcli.compare_schemes(load("i4")), "balance i4 --scheme all"),
     "Scatter": (
         lambda: balcli.scatter(load("i4"), SPREAD, mass_scatter=0.01, samples=100, seed=1),
         f"scatter i4 -q {SPREAD} --mass-scatter 1% --samples 100 --seed 1",

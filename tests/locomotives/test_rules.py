@@ -142,7 +142,7 @@ def test_a_speed_that_is_given_holds_before_that_of_the_file(of_file, given, wan
 )
 def test_a_cylinder_more_than_45_deg_from_the_track_is_doubted(degrees, doubted):
     doubts = balance(layout={"banks": [degrees]}).doubts
-    assert [doubt.partition(" is ")[0] for doubt in doubts] == (["cylinder 1", "cylinder 2"] if doubted else [])
+    assert [doubt.message.partition(" is ")[0] for doubt in doubts] == (["cylinder 1", "cylinder 2"] if doubted else [])
 
 
 @pytest.mark.parametrize("speed", [0, -1])

@@ -368,7 +368,7 @@ _RESPELT: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     (r"[\uff01-\uff5e\u3380-\u33df\u00a0\u2007\u2009\u202f]", _spell_wide),
     (r"⁻?[⁰¹²³⁴⁵⁶⁷⁸⁹]+", _spell_exponent),
     (r".+", _spell_signs),
-    (r"(?i)\br\.p\.m\.?", "rpm"),
+    (r"(?i)(?<![^\W\d_])r\.p\.m\.?", "rpm"),
     (r"(?i)\blong tons?\b", "long_ton"),
     (r"M(?:PA|pa)\b", "MPa"),
     (r"(?<=[^\W\d_])\.(?=\s*$|/)", ""),  # "3.5 in.", "об./мин"
