@@ -76,14 +76,13 @@ def _row(name: str) -> Row:
     file, engine = _load(name)
     found = find_textbook(engine, np.array(ORDERS, float), ("force", "moment"))
     vectors = found.reciprocating.vectors()
-    axes = [
-        axis[k] / size if axis[k] else 0.0
-        for k, order in enumerate(ORDERS)
-        for kind, phasors in vectors
-        for size in (found.units.size(kind, order),)
-        for axis in (phasors.major, phasors.minor)
-    ]
-    return (name, file.name, len(engine.numbers), *map(float, axes))
+    axes = []
+    for k, order in enumerate(ORDERS):
+        for kind, phasors in vectors:
+            unit = found.units.size(kind, order)
+            for axis in (phasors.major[k], phasors.minor[k]):
+                axes.append(float(axis / unit) if axis else 0.0)
+    return (name, file.name, len(engine.numbers), *axes)
 
 
 TABLES: dict[str, Callable[[Print, Ranges], Table]] = {

@@ -85,9 +85,12 @@ def describe_limit(broken: BrokenLimit) -> str:
     """Return a quantity and the limit that it breaks: `moment.1.major is 523 N·m; limit: below 500
     N·m`.
     """
-    limits = {"above": broken.above, "below": broken.below}
-    listed = [f"{word} {given(limit)}" for word, limit in limits.items() if limit is not None]
-    wanted = _with_unit(" and ".join(listed), broken.unit)
+    limits = []
+    if broken.above is not None:
+        limits.append(f"above {given(broken.above)}")
+    if broken.below is not None:
+        limits.append(f"below {given(broken.below)}")
+    wanted = _with_unit(" and ".join(limits), broken.unit)
     if broken.value is None:
         return f"{broken.quantity} has no value; limit: {wanted}"
     value = _with_unit(given(broken.value), broken.unit)
@@ -210,11 +213,12 @@ def _group(engines: Iterable[CheckedEngine]) -> list[tuple[Cause, list[CheckedEn
     groups: list[tuple[Cause, list[CheckedEngine]]] = []
     for engine in engines:
         cause = find_cause(engine)
-        members = next((group for known, group in groups if known == cause), None)
-        if members is None:
-            groups.append((cause, [engine]))
+        for other, members in groups:
+            if other == cause:
+                members.append(engine)
+                break
         else:
-            members.append(engine)
+            groups.append((cause, [engine]))
     return groups
 
 
@@ -232,17 +236,26 @@ def _list_cause(cause: Cause, engines: Sequence[CheckedEngine]) -> Iterator[str]
     if cause.fault is not None:
         yield f"  {names}"
         return
-    every = [(engine, each) for engine in engines for each in engine.differences]
-    yield f"  {names}: {_count([each for _, each in every])}"
-    engine, most = max(every, key=lambda pair: _rank(pair[1]))
-    yield f"  most: {engine.engine}: {describe_difference(most)}"
+    every = [difference for engine in engines for difference in engine.differences]
+    yield f"  {names}: {_count(every)}"
+    worst = max(engines, key=_rank_largest)  # the first of several
+    yield f"  most: {worst.engine}: {describe_difference(_find_largest(worst))}"
+
+
+def _find_largest(checked: CheckedEngine) -> Difference:
+    """Return the largest difference of an engine; the first of several."""
+    return max(checked.differences, key=_rank)
+
+
+def _rank_largest(checked: CheckedEngine) -> tuple[bool, float]:
+    return _rank(_find_largest(checked))
 
 
 def summarize(checked: CheckedEngine) -> list[str]:
     """Return up to two lines about the changed figures of an engine."""
     if checked.fault is not None:
         return []
-    most = max(checked.differences, key=_rank)
+    most = _find_largest(checked)
     if len(checked.differences) == 1:
         return [describe_difference(most)]
     return [_count(checked.differences), f"most: {describe_difference(most)}"]
@@ -275,7 +288,7 @@ def count_engines(checked: Sequence[CheckedEngine]) -> str:
         **_count_troubles(checked),
     }
     if not any(others.values()):
-        return f"{total}, {'all ' if len(compared) > 1 else ''}as recorded"
+        return f"{total}, all as recorded" if len(compared) > 1 else f"{total}, as recorded"
     counts = {"as recorded": len(compared) - len(changed)} | others
     advice = "; check --update records what is wanted" if others["changed"] else ""
     return f"{total}: {_join_counts(counts)}{advice}"
