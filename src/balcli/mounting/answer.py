@@ -105,8 +105,10 @@ def report_mounts(
     response = found.pop(0) if found else None
     forces, travel = settle(mounted, response.loads.mean if response else 0.0)
     rest = (mounted.names, drop_rounding(forces), drop_rounding(1e3 * travel))
-    met = list_meetings(modes, response.loads, response.speeds_rpm) if response else []
-    meetings = [(k, Meeting(order_number(order), rpm)) for k, order, rpm in met]
+    meetings: list[list[Meeting]] = [[] for _ in modes.each]  # by mode
+    if response is not None:
+        for k, order, met_rpm in list_meetings(modes, response.loads, response.speeds_rpm):
+            meetings[k].append(Meeting(order_number(order), met_rpm))
     stiffness = modes.stiffness.real
     centre = elastic_centre(stiffness, mounted.body.centre)
     farthest = np.abs(mounted.dynamic.at).max(initial=0.0)
@@ -114,8 +116,7 @@ def report_mounts(
         name=title,
         assumed=_list_assumed(model, [*first, *others], without=idle),
         modes=tuple(
-            mode._replace(meets=tuple(one for n, one in meetings if n == k))
-            for k, mode in enumerate(modes.each)
+            mode._replace(meets=tuple(met)) for mode, met in zip(modes.each, meetings, strict=True)
         ),
         roll_axis=drop_rounding(roll_axis(mounted.body)),
         elastic_centre_mm=1e3 * drop_rounding(centre, farthest),
