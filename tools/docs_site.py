@@ -17,19 +17,20 @@ from typing import Any
 
 from docs_examples import ROOT, Shown, blocks, printed, project
 
-from balcli import __version__
 from balcli.engine.build import build
 from balcli.engine.parse import parse
 from balcli.file import examples
 from balcli.report.live import describe_engine, explain_still, make_book
-from balcli.report.page import load_template
+from balcli.report.page import find_answers, page
 from balcli.show.units import SI
+from balcli.sizing.options import SchemeOptions
 
 PAGES = {  # of the repository's root, by their names on the site
     "CHANGELOG.md": "changelog.md",
     "CONTRIBUTING.md": "contributing.md",
     "SECURITY.md": "security.md",
 }
+FIRST = "i3"  # engine that the page of all examples shows at first
 NOTEBOOKS = sorted((ROOT / "docs" / "notebooks").glob("*.ipynb"))
 # what wants a space behind it, and primes, which browsers would raise and make small twice
 FUNCTION = r"(<mi>(?:sin|cos|tan)</mi>|<msup><mi>(?:sin|cos|tan)</mi><mn>\d</mn></msup>)"
@@ -138,19 +139,15 @@ def _write_formula(found: re.Match[str]) -> str:
 def make_play_page() -> str:
     """Return a page on which the reader chooses an example engine and changes its numbers."""
     engines = {}
+    engines_of_files = {}
     for name in examples.names():
         text = examples.text(name)
         model = parse(text, str(examples.locate(name)))
         engine = build(model)
+        engines_of_files[name] = model
         if not explain_still(engine):
             engines[name] = describe_engine(model, engine, text)
-    return load_template().render(
-        whole=False,
-        live=make_book(engines, SI, choice="vtwin45"),
-        still="",
-        title="Change an engine and see its balance",
-        version=__version__,
-        verdict=None,
-        scene=None,
-        **dict.fromkeys(("mounts", "torsion", "running", "loci")),
-    )
+    model = engines_of_files[FIRST]
+    first = build(model)
+    found = find_answers(model, first, None, "auto", SchemeOptions(), FIRST)
+    return page(found, SI, make_book(engines, choice=FIRST), f"{FIRST}.toml", docs="index.html")

@@ -15,6 +15,7 @@ from balcli.core.phasors import Phasors
 from balcli.core.records import to_document
 from balcli.engine.load import vary_engine
 from balcli.forces.spectrum import Spectra
+from balcli.report.live import describe_look
 from balcli.report.page import scene
 from balcli.report.pages import PageSubject, make_page
 from balcli.report.study import Study
@@ -141,12 +142,12 @@ def test_the_verdict_names_the_direction(kind, axis_deg, up, words):
 def test_the_page_of_a_report_stands_upright():
     """All that is drawn of an engine that is turned as a whole is drawn as before."""
     each = [analyze(build_text(leaning(turn, turn))) for turn in (0.0, 30.0)]
-    upright, turned = (scene(one, {"as drawn": one}, SI) for one in each)
-    assert turned["axes"] == ("vertical", "horizontal")
-    for key in ("cylinders", "variants"):
-        for a, b in zip(upright[key], turned[key], strict=True):
-            assert _numbers(b) == pytest.approx(_numbers(a), abs=1e-9)
-    assert scene(analyze(build_text(leaning(0))), {}, SI)["axes"] == ("x", "y")
+    upright, turned = (scene(one.engine)["cylinders"] for one in each)
+    for a, b in zip(upright, turned, strict=True):
+        assert _numbers(b) == pytest.approx(_numbers(a), abs=1e-9)
+    assert describe_look(each[1].engine)["axes"] == ("vertical", "horizontal")
+    assert describe_look(each[1].engine)["up"] == 30
+    assert describe_look(build_text(leaning(0)))["axes"] == ("x", "y")
 
 
 def _numbers(entry: object) -> list[float]:

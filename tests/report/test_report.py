@@ -2,6 +2,7 @@
 
 import json
 import re
+import xml.etree.ElementTree as ET
 from contextlib import nullcontext
 from functools import cache
 from html.parser import HTMLParser
@@ -10,7 +11,7 @@ import numpy as np
 import pytest
 from support.browser import live
 from support.cases import slow
-from support.commands import ask
+from support.commands import ask, run_python
 from support.engines import GOOD, RADIAL, build_text, changed
 from support.paths import ENGINES, write
 from support.pictures import without_pictures
@@ -19,6 +20,7 @@ from balcli.analysis.answer import analyze
 from balcli.balancing.answer import balance
 from balcli.forces.kinds import KINDS
 from balcli.report.page import Answers, page
+from balcli.show.sheet import number
 from balcli.show.units import IMPERIAL, SI
 
 HOSTILE = "</script><script>alert('name')</script><img src=x onerror=alert(1)> & \"quoted\" {{ 7 * 7 }} 发动机"
@@ -65,19 +67,15 @@ def printed_report(name: str) -> str:
         return ask("report", ENGINES / f"{name}.toml", "-o", "-")
 
 
-def test_a_moving_curve_has_no_second_picture():
-    """The locus turns with the crank, of the engine as it is and with its devices; the picture stands still where no
-    script runs.
-    """
-    balanced = balance(engine := build_text(GOOD), "two-shaft")
-    text = page(Answers(analyze(engine), balanced), SI)
-    moving = re.sub("<noscript>.*?</noscript>", "", text, flags=re.S)
-    for after in ("", "-after"):
-        assert f'id="spectrum-force{after}-figure_1"' in text
-        assert f'id="polar-force{after}-figure_1"' not in moving
-    assert 'id="polar-force-figure_1"' in text
-    assert 'id="curves-force-figure_1"' in text
-    assert 'id="stars-' in text
+def test_a_page_without_torsion_needs_no_library_of_pictures(tmp_path):
+    file = write(tmp_path / "engine.toml", GOOD)
+    code = (
+        "import sys; from balcli.cli import main; sys.argv = ['balcli', 'report', sys.argv[1], sys.argv[2]]\n"
+        "try: main()\nexcept SystemExit: pass\nassert 'matplotlib' not in sys.modules"
+    )
+    done = run_python("-c", code, str(file), str(tmp_path / "page.html"))
+    assert done.returncode == 0, done.stderr
+    assert (tmp_path / "page.html").stat().st_size <= 220_000
 
 
 @pytest.mark.parametrize("pictures", [False, *slow(True)])
@@ -91,12 +89,10 @@ def test_a_hostile_name_stays_text(pictures):
 def test_imperial_units_reach_everything():
     with without_pictures():
         text = report(GOOD, system=IMPERIAL)
-    scene = json.loads(re.search(r'id="scene">(.*?)</script>', text, re.S)[1])
-    unit = scene["units"]["force"]
-    assert (unit["name"], unit["thousand"]) == ("lbf", "")
-    second = next(row for row in scene["variants"][0]["force"] if row[0] == 2)
-    force = analyze(build_text(GOOD)).spectra.force.select_orders([2])
-    assert second[1] == pytest.approx(float(force.forward[0].real) / 4.4482216152605, rel=1e-12)
+    data = json.loads(re.search(r'id="page">(.*?)</script>', text, re.S)[1])
+    assert data["units"]["force"] == {"name": "lbf", "size": pytest.approx(4.4482216152605)}
+    assert "force, lbf" in text
+    assert "N·m" not in re.sub("<script.*?</script>", "", text, flags=re.S)
 
 
 @pytest.mark.stress
@@ -130,19 +126,21 @@ def numbers(browser, selector: str, *attributes: str) -> list[float]:
 
 @live
 def test_the_keyboard_moves_the_vector(show):
-    """Arrow keys on the slider; the vector's tip is the force, x up and y to the right."""
+    """Arrow keys on the slider; the dot on the path is the force as drawn, x up and y to the right."""
     page = show()
-    page.run("angle.focus()")
+    page.run("document.querySelector('#steps input').click(), angle.value = 0, angle.focus()")
     for _ in range(3):
         page.press("ArrowRight", 39)
     assert page.run("angle.value") == "3"
     curve = analyze(build_text(GOOD)).spectra.force
-    y, x = numbers(page, "#force-vector", "x2", "y2")
-    forces = [float(abs(curve.values(np.radians(t)))) for t in (0, 3)]
-    assert abs(y) < 1e-6
-    turn(page, 0)
-    assert numbers(page, "#force-vector", "y2")[0] / x == pytest.approx(forces[0] / forces[1], rel=1e-4)
-    assert float(page.read("force-now").split()[0]) == pytest.approx(forces[0], rel=1e-3)
+    forces = [float(curve.values(np.radians(theta)).real) for theta in (0, 3)]
+    heights = []
+    for theta in (3, 0):
+        turn(page, theta)
+        x, y = numbers(page, "#path-force .shake", "cx", "cy")
+        assert x == pytest.approx(150)
+        heights.insert(0, 150 - y)
+    assert heights[0] / heights[1] == pytest.approx(forces[0] / forces[1], rel=1e-4)
 
 
 @live
@@ -173,26 +171,47 @@ def test_the_rods_keep_their_length_and_pistons_are_where_the_engine_has_them(sh
 
 
 @live
-def test_orders_are_switched(show):
-    page = show()
-    before = numbers(page, "#force-vector", "y2")
-    page.run("for (const box of document.querySelectorAll('[name=order]')) if (box.value !== '4') box.click()")
-    fourth = page.read("force-now")
-    page.run("document.querySelector('[name=order][value=\"4\"]').click()")
-    assert before != [0]
-    force = analyze(build_text(GOOD)).spectra.force.select_orders([4])
-    assert float(fourth.split()[0]) == pytest.approx(float(force.major[0]), rel=1e-3)
-    assert page.read("force-now") == "balanced"
+def test_the_fitted_engine_shakes_less(show):
+    """The devices of the chosen step are drawn, and the key figures are those of its row."""
+    page, ladder = show(), balance(build_text(GOOD)).ladder
+    page.run("document.querySelectorAll('#steps input')[2].click()")
+    step = ladder.steps[2]
+    unit = SI.force.fit(ladder.steps[0].peak_force_N)
+    assert number(unit.of(ladder.steps[0].peak_force_N)) in page.read("key-large")
+    assert number(unit.of(step.peak_force_N)) in page.read("key-large")
+    assert page.run("document.querySelectorAll('#end .weight').length") == len(step.remedy.devices)
+    assert "with step 2" in page.read("key-with")
 
 
 @live
-def test_the_fitted_engine_shakes_less(show):
+def test_what_is_written_of_the_file_is_what_the_page_writes(show):
+    """Drawn anew after a change that was taken back, the tables are those that Python wrote."""
+    page = show(GOOD)
+    tables = "['ladder-table', 'largest-list'].map(id => document.getElementById(id).outerHTML.replace(/\\n/g, ''))"
+    before = page.run(tables)
+    page.run("Page.show(Page.ofFile, { scene: null, changed: true })")
+    page.run("new Promise(done => setTimeout(done, 300))")
+    assert [re.sub(' class="sel"| class=""', "", text) for text in page.run(tables)] == [
+        re.sub(' class="sel"| class=""', "", text) for text in before
+    ]
+
+
+@live
+def test_a_chart_is_saved_with_its_colours_and_figures(show):
+    """As SVG with colours written out, as a picture, and as a table with units."""
     page = show()
-    page.run("document.querySelectorAll('[name=variant]')[2].click()")
-    after = balance(build_text(GOOD)).after
-    force = float(abs(after.spectra.force.values(0.0)))
-    assert float(page.read("force-now").split()[0]) == pytest.approx(force, rel=1e-3)
-    assert page.run("document.querySelectorAll('#end .weight').length") == len(after.engine.devices)
+    written = ET.fromstring(page.run("Charts.writeSvg(document.getElementById('bars-force'))"))
+    bars = [each for each in written.iter() if each.tag.endswith("rect") and each.get("height") == "10"]
+    assert {each.get("fill").split("(")[0] for each in bars} == {"rgb", "url"}
+    assert not any(each.get("class") for each in written.iter())
+    page.run("HTMLAnchorElement.prototype.click = function () {}")
+    assert page.run("Charts.savePng(document.getElementById('bars-force'), 'x.png')") > 2000
+    page.run("window.kept = [], URL.createObjectURL = (blob) => { kept.push(blob); return 'blob:x'; }")
+    page.run("[...document.querySelectorAll('#path button')].find(each => each.textContent === 'CSV').click()")
+    head, *rows = page.run("kept[0].text()").splitlines()
+    assert head.startswith('"crank angle, deg","as drawn: force along x, force, N"')
+    force = analyze(build_text(GOOD)).spectra.force
+    assert float(rows[30].split(",")[1]) == pytest.approx(float(force.values(np.radians(30)).real))
 
 
 @live
@@ -204,7 +223,7 @@ def test_play_and_pause_by_keyboard(show):
     page.press(" ", 32, " ")
     reached = float(page.run("angle.value"))
     page.run("new Promise((done) => setTimeout(done, 200))")
-    assert 5 < reached < 90
+    assert reached != 0
     assert float(page.run("angle.value")) == reached
 
 
@@ -219,7 +238,7 @@ def test_light_and_dark_and_in_print(show):
     dark = page.run(paper)
     assert dark == changed != white
     page.call("Emulation.setEmulatedMedia", media="print", features=[{"name": "prefers-color-scheme", "value": "dark"}])
-    assert page.run("getComputedStyle(document.querySelector('.controls')).display") == "none"
+    assert page.run("getComputedStyle(document.querySelector('.acts')).display") == "none"
     assert page.run(paper) == white
     page.call("Emulation.setEmulatedMedia", media="")
 
@@ -229,7 +248,7 @@ def test_light_and_dark_and_in_print(show):
     [
         ("i4_wiebe", ('id="torque-curve"', "Gas torque")),
         ("i6_diesel", ('id="torsion"',)),
-        ("i4_mounts", ("rocking", "On its mounts")),
+        ("i4_mounts", ('id="rocking"', "On its mounts")),
     ],
 )
 def test_a_chapter_is_in_the_page_of_an_engine_that_has_it(name, signs):
@@ -250,18 +269,17 @@ def test_torque_and_pressure_run_with_the_crank():
     assert torque["total"][0] == pytest.approx(torque["total"][-1], abs=1e-3)
 
 
-def test_the_page_switches_between_the_steps_of_the_ladder():
-    """And shows their table; with another scheme also the engine with its devices."""
+def test_the_page_has_the_steps_of_the_ladder():
+    """With their devices; another scheme is one more choice."""
     engine, ladder = build_text(GOOD), balance(build_text(GOOD)).ladder
-    names = [f"{k} {step.step}" for k, step in enumerate(ladder.steps)]
     assert "What balances it, step by step" in report(GOOD)
     for scheme, more in (("auto", []), ("two-shaft", ["scheme two-shaft"])):
-        balanced = balance(engine, scheme)
-        with without_pictures():
-            text = page(Answers(analyze(engine), balanced), SI)
-        variants = json.loads(re.search(r'id="scene">(.*?)</script>', text, re.S)[1])["variants"]
-        assert [variant["label"] for variant in variants] == names + more
-        for variant, step in zip(variants, ladder.steps, strict=False):
-            assert len(variant["devices"]) == len(step.remedy.devices)
-        second = [next(row for row in variant["force"] if row[0] == 2)[1] for variant in variants]
-        assert second[0] == second[1] > 100 > 1e-6 > abs(second[2])
+        text = page(Answers(analyze(engine), balance(engine, scheme)), SI)
+        figures = json.loads(re.search(r'id="figures">(.*?)</script>', text, re.S)[1])
+        steps = figures["ladder"]["steps"]
+        assert [step["step"] for step in steps] == [step.step for step in ladder.steps]
+        assert [len(step["devices"]) for step in steps] == [len(step.remedy.devices) for step in ladder.steps]
+        extra = [step["step"] for step in figures["page"]["extra"]]
+        assert [name for name in extra if name.startswith("scheme")] == more
+        (second,) = (change for change in steps[2]["changes"] if change["order"] == 2)
+        assert np.abs(second["force"]).max() < 1e-6

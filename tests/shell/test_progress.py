@@ -119,7 +119,6 @@ LONG = {
     "mounts": ("mounts", ENGINES / "i4_mounts.toml"),
     "torsion": ("torsion", ENGINES / "i6_diesel.toml", "--speeds", "1000:1200:10"),
     "damper": ("torsion", ENGINES / "i6_diesel.toml", "--speeds", "1000:2500:500", "--damper", "viscous"),
-    "report": ("report", ENGINES / "single.toml", "-o", "x.html"),
 }
 
 

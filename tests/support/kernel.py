@@ -6,8 +6,7 @@ import numpy as np
 
 from balcli.analysis.answer import analyze
 from balcli.limits import SMALL
-from balcli.report.live import make_book
-from balcli.show.units import SI
+from balcli.report.live import describe_limits
 
 VECTORS = ("force_N", "moment_Nm")
 SCALARS = ("couple_Nm", "inertia_torque_Nm", "roll_Nm")
@@ -16,7 +15,7 @@ WANTED = ("force", "moment", "couple", "torque", "roll", "peak", "ladder")
 
 def compute(browser, engines, small=SMALL):
     """What the kernel makes of engines: pairs of the page's data and numbers."""
-    limits = make_book({}, SI, small=small)["limits"]
+    limits = describe_limits(small)
     browser.run(f"window.asked = {json.dumps(engines)}, window.limits = {json.dumps(limits)}, 0")
     make = "const e = Kernel.assemble(d, n); return Kernel.describe(e, Kernel.findLadder(e, limits), limits, [...Array(13).keys()]);"
     return json.loads(browser.run(f"JSON.stringify(asked.map(([d, n]) => {{ {make} }}))"))
@@ -77,7 +76,7 @@ def differing(own, step, scale):
             yield name
 
 
-UNTOLD = {"step", "inner_moment_Nm", "pru_Nm_per_kW", "devices"}  # these are not figures of both
+UNTOLD = {"step", "inner_moment_Nm", "pru_Nm_per_kW", "devices", "changes"}  # these are not figures of both
 
 
 def list_names(steps):

@@ -92,12 +92,12 @@ def _parts(result: Analysis, system: System, view: View) -> Iterator[Part]:
             yield speed_facts(result.engine, steady=view.parts <= {*STEADY})
         yield from assumed_facts(result.assumed)
     if not view.parts <= TABLES or not view.parts:
-        yield from _judge(result, system)
+        yield from lay_out_verdict(result, system)
     if view.parts or view.whole:
         yield from _chosen_order_parts(result, system, view)
     else:
         yield from _order_parts_in_brief(result, system, view)
-    yield from _tell_uncounted(result)
+    yield from tell_uncounted(result)
     if hasattr(result, "cylinders"):
         about_crank = view.whole or bool(view.parts)
         for share in result.cylinders:
@@ -163,6 +163,16 @@ def _chosen_order_parts(result: Analysis, system: System, view: View) -> Iterato
 
 def _order_parts_in_brief(result: Analysis, system: System, view: View) -> Iterator[Part]:
     """Yield a table of force and moment, and lines on roll and peaks."""
+    yield from lay_out_orders(result, system, view)
+    yield from lay_out_couple(result, system)
+    facts = roll_and_peaks(result, system, every_order=view.every_order)
+    if facts.pairs:
+        yield facts
+    yield from gas_grid(result.spectra, system, tell_pivot(result.engine), view)
+
+
+def lay_out_orders(result: Analysis, system: System, view: View) -> Iterator[Grid]:
+    """Yield the table of force and moment by order, if one of them was computed."""
     spectra = result.spectra.with_moment_if(result.moments_known)
     vectors = spectra.only([kind.name for kind in FREE])
     shown = list(map(float, vectors.orders))
@@ -170,17 +180,17 @@ def _order_parts_in_brief(result: Analysis, system: System, view: View) -> Itera
         shown = find_orders_that_matter(vectors, result.of_one_cylinder)
     if vectors.vectors():
         yield vectors_grid(vectors, shown, system, hints=view.hints)
+
+
+def lay_out_couple(result: Analysis, system: System) -> Iterator[Grid]:
+    """Yield the table of the transverse couple by order, if it is not negligible."""
     couple = select_couple(result.spectra.couple, result.scales)
     if couple is not None:
         alone = Spectra(couple.orders, kinds={COUPLE.name: couple})
         yield from order_tables(alone, system, tell_pivot(result.engine))
-    facts = roll_and_peaks(result, system, every_order=view.every_order)
-    if facts.pairs:
-        yield facts
-    yield from gas_grid(result.spectra, system, tell_pivot(result.engine), view)
 
 
-def _tell_uncounted(result: Analysis) -> Iterator[Text]:
+def tell_uncounted(result: Analysis) -> Iterator[Text]:
     """Yield a note if the speed is uneven and the file gives no inertia that resists it."""
     engine = result.engine
     shown = result.spectra.only((COUPLE.name, TORQUE.name)).scalars()
@@ -188,7 +198,7 @@ def _tell_uncounted(result: Analysis) -> Iterator[Text]:
         yield Text("Note", (_UNCOUNTED,))
 
 
-def _judge(result: Analysis, system: System) -> Iterator[Text]:
+def lay_out_verdict(result: Analysis, system: System) -> Iterator[Text]:
     """Yield the verdict. If moments are not known, it covers only forces and states this."""
     if not hasattr(result, "verdict"):
         return

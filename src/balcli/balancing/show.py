@@ -80,27 +80,44 @@ def sheet(result: Balance, system: System) -> Sheet:
     if hasattr(result, "ladder"):
         usual = remedy.scheme == "auto"  # other schemes do not fit a step of the ladder
         parts.append(ladder_grid(result.ladder, engine, system, tell_fitted=usual))
-    if change := tell_change(result, system):
-        parts.append(Text("", (change,)))
-    parts += _lay_out_devices(result, system)
-    if notes := tuple(filter(None, _list_notes(result, system))):
-        parts.append(Text("Note", notes))
-    if not result.before.moments_known:
-        parts.append(Text("Forces only", (sentence(MOMENTS_UNKNOWN),)))
-    parts += [*_permitted(result, system), *details_parts(result, system)]
+    parts += lay_out_remedy(result, system)
     changes = [*_orders(result, system), *_peaks(result, system), *_crank_loads(loads, system)]
     parts += changes or [Text("Before and after", ("Nothing changes by 1 % or more.",))]
     return Sheet(f"{engine.name or NAMELESS}: {_name_fitted(remedy)}", tuple(parts))
 
 
-def _lay_out_devices(result: Balance, system: System) -> Iterator[Grid | Facts | Text]:
+def lay_out_remedy(
+    result: Balance, system: System, *, with_table: bool = True
+) -> Iterator[Grid | Facts | Text]:
+    """Yield devices with reasons, figures for the workshop, notes and details.
+
+    Args:
+        result: Balance to show.
+        system: System of units.
+        with_table: Whether to include the table of devices.
+    """
+    if change := tell_change(result, system):
+        yield Text("", (change,))
+    yield from _lay_out_devices(result, system, with_table=with_table)
+    if notes := tuple(filter(None, _list_notes(result, system))):
+        yield Text("Note", notes)
+    if not result.before.moments_known:
+        yield Text("Forces only", (sentence(MOMENTS_UNKNOWN),))
+    yield from _permitted(result, system)
+    yield from details_parts(result, system)
+
+
+def _lay_out_devices(
+    result: Balance, system: System, *, with_table: bool
+) -> Iterator[Grid | Facts | Text]:
     """Yield the devices with their reasons, and their figures for the workshop."""
     remedy = result.remedy
     if remedy.reasons and not remedy.devices and not remedy.beyond:
         yield Text("Changes and reasons", remedy.reasons)
     elif remedy.reasons:
         yield Text("Fitted devices and reasons", tuple(dict.fromkeys(remedy.reasons)))
-        yield device_grid(remedy, system)
+        if with_table:
+            yield device_grid(remedy, system)
         yield practical_grid(remedy, result.practical, system)
         if any(figures.holes for figures in result.practical):
             yield holes_grid(remedy, result.practical, result.tools, system)

@@ -24,7 +24,6 @@ from ..shell.options import (
     parse_speed,
 )
 from ..shell.output import emit, refuse_overwriting
-from ..shell.progress import reporting
 from ..shell.scheme_options import choose_scheme, parse_scheme_options
 from ..shell.values import optional
 from ..show.formats import Units
@@ -88,10 +87,9 @@ def report(
     found = pages.find_answers(model, engine, asked, scheme, options, name_file(path))
     system = SYSTEMS[units]
     share = options.read_small()
-    book = live.describe_one(model, engine, system, text.decode(), name_file(path), share)
-    with reporting("pictures") as tell:
-        page = pages.page(found._replace(cylinder=cylinder), system, book, tell)
-    emit(page, output)
+    name = name_file(path)
+    book = live.describe_one(model, engine, text.decode(), name, share)
+    emit(pages.page(found._replace(cylinder=cylinder), system, book, name, share), output)
 
 
 def complete_pages(typed: str) -> list[str]:

@@ -55,9 +55,10 @@ from ..limits import (
     WORTH_A_SHAFT_OF_ORDER_1,
     WORTH_A_SHAFT_OF_ORDER_2,
 )
+from ..show.engine_facts import engine_facts
 from ..show.figures import clean
-from ..show.sheet import sentence
-from ..show.units import ShownUnit, System
+from ..show.sheet import NEGLIGIBLE, sentence
+from ..show.units import SI, ShownUnit, System
 from ..sizing.fitting import LEFT
 from ..studies.parameters import find_places
 
@@ -92,6 +93,8 @@ _NEW = {  # keys of a new device with their units, limits and initial values
         "at.2": _NEW_LENGTH,
     },
 }
+# Facts that the page computes; it has the words of the others.
+_COMPUTED = ("cylinders", "crank", "throws", "speed", "masses", "devices")
 _OF_ROD = ("mass", "cg", "length", "ratio", "small_end", "big_end", "inertia")
 
 
@@ -151,11 +154,15 @@ def describe_engine(model: EngineFile, engine: Engine, text: str) -> Node:
         "start": {} if speed == model.operation.speed else {SPEED: speed},
         "frees": _free_throws(model, parts),
         "known": engine.places_known,
-        "gas": engine.gas is not None,
+        "look": describe_look(engine),
         "strokes": engine.strokes,
+        "fires": [*engine.fires_deg] if engine.fires_deg else None,
+        "facts": [
+            (name, "" if name in _COMPUTED else text)
+            for name, text in engine_facts(engine, SI, whole=False).pairs
+        ],
         "gasOrders": _list_orders_of_gas(engine),
         "up": engine.up_deg,
-        "axes": ("x", "y") if engine.up_deg is None else FORCE.upright,
         "bore": clean(engine.bore_m * 1e3),
         "reference": model.frame.reference,
         "numbers": numbers,
@@ -165,7 +172,6 @@ def describe_engine(model: EngineFile, engine: Engine, text: str) -> Node:
             {
                 "number": cell.number,
                 "throw": cell.throw,
-                "bank": cell.bank,
                 "axis": forms["axis"][k],
                 "lead": forms["lead"][k],
                 "z": forms["z"][k],
@@ -180,7 +186,6 @@ def describe_engine(model: EngineFile, engine: Engine, text: str) -> Node:
 def describe_one(
     model: EngineFile,
     engine: Engine,
-    system: System,
     text: str,
     name: str = "",
     small: float = SMALL,
@@ -191,7 +196,6 @@ def describe_one(
     Args:
         model: Engine file.
         engine: Engine of the file.
-        system: Units of the drawings.
         text: Text of the file.
         name: Name of the file; empty if unknown.
         small: Share of one cylinder's first order below which a force or moment is ignored.
@@ -199,12 +203,11 @@ def describe_one(
     if explain_still(engine):
         return None
     engines = {"": describe_engine(model, engine, text)}
-    return make_book(engines, system, Path(name).name, small=small)
+    return make_book(engines, Path(name).name, small=small)
 
 
 def make_book(
     engines: Mapping[str, Node],
-    system: System,
     file: str = "",
     *,
     choice: str = "",
@@ -214,7 +217,6 @@ def make_book(
 
     Args:
         engines: Engines from `describe_engine`, by key.
-        system: Units of the drawings.
         file: Name of the file; empty if unknown.
         choice: Initial engine if the reader can choose among several; empty if there is one engine.
         small: Share of one cylinder's first order below which a force or moment is ignored.
@@ -222,36 +224,70 @@ def make_book(
     units = {}
     for dimension, others in _UNITS.items():
         units[dimension.unit] = {unit: convert(f"1 {unit}", dimension) for unit in others}
-    shown = {}
-    for kind in FREE:
-        unit = system.unit(kind)
-        shown[kind.name] = {**name_unit(unit), "size": unit.size}
     return {
         "engines": engines,
         "file": file.removesuffix(".toml"),
         "source": file if file.endswith(".toml") else "",
         "choice": choice,
-        "limits": {
-            "small": small,
-            "shown": SHOWN,
-            "rounding": LEFT,
-            "worth1": WORTH_A_SHAFT_OF_ORDER_1,
-            "worth2": WORTH_A_SHAFT_OF_ORDER_2,
-            "fewest": FEWEST_CYLINDERS_COUNTED,
-            "likely": LIKELY,
-            "worthNaming": WORTH_NAMING,
-        },
+        "limits": describe_limits(small),
         "options": "" if small == SMALL else f" --small {100 * small:g}%",
-        "unknown": sentence(MOMENTS_UNKNOWN),
         "devices": _NEW,
         "units": units,
-        "show": shown,
     }
 
 
-def name_unit(unit: ShownUnit) -> Node:
-    """Return the names of a unit and of its thousandfold (empty if the unit is not SI)."""
-    return {"name": unit.name, "thousand": f"k{unit.name}" if unit.size == 1 else ""}
+def describe_page(engine: Engine, system: System, file: str, small: float) -> Node:
+    """Return what charts and tables of the page need beside the figures.
+
+    Args:
+        engine: Engine of the page.
+        system: Units of figures and pictures.
+        file: Name of the engine file; empty if unknown.
+        small: Share of one cylinder's first order below which a force or moment is ignored.
+    """
+    units = ("force", "moment", "mass", "length", "volume", "unbalance")
+    return {
+        "file": Path(file).name,
+        "units": {name: _describe_unit(getattr(system, name)) for name in units},
+        "limits": describe_limits(small),
+        "look": describe_look(engine),
+        "unknown": sentence(MOMENTS_UNKNOWN),
+    }
+
+
+def describe_look(engine: Engine) -> Node:
+    """Return the direction that is drawn upwards, the names of directions, and whether the engine
+    has gas.
+    """
+    return {
+        "up": engine.up_deg,
+        "names": {kind.name: kind.name_components(engine.up_deg) for kind in FREE},
+        "axes": ("x", "y") if engine.up_deg is None else FORCE.upright,
+        "gas": engine.gas is not None,
+    }
+
+
+def describe_limits(small: float) -> Node:
+    """Return the limits that the page shares with the command."""
+    return {
+        "small": small,
+        "shown": SHOWN,
+        "rounding": LEFT,
+        "worth1": WORTH_A_SHAFT_OF_ORDER_1,
+        "worth2": WORTH_A_SHAFT_OF_ORDER_2,
+        "fewest": FEWEST_CYLINDERS_COUNTED,
+        "likely": LIKELY,
+        "worthNaming": WORTH_NAMING,
+        "negligible": NEGLIGIBLE,
+    }
+
+
+def _describe_unit(unit: ShownUnit) -> Node:
+    """Return a unit with the larger units that take its place for large values."""
+    found: Node = {"name": unit.name, "size": unit.size}
+    if unit.larger is not None:
+        found |= {"larger": _describe_unit(unit.larger), "most": unit.most}
+    return found
 
 
 def _list_numbers(model: EngineFile) -> Iterator[Node]:

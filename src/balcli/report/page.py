@@ -5,11 +5,10 @@ and pressure over the cycle.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from html import escape
-from itertools import product
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -18,74 +17,62 @@ import tomli_w
 
 from ..analysis import show as analysis
 from ..analysis.answer import Analysis, analyze
+from ..analysis.curves import compute_cylinder_curves
+from ..analysis.devices_show import device_grid
+from ..analysis.ladder_show import ladder_grid
+from ..analysis.order_tables import gas_grid
+from ..analysis.overview import roll_and_peaks
+from ..analysis.piston import choose_unit
 from ..balancing import show as balancing
 from ..balancing.answer import Balance, balance
-from ..core.cylinders import Device, DeviceKind
 from ..core.mechanisms.linkage import Articulated, Rotary
-from ..core.phasors import Array, Phasors, unit
+from ..core.phasors import Array
 from ..core.records import Node
 from ..crank_torque.answer import choose_firing_cylinder
-from ..engine.engine import Engine, take_model
+from ..engine.engine import Engine, find_row, take_model
 from ..errors import BalcliError, name_option, warn
-from ..file.fields import order_number
 from ..file.model import EngineFile
 from ..forces.curves import find_torque_curves
-from ..forces.kinds import FORCE, FREE, MOMENT
 from ..forces.spectrum import take_gas
+from ..limits import SMALL
 from ..mounting import show as mounts
 from ..mounting.answer import report_mounts
 from ..mounting.records import MountReport
 from ..mounting.rigid_body import PROJECTION, find_corners
-from ..process import Tell, tell_nobody
+from ..show.engine_facts import engine_facts, tell_pivot
 from ..show.figures import clean
 from ..show.plot_style import inline_svg, save_figure
-from ..show.sheet import NEGLIGIBLE, ON_A_PAGE
-from ..show.units import SI, ShownUnit, System
+from ..show.sheet import NAMELESS, ON_A_PAGE, Facts, Grid, Text
+from ..show.units import SI, System
+from ..sizing.ladder import find_ladder
 from ..sizing.options import SchemeOptions
 from ..torsional_vibration import plot as twisting, show as torsion
 from ..torsional_vibration.answer import TorsionAnalysis, TorsionQuestion, answer_question
 from ..torsional_vibration.load import make_source
 from ..torsional_vibration.quantity import choose_torsion_speeds
 from ..version import __version__
-from .live import describe_one, explain_still, name_unit
+from .figures import describe_figures
+from .live import describe_one, describe_page, explain_still
 from .names import OF_TORSION
-from .pages import PageSubject, draw_panel, make_page
-from .study import Study, analyze_steps, compute_study
 
 if TYPE_CHECKING:
     from jinja2 import Template
 
 
-_YOKE = 3  # drawn distance from pin to piston in harmonic motion, in crank radii
-_SHAFT_WIDTH = 1.6  # width of a shaft in the picture, in crank radii
 ASSUMED_BORE = 0.95  # bore over stroke for drawing pistons if the file gives no bore
 
 
-def scene(now: Analysis, shown: Mapping[str, Analysis], system: System) -> Node:
-    """Return the data of the moving drawings: the mechanism, and forces and moments of each variant
-    in `shown`. If the file gives `frame.up`, the drawings are turned so that this direction is up.
+def scene(engine: Engine) -> Node:
+    """Return the mechanism for the moving drawing. If the file gives `frame.up`, the drawing is
+    turned so that this direction is up.
     """
-    engine = now.engine
     stroke = 2e3 * float(engine.cylinders.radius.max())
-    bore = clean(engine.bore_m * 1e3) or ASSUMED_BORE * stroke
-    units = {}
-    for kind in FREE:
-        unit = system.unit(kind)
-        least = unit.of(NEGLIGIBLE * now.of_one_cylinder[kind.name])
-        units[kind.name] = {**name_unit(unit), "least": least}
-    orders = []
-    for order in now.orders:
-        if any(_shakes(variant, order) for variant in shown.values()):
-            orders.append(order_number(order))
+    bore = clean(engine.bore_m * 1e3)
     return {
         "stroke": stroke,
-        "bore": bore,
+        "bore": bore or ASSUMED_BORE * stroke,
         "rotary": isinstance(engine.cylinders.linkage, Rotary),
-        "axes": ("x", "y") if engine.up_deg is None else FORCE.upright,
         "cylinders": _cylinder_entries(engine),
-        "variants": [_variant_entry(*variant, system, bore) for variant in shown.items()],
-        "units": units,
-        "orders": orders,
     }
 
 
@@ -119,82 +106,7 @@ def _cylinder_entries(engine: Engine) -> list[Node]:
     return entries
 
 
-def _variant_entry(label: str, result: Analysis, system: System, bore: float) -> Node:
-    turn = -(result.engine.up_deg or 0.0)
-    entry: Node = {"label": label, "force": [], "moment": []}
-    for kind, phasors in result.spectra.vectors():
-        if result.moments_known or kind is not MOMENT:
-            entry[kind.name] = _vector_rows(phasors.turn(turn), system.unit(kind))
-    drawn = place_beside(result.engine, bore / 1e3)
-    entry["devices"] = []
-    for k, device in enumerate(result.engine.devices):
-        entry["devices"].append(_device_entry(device, drawn.get(k), turn))
-    return entry
-
-
-def _vector_rows(phasors: Phasors, unit: ShownUnit) -> list[list[float]]:
-    """Return a row for each order: the order, forward x and y, backward x and y."""
-    forward = phasors.forward / unit.size
-    backward = phasors.backward / unit.size
-    parts = (phasors.orders, forward.real, forward.imag, backward.real, backward.imag)
-    rows: list[list[float]] = (np.stack(parts, axis=-1) + 0.0).tolist()
-    return rows
-
-
-def place_beside(engine: Engine, bore: float) -> dict[int, complex]:
-    """Return positions next to the engine, by device index, for shafts that would be drawn within
-    the circle of the crank pins. The real part of a position is upwards, the imaginary part to the
-    right, m. Shafts that turn with the crank are to the right of the engine, others to its left.
-
-    Args:
-        bore: Cylinder bore, m.
-    """
-    c = engine.cylinders
-    r = float(c.radius.max())
-    leans = np.radians(c.axis_of_each_deg - (engine.up_deg or 0.0))
-    rods = np.where(c.lam == 0, _YOKE * c.radius, c.rod_length)
-    across = np.sin(leans)
-    reach = c.radius + rods + bore
-    width = float(np.max(np.abs(across) * reach + (1 - np.abs(across)) * bore, initial=1.5 * r))
-    places: dict[int, complex] = {}
-    rows: dict[tuple[int, bool], int] = {}  # by order and direction: place on its side, downwards
-    for k, device in enumerate(engine.devices):
-        if device.kind is not DeviceKind.SHAFT or abs(complex(device.place)) >= r:
-            continue
-        ahead = bool(device.forward)
-        row = rows.setdefault((device.order, ahead), sum(way == ahead for _, way in rows))
-        side = 1 if ahead else -1
-        places[k] = complex(-_SHAFT_WIDTH * r * row, side * (width + r))
-    return places
-
-
-def _device_entry(device: Device, drawn: complex | None, turn_deg: float) -> Node:
-    """Return a device for the page, turned by `turn_deg`: unbalance in g mm, position in mm. If
-    `drawn` is given, the picture shows the device there instead of at its true position.
-    """
-    vectors = np.array([device.forward, device.backward, device.place])
-    forward, backward, place = (unit(turn_deg) * vectors).tolist()
-    place = place if drawn is None else drawn
-    return {
-        "order": order_number(device.order),
-        "forward": [forward.real * 1e6, forward.imag * 1e6],
-        "backward": [backward.real * 1e6, backward.imag * 1e6],
-        "at": [place.real * 1e3, place.imag * 1e3],
-        "z": float(device.z) * 1e3,
-        "beside": drawn is not None,
-    }
-
-
-def _shakes(result: Analysis, order: float) -> bool:
-    vectors = (phasors for _, phasors in result.spectra.vectors())
-    return any(np.any((p.orders == order) & ~p.balanced) for p in vectors)
-
-
 FOLDER = Path(__file__).with_name("assets")
-_PICTURES = tuple(product(("force", "moment", "about"), ("spectrum", "curves")))
-_COMPARED = (("force", "spectrum"), ("moment", "spectrum"))
-# Pictures for a browser without JavaScript.
-_STILL = (("force", "polar"), ("moment", "polar"))
 
 
 class Answers(NamedTuple):
@@ -230,7 +142,7 @@ def find_answers(
     Raises:
         BalcliError: The scheme does not fit the engine.
     """
-    result = analyze(engine, orders)
+    result = analyze(engine, orders, small=options.read_small())
     balanced = balance(engine, scheme, options, orders)
     mounted = twisted = None
     if model.body:
@@ -254,7 +166,12 @@ def _warning(chapter: str) -> Iterator[None]:
 
 
 def page(
-    answers: Answers, system: System, live: Node | None = None, tell: Tell = tell_nobody
+    found: Answers,
+    system: System,
+    live: Node | None = None,
+    file: str = "",
+    small: float = SMALL,
+    docs: str = "",
 ) -> str:
     """Return the page of an engine: forces and moments, devices of a balance scheme, vibration on
     mounts, torsional vibration, and gas. All text from the engine file is escaped.
@@ -262,53 +179,72 @@ def page(
     Args:
         answers: Results to show.
         system: Units of figures and pictures.
-        live: Data of the panel of numbers, from `live.make_book`; None: no panel.
-        tell: Progress callback; it receives the share of the pictures that are drawn.
+        live: Data for changing numbers, from `live.make_book`; None: nothing can be changed.
+        file: Name of the engine file; empty if unknown.
+        small: Share of one cylinder's first order below which a force or moment is ignored.
+        docs: Address of the documentation, to which the name of the program links; empty: no link.
 
     Raises:
         BalcliError: The engine does not have the cylinder whose piston is wanted.
     """
-    result, balanced, mounted, twisted, cylinder = answers
-    own = analysis.sheet(result, system, ON_A_PAGE)
-    remedy = balancing.sheet(balanced, system)
-    quantities = ["force", "about"]
-    if result.moments_known:
-        quantities.append("moment")
-    compared = _COMPARED if balanced.remedy.reasons else ()
-    now = PageSubject(Study(result), system)
-    after = PageSubject(Study(balanced.after, balanced.before, balanced.remedy), system)
-    drawn = None
-    stars = ""
-    loci: list[str] = []
-    if not result.engine.placed:  # a mechanism of several cranks is not drawn
-        drawn = scene(result, _list_variants(result, balanced), system)
-        stars = _draw_page(PageSubject(compute_study(result.engine, "stars"), system), "stars")
-        loci = _draw_panels(now, _STILL, quantities)
-    pictures = _draw_panels(now, _PICTURES, quantities)
-    tell(0.7)
-    pictures_after = _draw_panels(after, compared, quantities)
-    tell(1.0)
+    result, balanced, mounted, twisted, cylinder = found
+    engine = result.engine
+    drawn = None if engine.placed else scene(engine)  # several cranks are not drawn
+    motion = None if cylinder is None else trace_piston(engine, cylinder, system)
     return load_template().render(
-        whole=True,
         live=live,
-        still=explain_still(result.engine),
-        title=own.title,
+        still=explain_still(engine),
+        title=engine.name or NAMELESS,
         version=__version__,
-        facts=own.parts[0],
-        verdict=next((part for part in own.parts if part.title == "Verdict"), None),
-        figures=[part for part in own.parts[1:] if part.title != "Verdict"],
-        remedy=remedy.parts,
+        docs=docs,
+        file=Path(file).name or "the file",
+        parts=lay_out(result, balanced, system),
+        data=describe_page(engine, system, file, small),
+        figures=describe_figures(result, balanced, small),
         scene=drawn,
-        pictures=pictures,
-        stars=stars,
-        piston=None if cylinder is None else _draw_page(now, "piston", cylinder),
-        compared=pictures_after,
-        loci=loci,
-        running=running(result.engine, system) if result.engine.gas and drawn else None,
+        running=running(engine, system) if engine.gas and drawn else None,
+        motion=motion,
         mounts=None if mounted is None else mounts.sheet(mounted, system),
         rocking=None if mounted is None else rocking(mounted),
         torsion=None if twisted is None else torsion.sheet(twisted, system),
         twists=() if twisted is None else _draw_torsion(twisted, system),
+    )
+
+
+class PageParts(NamedTuple):
+    """Parts of the page that the command prints as well; None: the engine has no such part."""
+
+    facts: Facts
+    verdict: Text | None
+    orders: Grid
+    couple: Grid | None
+    largest: Facts
+    gas: Grid | None
+    ladder: Grid
+    devices: Grid
+    remedy: list[Grid | Facts | Text]
+    others: list[Text]
+
+
+def lay_out(result: Analysis, balanced: Balance, system: System) -> PageParts:
+    """Return the parts of the page that the command prints as well."""
+    engine = result.engine
+    pivot = tell_pivot(engine)
+    every = hasattr(balanced, "every_order") and balanced.every_order
+    view = ON_A_PAGE._replace(every_order=every)
+    ladder = getattr(balanced, "ladder", None) or find_ladder(engine)
+    usual = balanced.remedy.scheme == "auto"
+    return PageParts(
+        facts=engine_facts(engine, system, whole=False),
+        verdict=next(analysis.lay_out_verdict(result, system), None),
+        orders=next(analysis.lay_out_orders(result, system, view)),
+        couple=next(analysis.lay_out_couple(result, system), None),
+        largest=roll_and_peaks(result, system, every_order=every),
+        gas=next(gas_grid(result.spectra, system, pivot, view), None),
+        ladder=ladder_grid(ladder, engine, system, tell_fitted=usual),
+        devices=device_grid(balanced.remedy, system),
+        remedy=list(balancing.lay_out_remedy(balanced, system, with_table=False)),
+        others=list(analysis.tell_uncounted(result)),
     )
 
 
@@ -330,31 +266,9 @@ class Explorer:
 def explore(engine: Engine) -> Explorer:
     """Return the page of an engine for a notebook (`api.Engine.explore`)."""
     model = take_model(engine)
-    answers = find_answers(model, engine, None, "auto", SchemeOptions(), engine.name or "engine")
-    live = describe_one(model, engine, SI, tomli_w.dumps(engine.to_dict()), engine.name)
-    return Explorer(page(answers, SI, live))
-
-
-def _list_variants(result: Analysis, balanced: Balance) -> dict[str, Analysis]:
-    """Return the analyses to show, by label: the engine with the devices of each step of the ladder
-    (balancing in steps), or as in the file if there is no ladder; and with the scheme's devices, if
-    the scheme is not a step.
-    """
-    remedy = balanced.remedy
-    shown = {"as in the file": result}
-    is_row = False
-    if hasattr(balanced, "ladder"):
-        shown = analyze_steps(balanced.before.engine, balanced.ladder, result.orders)
-        is_row = any(step.remedy.devices == remedy.devices for step in balanced.ladder.steps)
-    if remedy.reasons and not is_row:
-        shown[f"scheme {remedy.scheme}"] = balanced.after
-    return shown
-
-
-def _draw_page(subject: PageSubject, what: str, cylinder: int = 1) -> str:
-    """Return a page of pictures as SVG."""
-    figure = make_page(replace(subject, cylinder=cylinder), what, titled=False)
-    return inline_svg(save_figure(figure, "svg"), what)
+    found = find_answers(model, engine, None, "auto", SchemeOptions(), engine.name or "engine")
+    live = describe_one(model, engine, tomli_w.dumps(engine.to_dict()), engine.name)
+    return Explorer(page(found, SI, live, engine.name))
 
 
 def _draw_torsion(twisted: TorsionAnalysis, system: System) -> Iterator[str]:
@@ -362,18 +276,6 @@ def _draw_torsion(twisted: TorsionAnalysis, system: System) -> Iterator[str]:
     for what in OF_TORSION:
         figure = twisting.make_torsion(twisted, what, system, titled=False)
         yield inline_svg(save_figure(figure, "svg"), f"torsion-{what}")
-
-
-def _draw_panels(
-    subject: PageSubject, panels: Sequence[tuple[str, str]], quantities: Collection[str]
-) -> list[str]:
-    """Return pictures as SVG. A quantity without a picture has a single panel, at the end, with
-    words in place of the picture.
-    """
-    words = {quantity: subject.find_words(quantity) for quantity in quantities}
-    shown = [(what, name) for name, what in panels if name in quantities and not words[name]]
-    worded = {name: (what, name) for name, what in reversed(panels) if words.get(name)}
-    return [draw_panel(subject, *panel) for panel in (*shown, *worded.values())]
 
 
 def load_template() -> Template:
@@ -442,6 +344,33 @@ def running(engine: Engine, system: System) -> Node:
         unit = system.pressure.fit(float(own.max()))
         shown.append({"id": "pressure", "unit": unit.name, "total": _rounded(own / unit.size)})
     return {"cycle": gas.cycle_deg, "step": _STEP, "cylinder": number, "curves": shown}
+
+
+_MOTIONS = {  # titles, by names of curves
+    "travel_m": "Travel from the outer dead centre",
+    "velocity_m_per_s": "Velocity towards the crank",
+    "acceleration_m_per_s2": "Acceleration towards the crank",
+}
+
+
+def trace_piston(engine: Engine, number: int, system: System) -> Node:
+    """Return travel, velocity and acceleration of a piston over the crank angle from its cylinder's
+    axis, at equal steps, with units.
+
+    Raises:
+        BalcliError: The engine has no such cylinder.
+    """
+    steady = replace(engine, ripple=())
+    row = find_row(engine, number)
+    own_deg = np.arange(0.0, 360 + _STEP / 2, _STEP)
+    turned = own_deg - float(np.ravel(engine.cylinders.angle_deg)[row])
+    curves = compute_cylinder_curves(steady, number, turned)
+    shown: list[Node] = []
+    for name, title in _MOTIONS.items():
+        unit = choose_unit(name, system)
+        values = _rounded(curves[name] / unit.size)
+        shown.append({"id": name, "title": title, "unit": unit.name, "total": values})
+    return {"cylinder": number, "curves": shown}
 
 
 def _rounded(values: Array) -> list[float]:

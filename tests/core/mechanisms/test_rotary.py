@@ -4,13 +4,11 @@ import numpy as np
 import pytest
 from support.engines import GNOME, rotary_engine
 
-from balcli.analysis.answer import analyze
 from balcli.balancing.answer import balance_knuckles
 from balcli.engine import parse as enginefile
 from balcli.errors import BalcliError, InputError
 from balcli.forces.spectrum import compute_spectra
 from balcli.report.page import scene
-from balcli.show.units import SYSTEMS
 
 
 def test_one_cylinder_has_a_first_order_force_of_its_mean_distance():
@@ -58,7 +56,7 @@ def test_knuckles_are_not_for_rotary_engines():
 
 def test_the_page_has_the_knuckle_pins_of_turning_cylinders():
     """As seen from the cylinder, in the mirror."""
-    drawn = scene(analyze(rotary_engine(more=ARTICULATED)), {}, SYSTEMS["si"])["cylinders"]
+    drawn = scene(rotary_engine(more=ARTICULATED))["cylinders"]
     third = next(c for c in drawn if c["number"] == 3)
     assert third["lead"] == pytest.approx(-720 / 7)
     assert third["knuckle"] == pytest.approx([48 * np.cos(4 * np.pi / 7), -48 * np.sin(4 * np.pi / 7)])

@@ -4,7 +4,7 @@
 // [x, y]; SI units and radians unless a name says mm or deg.
 const Kernel = (() => {
   const TURN = 2 * Math.PI, SAMPLES = 256, ORDERS = 12, ROUNDING = 4e-15, NONE = [[0, 0], [0, 0]], ONE_PLACE = 1e-9;
-  const WEIGHTS = "counterweights", AT_THROWS = "counterweights at every throw";
+  const WEIGHTS = "counterweights", AT_THROWS = "counterweights at every throw", MOST_STARS = 8;
   const LONG_STROKE = 1, LONG_STROKE_IN_BORES = 2.5;          // m, and in bores: only crosshead engines have longer strokes
   const UPRIGHT = { force: ["vertical", "horizontal"], moment: ["yawing", "pitching"] };
   const rad = (deg) => deg * TURN / 360, deg = (angle) => angle * 360 / TURN;
@@ -50,12 +50,13 @@ const Kernel = (() => {
       const piston = sum(c.piston.map(take)), throwMass = c.share * take("crank.throw_mass");
       if (rod.bad) throw new Error(`${c.rod.cg || "rod"}: is outside the rod, so two masses at its ends cannot replace the rod`);
       return {
-        number: c.number, throw: c.throw, bank: c.bank, axis: rad(form(c.axis)), lead: rad(form(c.lead)), by: c.by, z: form(c.z) / 1e3, r, l, e,
+        number: c.number, throw: c.throw, axis: rad(form(c.axis)), lead: rad(form(c.lead)), by: c.by, z: form(c.z) / 1e3, r, l, e,
         reciprocating: piston + rod.small, rotating: throwMass + rod.big + c.extra, H: rod.H,
       };
     });
     const of = (number) => cylinders.find((c) => c.number === number), first = of(1);
     const top = (number) => number === null ? 0 : Math.asin(of(number).e / (of(number).r + of(number).l));
+    for (const c of cylinders) c.bank = Math.round(c.axis * 1e9);                    // cylinders with one axis are a bank
     for (const c of cylinders) c.psi = first.axis + c.lead + top(c.by) - top(first.by) - c.axis;
     const places = data.throws.map((each) => form(each) / 1e3), pins = data.pins.map((each) => form(each) / 1e3);
     const middle = (Math.min(...places) + Math.max(...places)) / 2;
@@ -544,17 +545,21 @@ const Kernel = (() => {
     const same = devices.filter(({ kind, ratio }) => kind === d.kind && ratio === d.ratio), most = Math.max(...same.map(({ U }) => U));
     const free = same.length > 1 && size(same.map(({ forward, backward }) => add(forward, backward)).reduce(add)) <= 1e-12 * most;
     return {
-      device: d.kind, ...(onCrank ? {} : { ratio: d.ratio, at_mm: d.at.map((v) => 1e3 * v), free }), unbalance_kg_m: d.U,
-      angle_deg: angle, position_mm: 1e3 * d.z, forward: d.forward, backward: d.backward,
+      device: d.kind, ...(onCrank ? {} : { ratio: d.ratio, free }), at_mm: d.at.map((v) => 1e3 * v), unbalance_kg_m: d.U,
+      angle_deg: angle, position_mm: 1e3 * d.z, kind: d.kind, order: d.order, forward: d.forward, backward: d.backward,
     };
   }
-  function describeStep(engine, { step, devices, peak, mainLoad, takesBack }) {
+  // Force and moment of the orders that devices change.
+  const listChanges = (devices, kinds) => [...new Set(devices.map(({ order }) => order))].sort((a, b) => a - b).map((order) =>
+    ({ order, force: kinds.force[order] || NONE, moment: kinds.moment[order] || NONE }));
+  function describeStep(engine, { step, devices, peak, kinds, mainLoad, takesBack }) {
     return {
       step, ...(takesBack ? { takes_back: true } : {}), peak_force_N: peak.force.value,
       ...(engine.known ? { peak_moment_Nm: peak.moment.value } : {}), ...(mainLoad === null ? {} : { main_bearing_N: mainLoad }),
       counterweights: devices.filter((d) => d.kind === "counterweight").length,
       shafts: new Set(devices.filter((d) => d.kind === "shaft").map((d) => d.ratio)).size,
       mass_kg: sum(devices.map((d) => d.U)) / engine.r, devices: devices.map((d) => describeDevice(engine, d, devices)),
+      changes: listChanges(devices, kinds),
     };
   }
   const describeLeftOut = (engine, { step, cancels, fall }) => ({
@@ -583,7 +588,7 @@ const Kernel = (() => {
           cylinders: own.map(({ c, f, m }) => ({ cylinder: c.number, ...polarOf(f, m) })).sort((a, b) => a.cylinder - b.cylinder),
         })),
       }];
-    }));
+    })).slice(0, MOST_STARS);
   }
   const angleOf = (v) => size(v) ? (deg(Math.atan2(v[1], v[0])) % 360 + 360) % 360 : null;
 

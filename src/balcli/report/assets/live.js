@@ -1,19 +1,17 @@
 "use strict";
-// The panel "Change the engine": numbers to drag, the state in the address, and files to take away.
+// Numbers to drag, the state in the address, and files to take away.
 (() => {
   const byId = (id) => document.getElementById(id);
   const book = JSON.parse(byId("live").textContent);          // engines by name, units, new devices
   const TITLES = { crank: "Crank", rod: "Rods", piston: "Pistons", layout: "Layout", operation: "Speed" };
   const DEVICE = /^(counterweight|shaft|slider)\.([1-9]\d*)(?:\.(.+))?$/;
   const GEOMETRY = /^(crank\.(throws|splay)|layout\.(bank_angle|banks))|\.(bank|throw)$/;   // what a firing order depends on
-  let data, original, written, numbers, engine, ladder, drawn, before, past = [], future = [];
+  const MAIN = ["layout.bank_angle", "rod.length", "rod.ratio", "piston.mass", "crank.stroke", "operation.speed"];
+  const SHORT = { "layout.bank_angle": "bank angle", "rod.length": "rod", "rod.ratio": "rod / crank", "piston.mass": "piston", "crank.stroke": "stroke", "operation.speed": "speed" };
+  const firstOfBook = Object.keys(book.engines)[0];
+  let data, original, written, numbers, engine, ladder, ofFile, past = [], future = [];
 
-  const make = (tag, attributes = {}, ...children) => {
-    const made = document.createElement(tag);
-    Object.assign(made, attributes);
-    made.append(...children);
-    return made;
-  };
+  const { make } = Tables, { settings } = { settings: JSON.parse(byId("page").textContent) };
   const button = (text, act, id = "") => {
     const made = make("button", { type: "button", id }, text);
     made.addEventListener("click", act);
@@ -21,12 +19,8 @@
   };
   const own = (object, key) => Object.hasOwn(object, key) ? object[key] : undefined;
   const tableOf = (name) => name.match(/^(?:counterweight|shaft|slider|cylinder)\.\d+/)?.[0] ?? name.split(".")[0];
-  // A figure as the command prints it: with an exponent below 0.0001 and from a million on.
-  const shown = (value, digits = 4) => {
-    const exact = Number(value.toPrecision(12)), rounded = Number(exact.toPrecision(digits)), size = Math.abs(rounded);
-    if (size >= 10 ** digits && Math.abs(exact) < 1e6) return exact.toFixed(0);
-    return size && (size < 1e-4 || size >= 1e6) ? rounded.toExponential().replace("+", "") : String(rounded);
-  };
+  const shown = (value, digits = 6) => Tables.number(value, digits);
+  const limits = settings.limits;
 
   // ------------------------------------------------------------------ numbers and their values
   // Unit and limits of a number; undefined for an unknown name.
@@ -92,20 +86,34 @@
   function writeAddress() {
     const parts = listChanges().map(([name, value]) => `${name}=${encodeURIComponent(value)}`);
     if (book.choice) parts.unshift(`engine=${data.key}`);
+    if (step !== null) parts.push(`step=${step}`);
     return parts.length ? `#${parts.join("&")}` : "";
   }
+  let step = null;                                            // that the reader chose
   const isEqual = (one, other) => Object.keys(one).length === Object.keys(other).length && Object.keys(one).every((name) => one[name] === other[name]);
-  // Changed numbers in words, "rod.length 160 → 150 mm", then devices that the file does not have.
+  // Changes in words, "rod.length 160 → 150 mm", each with the numbers without it; then devices that the file does not have.
   function tellChanges() {
-    const known = new Set(Object.keys(original).map(tableOf)), told = [], added = {};
+    const ofFileTables = new Set(Object.keys(original).map(tableOf)), told = [], added = {};
+    const without = (name) => name in original ? { ...numbers, [name]: original[name] } : Object.fromEntries(Object.entries(numbers).filter(([key]) => key !== name));
     for (const [name, value] of listChanges()) {
-      const table = tableOf(name), unit = find(name)?.unit, before = name in original ? shown(original[name], 6) : "none";
-      const now = value === "none" ? value : [shown(Number(value), 6), unit].filter(Boolean).join(" ");
-      if (name === table) told.push(`${table} removed`);
-      else if (known.has(table)) told.push(`${name} ${before} → ${now}`);
+      const table = tableOf(name), unit = find(name)?.unit, before = name in original ? shown(original[name]) : "none";
+      const now = value === "none" ? value : [shown(Number(value)), unit].filter(Boolean).join(" ");
+      if (name === table) told.push([`${table} removed`, { ...numbers, ...pick(original, table) }]);
+      else if (ofFileTables.has(table)) told.push([`${name} ${before} → ${now}`, without(name)]);
       else (added[table] ??= []).push(`${name.slice(table.length + 1)} ${now}`);
     }
-    return [...told, ...Object.entries(added).map(([table, keys]) => `${table} added: ${keys.join(", ")}`)];
+    const rest = (table) => Object.fromEntries(Object.entries(numbers).filter(([name]) => tableOf(name) !== table));
+    return [...told, ...Object.entries(added).map(([table, keys]) => [`${table} added: ${keys.join(", ")}`, rest(table)])];
+  }
+  const pick = (state, table) => Object.fromEntries(Object.entries(state).filter(([name]) => tableOf(name) === table));
+  function showChanges() {
+    const items = tellChanges().map(([text, state]) => {
+      const undo = button("×", () => apply(state, { rebuild: true }));
+      undo.setAttribute("aria-label", `undo: ${text}`);
+      return make("li", {}, text, undo);
+    });
+    const name = data.key ? `${data.key}.toml` : "the file";
+    byId("changes").replaceChildren(...items.length ? items : [make("li", { className: "plain" }, "as in ", make("code", {}, name))]);
   }
   let due, spoken;
   function keepAddress() {                                    // browsers refuse more than a few changes a second
@@ -117,13 +125,19 @@
   // Reads the numbers of an address; mistakes are reported, the rest applies.
   function readAddress(hash) {
     const wrong = [];
-    let next = { ...original, ...(hash.includes("=") ? {} : data.start) };
+    const sets = hash.slice(1).split("&").some((part) => part.includes("=") && !/^(step|engine)=/.test(part));
+    let next = { ...original, ...(sets ? {} : data.start) };
+    step = null;
     for (const part of hash.slice(1).split("&").filter((each) => each.includes("="))) {
       const [name, ...rest] = part.split("=");
       let text = rest.join("=");
       try { text = decodeURIComponent(text); } catch { /* as it stands */ }
       if (name === "engine" && book.choice) {
         if (!own(book.engines, text)) wrong.push(`engine: there is no example ${text.slice(0, 40)}`);
+        continue;
+      }
+      if (name === "step") {
+        step = text;
         continue;
       }
       try {
@@ -169,7 +183,7 @@
     let made, steps;
     try {
       made = Kernel.assemble(data, next);
-      steps = Kernel.findLadder(made, book.limits);
+      steps = Kernel.findLadder(made, limits);
     } catch (error) {
       complain([error.message, ...wrong]);
       return false;
@@ -181,7 +195,7 @@
     keepAddress();
     complain(wrong);
     if (rebuild) buildControls();
-    show();
+    show(rebuild);
     return true;
   }
   const change = (name, value, how) => apply({ ...numbers, [name]: value }, how);
@@ -193,95 +207,65 @@
   const complain = (messages) => { byId("live-wrong").textContent = messages.join(" · "); };
 
   // ------------------------------------------------------------------ what the page shows
-  let waiting = false;
-  function show() {
-    const figures = Kernel.describe(engine, ladder, book.limits), changed = listChanges().length > 0;
+  const NOT_FOLLOWED = ["firing", "cycle", "numbering", "assumed"], REPLACED = ["cylinders", "crank", "throws", "speed", "masses", "devices"];
+  function show(atOnce) {
+    const differs = !isWritten(), figures = differs ? describe() : Page.ofFile, changes = listChanges();
     byId("figures").textContent = JSON.stringify(figures);
-    document.body.classList.toggle("changed", !isEqual(numbers, written));
-    byId("live-changes").replaceChildren(...tellChanges().map((text) => make("li", {}, text)));
-    showOrders(figures);
-    showLadder(figures);
-    announce(figures);
-    byId("live-undo").disabled = !past.length;
-    byId("live-redo").disabled = !future.length;
-    byId("live-reset").disabled = !changed;
-    for (const input of byId("live-numbers").querySelectorAll("input")) {
-      const [least, most] = rangeOf(input.name);
-      if (input.type === "range") Object.assign(input, { min: least, max: most, value: numbers[input.name] });
-      else if (input !== document.activeElement) input.value = String(numbers[input.name]);
+    markStale(differs);
+    showChanges();
+    Page.asked = step;
+    Page.show(figures, { scene: makeScene(), changed: differs, compared: changes.length > 0, facts: listFacts(changes), engine: ofFile, shown: { look: data.look, file: data.key && `${data.key}.toml` }, atOnce });
+    if (step !== null && !Page.steps.includes(step)) {
+      complain([`step: this engine has steps 0 to ${ladder.steps.length - 1}`]);
+      step = null;
     }
-    if (waiting || (!changed && !drawn && byId("scene"))) return;
-    waiting = true;
-    requestAnimationFrame(() => {
-      waiting = false;
-      drawn = listChanges().length > 0;
-      Page.draw(drawn || !byId("scene") ? makeScene() : JSON.parse(byId("scene").textContent));
-    });
+    announce(figures);
+    byId("undo").disabled = !past.length;
+    byId("redo").disabled = !future.length;
+    byId("reset").disabled = !changes.length;
+    showNumbers();
   }
-  const quantity = (kind, value) => value / book.show[kind].size;
-  const unitName = (kind) => book.show[kind].name;
-  // A value in the unit that fits it, as the command prints it.
-  function sizeText(kind, value) {
-    const { name, thousand } = book.show[kind], found = quantity(kind, value);
-    return thousand && found >= 5000 ? `${shown(found / 1000)} ${thousand}` : `${shown(found)} ${name}`;
+  const describe = () => Kernel.describe(engine, ladder, limits);
+  const isWritten = () => (!book.choice || data.key === book.choice) && isEqual(numbers, written);
+  // Facts of the head: those that the page computes, and in their places those of the file.
+  function listFacts(changes) {
+    const moved = changes.some(([name]) => GEOMETRY.test(name)), own = new Map(Tables.listFacts(engine, { ...data, speed: numbers["operation.speed"] }));
+    return data.facts.map(([name, text]) => {
+      if (own.has(name)) return [name, own.get(name)];
+      return [name, text, moved && NOT_FOLLOWED.includes(name) ? "old" : ""];
+    }).filter(([name]) => !REPLACED.includes(name) || own.has(name)).concat([...own].filter(([name]) => !data.facts.some(([each]) => each === name)));
+  }
+  // What holds only for the file is marked while numbers differ.
+  function markStale(differs) {
+    document.body.classList.toggle("changed", differs);
+    for (const part of document.querySelectorAll("[data-of-file]")) part.classList.toggle("stale", differs);
+  }
+  function showNumbers() {
+    for (const input of document.querySelectorAll("#live-numbers input, #main-numbers input")) {
+      const value = numbers[input.name], [least, most] = rangeOf(input.name);
+      if (input.type === "range") Object.assign(input, { min: least, max: most, value });
+      else if (input !== document.activeElement) Object.assign(input, { value: shown(value), title: String(value) });
+      input.closest(".number").classList.toggle("differs", value !== original[input.name]);
+    }
   }
   // Largest force and moment in a sentence that screen readers read aloud, a moment after the last change.
   function announce({ peak }) {
-    const size = (kind, value) => `${kind} ${value ? sizeText(kind, value) : "balanced"}`, force = size("force", peak.force_N);
-    const told = data.known ? `${force}, ${size("moment", peak.moment_Nm)}.` : `${force}. ${book.unknown}`;
+    const size = (kind, value) => `${kind} ${value ? Tables.sizeText(value, Tables.units[kind]) : "balanced"}`, force = size("force", peak.force_N);
+    const told = data.known ? `${force}, ${size("moment", peak.moment_Nm)}.` : `${force}. ${settings.unknown}`;
     clearTimeout(spoken);
     spoken = setTimeout(() => { byId("live-largest").textContent = `Largest over a revolution: ${told}`; }, 300);
   }
-  // What cancels an order, as the column says it.
-  function nameCure({ ratio, on_crank, further, takes_back }) {
-    if (takes_back) return "counterweights would take back those of the file";
-    const device = on_crank ? "counterweights" : `shaft at ${ratio > 0 ? "+" : ""}${ratio}`;
-    return further ? `further ${device}` : device;
-  }
-  function tellCures(finding) {
-    if (!finding) return "";
-    if (finding.order > 2) return "usually left";
-    if (!finding.cures) return finding.order > 1 ? "compensators" : "counterweights, compensators";
-    const told = finding.cures.some((cure) => cure.takes_back) ? finding.cures.filter((cure) => cure.takes_back) : finding.cures;
-    return told.map(nameCure).join(", ") || "no part is worth a shaft";
-  }
-  function fill(id, heads, rows) {
-    const head = make("tr", {}, ...heads.map((text) => make("th", { scope: "col" }, text)));
-    const body = rows.map(([first, ...rest]) => make("tr", {}, make("th", { scope: "row" }, first), ...rest.map((cell) => make("td", {}, cell))));
-    byId(id).replaceChildren(make("thead", {}, head), make("tbody", {}, ...body));
-  }
-  const cell = (kind, value, least = 0) => value <= least ? "balanced" : shown(quantity(kind, value));
-  function showOrders({ orders, verdict: { matter }, peak, ladder: { scale } }) {
-    const [least, small] = [1e-9 * scale.force_N, 1e-9 * (scale.moment_Nm || 0)], size = (v) => Math.hypot(...v);
-    const listed = Kernel.listShown(engine, ladder, book.limits), seen = orders.filter(({ order }) => listed.includes(order));
-    const rows = seen.map(({ order, force_N: f, moment_Nm: m, roll_Nm: roll }) => [
-      String(order), cell("force", f.major, least), cell("force", size(f.forward), least), cell("force", size(f.backward), least),
-      ...[m.major, size(m.forward), size(m.backward)].map((v) => data.known ? cell("moment", v, small) : "–"),
-      cell("moment", roll.amplitude, small), tellCures(matter.find((finding) => finding.order === order)),
-    ]);
-    const [f, m] = ["force", "moment"].map(unitName);
-    rows.push(["all", cell("force", peak.force_N, least), "", "", data.known ? cell("moment", peak.moment_Nm, small) : "–", "", "", "", ""]);
-    fill("live-orders", ["order", `force, ${f}`, "with crank", "against", `moment, ${m}`, "with crank", "against", `${data.gas ? "roll of inertia" : "roll"}, ${m}`, "cancelled by"], rows);
-  }
-  function showLadder({ ladder: { steps, scale } }) {
-    const [least, small] = [1e-9 * scale.force_N, 1e-9 * (scale.moment_Nm || 0)];
-    const rows = steps.map((each, k) => [
-      `${k} ${each.step}`, cell("force", each.peak_force_N, least), data.known ? cell("moment", each.peak_moment_Nm, small) : "–",
-      each.main_bearing_N === undefined ? "–" : cell("force", each.main_bearing_N, least), String(each.counterweights || "–"), String(each.shafts || "–"), each.mass_kg ? shown(each.mass_kg, 3) : "–",
-      k ? button("Fit", () => fit(k), `live-fit-${k}`) : "",
-    ]);
-    fill("live-ladder", ["step", `force, ${unitName("force")}`, `moment, ${unitName("moment")}`, `main bearing, ${unitName("force")}`, "weights", "shafts", "kg", ""], rows);
-  }
   // Adds the devices of a step of the ladder to the numbers.
-  function fit(k) {
-    const next = { ...numbers }, degrees = (angle) => (angle * 180 / Math.PI % 360 + 360) % 360;
-    for (const d of ladder.steps[k].devices) {
+  function fit() {
+    const next = { ...numbers }, degrees = (angle) => (angle * 180 / Math.PI % 360 + 360) % 360, chosen = ladder.steps[Page.chosen];
+    step = "0";
+    for (const d of chosen?.devices || []) {
       const table = freeTable(next, d.kind), start = d.kind === "counterweight" ? engine.firstAxis : 0;
       Object.assign(next, { [`${table}.unbalance`]: d.U * 1e6, [`${table}.angle`]: degrees(d.angle - start), [`${table}.position`]: d.z * 1e3 });
       if (d.kind === "shaft") Object.assign(next, { [`${table}.ratio`]: d.ratio, [`${table}.at.1`]: 0, [`${table}.at.2`]: 0 });
     }
     apply(next, { rebuild: true });
-    byId("live-undo").focus();
+    byId("undo").focus();
   }
   function freeTable(state, kind) {                           // the first number after those of all devices, removed ones included
     const taken = [...Object.keys(state), ...Object.keys(original)].map((name) => name.match(DEVICE)).filter((match) => match?.[1] === kind);
@@ -289,63 +273,42 @@
   }
 
   // ------------------------------------------------------------------ pictures
-  const ASSUMED_BORE = 0.95, boreOf = (made) => made.bore || ASSUMED_BORE * 2 * made.r, rad = (deg) => deg * Math.PI / 180;
-  function describeVariant(label, made, { kinds }) {
-    const [c, s] = [Math.cos(rad(made.up || 0)), -Math.sin(rad(made.up || 0))], levels = {};
-    const turned = ([x, y]) => [x * c - y * s, x * s + y * c];
-    const rows = (kind) => kinds[kind].slice(0, 13).map((pair, n) => [n, ...pair.flatMap(turned).map((v) => quantity(kind, v))]);
-    return {
-      label, force: rows("force"), moment: made.known ? rows("moment") : [],
-      devices: made.devices.map((d) => {
-        const hidden = d.kind === "shaft" && Math.hypot(...d.at) < made.r, side = Math.sign(d.ratio);
-        const level = levels[side] ??= new Map();
-        if (hidden && !level.has(d.order)) level.set(d.order, level.size);
-        const place = hidden ? [-1.6 * made.r * level.get(d.order), side * (widthOf(made) + made.r)] : turned(d.at);
-        return {
-          order: d.order, forward: turned(d.forward).map((v) => v * 1e6), backward: turned(d.backward).map((v) => v * 1e6),
-          at: place.map((v) => v * 1e3), z: d.z * 1e3, beside: hidden,
-        };
-      }),
-    };
-  }
-  function widthOf(made) {                                    // of the engine, to one side of the crank axis
-    return Math.max(1.5 * made.r, ...made.cylinders.map((c) => {
-      const across = Math.abs(Math.sin(c.axis - rad(made.up || 0)));
-      return across * (c.r + c.l + boreOf(made)) + (1 - across) * boreOf(made);
-    }));
-  }
+  const ASSUMED_BORE = 0.95, boreOf = (made) => made.bore || ASSUMED_BORE * 2 * made.r;
   function makeScene() {
-    const now = ladder.steps[0], deg = (angle) => angle * 180 / Math.PI;
-    const variants = [describeVariant("before", before.made, before)];
-    if (listChanges().length) variants.push(describeVariant("now", engine, now));
-    const unit = (kind) => ({ ...book.show[kind], least: quantity(kind, 1e-3 * (ladder.scale[kind] || 1)) });
-    const counts = (n) => [now, before].some(({ kinds }) => ["force", "moment"].some((kind) => kinds[kind][n].some((v) => Math.hypot(...v))));
+    const deg = (angle) => angle * 180 / Math.PI;
     return {
-      stroke: 2e3 * engine.r, bore: 1e3 * boreOf(engine), rotary: false, axes: data.axes,
+      stroke: 2e3 * engine.r, bore: 1e3 * boreOf(engine), rotary: false,
       cylinders: engine.cylinders.map((c) => ({
         number: c.number, axis: deg(c.axis) - (engine.up || 0), phase: deg(c.psi), z: 1e3 * c.z, rod: 1e3 * c.l, offset: 1e3 * c.e,
       })),
-      variants, shown: variants.length - 1, units: { force: unit("force"), moment: unit("moment") },
-      orders: Array.from({ length: 13 }, (_, n) => n).filter(counts),
     };
   }
 
   // ------------------------------------------------------------------ the panel
+  const IDLE = /^crosshead\./;                               // numbers that most engines leave at 0
   function buildControls() {
-    const groups = new Map();
-    for (const name of Object.keys(numbers)) groups.set(tableOf(name), [...(groups.get(tableOf(name)) || []), name]);
+    const groups = new Map(), more = [];
+    for (const name of Object.keys(numbers)) {
+      const idle = (IDLE.test(name) && !numbers[name]) || (name === "crank.splay" && !numbers["layout.bank_angle"]);
+      if (idle) more.push(name);
+      else groups.set(tableOf(name), [...(groups.get(tableOf(name)) || []), name]);
+    }
     const sets = [...groups].map(([table, names]) => {
       const title = TITLES[table] || table.replace(".", " ").replace(/^./, (c) => c.toUpperCase());
-      const rows = names.map((name) => makeControl(name, table));
+      const rows = names.map((name) => makeControl(name, "n", name.slice(table.length + 1)));
       if (DEVICE.test(table)) rows.push(button(`Remove ${title.toLowerCase()}`, () => removeDevice(table)));
       return make("fieldset", { className: "numbers" }, make("legend", {}, title), ...rows);
     });
-    byId("live-numbers").replaceChildren(...sets);
+    const others = more.map((name) => makeControl(name, "n", name));
+    byId("live-numbers").replaceChildren(...sets, ...others.length ? [make("details", { className: "numbers" }, make("summary", {}, "more"), ...others)] : []);
+    byId("main-numbers").replaceChildren(...MAIN.filter((name) => name in numbers).slice(0, 5).map((name) => makeControl(name, "m", SHORT[name])));
+    byId("count").textContent = `all ${Object.keys(numbers).length} numbers`;
   }
-  function makeControl(name, table) {
-    const [least, most] = rangeOf(name), { unit, whole } = find(name), label = name.slice(table.length + 1);
+  // A slider with a field; `place` distinguishes the two of one number.
+  function makeControl(name, place, label) {
+    const [least, most] = rangeOf(name), { unit, whole } = find(name);
     const slider = make("input", { type: "range", name, min: least, max: most, step: "any", value: numbers[name] });
-    const field = make("input", { type: "text", name, value: String(numbers[name]), inputMode: "decimal", id: `n-${name}` });
+    const field = make("input", { type: "text", name, value: shown(numbers[name]), title: String(numbers[name]), inputMode: "decimal", id: `${place}-${name}` });
     slider.setAttribute("aria-label", `${name}${unit ? `, ${unit}` : ""}`);
     let started = false;                                      // one undo for one drag
     slider.addEventListener("input", () => {
@@ -355,7 +318,7 @@
     slider.addEventListener("change", () => { started = false; });
     field.addEventListener("change", () => {
       try { apply(withValue(numbers, name, field.value)); } catch (error) { complain([error.message]); }
-      field.value = String(numbers[name]);
+      field.value = shown(numbers[name]);
     });
     const head = make("label", { htmlFor: field.id }, label.replace(/^throws\./, "throw ").replaceAll("_", " "));
     return make("div", { className: "number" }, head, field, make("span", {}, unit || ""), whole ? "" : slider);
@@ -445,26 +408,38 @@
   // ------------------------------------------------------------------ start
   function open(hash) {
     const asked = hash.match(/[#&]engine=([^&]+)/)?.[1], keys = Object.keys(book.engines);
-    const key = book.choice ? (keys.includes(asked) ? asked : book.choice) : keys[0];
+    const key = book.choice ? (keys.includes(asked) ? asked : book.choice) : firstOfBook;
     data = { ...book.engines[key], key: book.choice ? key : book.file };
     original = Object.fromEntries(data.numbers.map(({ name, value }) => [name, value]));
     written = { ...original, ...data.start };                 // the engine of what Python wrote
     [numbers, past, future] = [original, [], []];
     const made = Kernel.assemble(data, original);
-    before = { made, ...Kernel.compute(made) };
+    ofFile = Kernel.describe(made, Kernel.findLadder(made, limits), limits);
+    document.querySelector("h1").textContent = data.name || document.querySelector("h1").textContent;
     if (book.choice) byId("live-engine").value = key;
     const { next, wrong } = readAddress(hash);
     apply(next, { remember: false, wrong, rebuild: true });
   }
   function start() {
-    byId("live-actions").append(
-      button("Undo", () => travel(past, future), "live-undo"), button("Redo", () => travel(future, past), "live-redo"),
-      button("Reset", () => apply(original, { rebuild: true }), "live-reset"),
-      button("Add a counterweight", () => addDevice("counterweight"), "live-add"),
-      button("Add a shaft", () => addDevice("shaft")),
+    byId("acts").prepend(
+      button("Undo", () => travel(past, future), "undo"), button("Redo", () => travel(future, past), "redo"),
+      button("Reset", () => { step = null; apply(original, { rebuild: true }); }, "reset"),
       ...(location.protocol === "about:" ? [] : [button("Copy link", () => copy(location.href.split("#")[0] + writeAddress()))]),
-      button("Download TOML", download), button("Copy command", copyCommand),
+      button("Download TOML", download),
     );
+    byId("live-actions").append(
+      button("Add a counterweight", () => addDevice("counterweight"), "live-add"), button("Add a shaft", () => addDevice("shaft")),
+      button("Copy command", copyCommand),
+    );
+    byId("devices-fit").append(button("Fit these devices", fit, "fit"));
+    document.addEventListener("step", ({ detail }) => { step = detail; keepAddress(); });
+    document.addEventListener("keydown", (event) => {
+      const typing = event.target.matches("input[type=text], textarea"), key = event.key.toLowerCase();
+      if (typing || !(event.ctrlKey || event.metaKey) || !["z", "y"].includes(key)) return;
+      event.preventDefault();
+      if (key === "y" || event.shiftKey) travel(future, past);
+      else travel(past, future);
+    });
     if (book.choice) {
       const select = byId("live-engine");
       select.append(...Object.entries(book.engines).map(([key, { name }]) => make("option", { value: key }, `${key}: ${name}`)));
@@ -475,12 +450,7 @@
       if (hash.includes("=")) open(hash);
     });
     window.Live = { change, apply, writeFile, writeAddress, get numbers() { return numbers; } };
-    document.body.classList.add("changing");
     open(location.hash);
   }
-  const panel = byId("change");
-  if (book.choice || location.hash.includes("=")) { panel.open = true; start(); } else {
-    panel.addEventListener("toggle", start, { once: true });
-  }
-  panel.addEventListener("toggle", () => document.body.classList.toggle("changing", panel.open));
+  start();
 })();

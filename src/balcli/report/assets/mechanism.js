@@ -1,22 +1,16 @@
 "use strict";
-const Page = {
-// Draws the engine of a scene in motion; the chosen orders and crank angle are kept.
-draw(scene) {
-  const byId = (id) => document.getElementById(id);
-  const rad = (degrees) => degrees * Math.PI / 180;
-  const element = (name, attributes, parent) => {
-    const made = document.createElementNS("http://www.w3.org/2000/svg", name);
-    for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
-    if (parent) parent.append(made);
-    return made;
-  };
-  const set = (made, attributes) => {
-    for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
-  };
+// The drawing of the engine: its mechanism at a crank angle, devices, and arrows of what shakes it.
+const Mechanism = (() => {
+const byId = (id) => document.getElementById(id);
+const rad = (degrees) => degrees * Math.PI / 180;
+const { element } = Charts;
+const set = (made, attributes) => {
+  for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
+};
 
-  for (const id of ["end", "side", "force", "moment"]) byId(id).replaceChildren();
-  const left = new Set([...byId("orders").querySelectorAll("input:not(:checked)")].map((input) => input.value));
-  for (const id of ["orders", "variants"]) byId(id).replaceChildren(byId(id).querySelector("legend"));
+// Draws the engine of a scene with devices, in which axes[0] is up; returns a function that turns the drawing.
+function draw(scene, devices, axes) {
+  for (const id of ["end", "side"]) byId(id).replaceChildren();
 
   // ---------------------------------------------------------------- mechanism
   const r = scene.stroke / 2, bore = scene.bore, crown = 0.42 * bore, skirt = 0.33 * bore;
@@ -74,9 +68,9 @@ draw(scene) {
       const angles = scene.rotary ? Array.from({ length: 24 }, (_, k) => 15 * k) : [c.axis];
       for (const a of angles) for (const v of [-0.6 * bore, 0.6 * bore]) corners.push(turned([reach * 1.03, v], a));
     }
-    for (const d of scene.variants.flatMap((variant) => variant.devices)) {
-      for (const s of [-0.7 * r, 0.7 * r]) corners.push([d.at[0] + s, d.at[1] + s]);
-    }
+    for (const d of placed) for (const s of [-0.7 * r, 0.7 * r]) corners.push([d.at[0] + s, d.at[1] + s]);
+    const room = 1.6 * r;                                 // for arrows
+    corners.push([room, room], [-room, -room]);
     const labels = bankLabels();
     for (const { x, y, wide, high } of labels) corners.push([x + high, y - wide], [x - high, y + wide]);
     frame(svg, corners.map(([x, y]) => [y, -x]));
@@ -103,12 +97,12 @@ draw(scene) {
       pin: element("circle", { class: "pin", r: 0.2 * r }, crank),
     }));
     element("circle", { class: "pin", r: 0.26 * r }, crank);
-    const devices = element("g", {}, svg);
+    const devices = element("g", {}, svg), arrows = element("g", { class: "shake" }, svg);
     for (const { x, y, text } of labels) {
       const place = { x: y, y: -x, "font-size": LETTER };
       element("text", { class: "number", ...place }, svg).textContent = text;
     }
-    return (theta, variant) => {
+    return (theta, shown, shake) => {
       for (const { c, own, rod, piston, pin } of cylinders) {
         const { lower, piston: at, axis } = drive(c, theta);
         set(own, { transform: `rotate(${axis})` });
@@ -127,7 +121,8 @@ draw(scene) {
         set(shape, { transform: `rotate(${angle})` });
         set(pin, { transform: `rotate(${angle})`, cx: 0, cy: -radiusOf(c) });
       }
-      drawDevices(devices, variant.devices, theta);
+      drawDevices(devices, shown, theta);
+      drawEndArrows(arrows, shake);
     };
   }
   const web = (r) => {
@@ -162,8 +157,7 @@ draw(scene) {
     const spread = (f) => all.reduce((sum, c) => sum + f(rad(c.axis)) ** 2, 0);
     const above = !scene.rotary && spread(Math.sin) > spread(Math.cos) * 1.01;      // flat engines are seen from below
     const height = ([x, y]) => above ? y : x;
-    byId("side-caption").textContent = `From ${above ? "below" : "the side"}: `
-      + `z to the right, free end on the left; ${scene.axes[above ? 1 : 0]} up`;
+    byId("side-caption").textContent = `From ${above ? "below" : "the side"}, free end left, ${axes[above ? 1 : 0]} up`;
     const corners = [[near - bore * 0.75, -1.4 * r], [far + bore * 0.75, 1.4 * r]];
     for (const c of scene.cylinders) {
       for (const v of [-0.5 * bore, 0.5 * bore]) {
@@ -188,7 +182,8 @@ draw(scene) {
       };
     });
     for (const { c, text } of cylinders) text.textContent = c.number;
-    return (theta) => {
+    const arrows = element("g", { class: "shake" }, svg);
+    return (theta, shake) => {
       const bend = (c) => -height(turned([radiusOf(c), 0], pinAngle(c, theta)));
       const bends = throws.map(({ c, from, to }) => `H ${from} V ${bend(c)} H ${to} V 0`);
       set(shaft, { d: `M ${near - bore * 0.6} 0 ${bends.join(" ")} H ${far + bore * 0.6}` });
@@ -201,7 +196,31 @@ draw(scene) {
         set(piston, { x: c.z - bore * 0.485, y: -high, width: bore * 0.97, height: high - low });
         set(text, { x: c.z, y: -(high + low) / 2 });
       }
+      arrows.replaceChildren();
+      for (const { at, vector } of pullsOf(shake)) drawArrow(arrows, at, 0, at, -height(vector));
     };
+  }
+
+  // ---------------------------------------------------------------- arrows
+  // A shake { force, moment, largest } as pulls at places along the shaft: a force in the middle, a moment as two
+  // opposite pulls at the ends. The largest over a revolution has a fixed length.
+  function pullsOf({ kind, vector: [x, y], largest }) {
+    const scale = largest ? 1.5 * r / largest : 0;
+    if (kind === "force") return [{ at: (near + far) / 2, vector: [x * scale, y * scale] }];
+    const pull = [y * scale, -x * scale];                 // M = i z F
+    const [from, to] = far > near ? [near, far] : [near - bore / 2, far + bore / 2];
+    return [{ at: from, vector: [-pull[0], -pull[1]] }, { at: to, vector: pull }];
+  }
+  function drawEndArrows(group, shake) {
+    group.replaceChildren();
+    pullsOf(shake).forEach(({ vector: [x, y] }, k) => drawArrow(group, 0, 0, y, -x, k ? "6 4" : ""));
+  }
+  function drawArrow(group, x1, y1, x2, y2, dashes = "") {
+    const long = Math.hypot(x2 - x1, y2 - y1), head = Math.min(0.3 * r, long);
+    if (long < 0.02 * r) return;
+    const [u, v] = [(x2 - x1) / long, (y2 - y1) / long], [bx, by] = [x2 - head * u, y2 - head * v];
+    element("path", { d: `M${x1} ${y1}L${bx} ${by}`, "stroke-width": 0.11 * r, "stroke-dasharray": dashes }, group);
+    element("path", { class: "head", d: `M${x2} ${y2}L${bx - 0.5 * head * v} ${by + 0.5 * head * u}L${bx + 0.5 * head * v} ${by - 0.5 * head * u}Z` }, group);
   }
   const planes = [...new Set(depths.map((z) => Math.round(z * 10) / 10))].sort((a, b) => a - b);
   const gaps = planes.map((z, k) => k ? z - planes[k - 1] : Infinity);
@@ -226,161 +245,34 @@ draw(scene) {
     svg.setAttribute("viewBox", [left, top, wide, high].map((v) => v.toFixed(2)).join(" "));
   }
 
-  // ---------------------------------------------------------------- vectors
+
+  // ---------------------------------------------------------------- places of shafts
   const add = ([a, b], [c, d]) => [a + c, b + d];
   const spin = (v, degrees) => turned(v, degrees);
-  const ofOrder = ([n, a, b, c, d], theta) => add(spin([a, b], n * theta), spin([c, d], -n * theta));
-  const sum = (rows, theta) => rows.reduce((v, row) => add(v, ofOrder(row, theta)), [0, 0]);
-  const STEPS = [1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10];
-  const nice = (value) => {
-    const power = 10 ** Math.floor(Math.log10(value));
-    return STEPS.map((k) => k * power).find((v) => v >= value * 0.999999);
-  };
-  const digits = (value) => value >= 1000 ? value.toFixed(0) : value.toPrecision(4);
-  const round = (value) => String(Number(value.toPrecision(4)));
-  // A value with its unit, or with the thousandfold unit if the value, or the largest one shown with it, is large.
-  function figure(value, { name, thousand }, write = digits, largest = value) {
-    return thousand && largest >= 5000 ? `${write(value / 1000)} ${thousand}` : `${write(value)} ${name}`;
-  }
-  const HALF = 100;
-
-  function locusView(id, unit) {
-    const svg = byId(id), now = byId(`${id}-now`);
-    svg.setAttribute("viewBox", "-112 -112 224 224");
-    element("path", { class: "axis", d: "M -108 0 H 108 M 0 -108 V 108" }, svg);
-    const rings = [0.5, 1].map((share) => ({
-      share,
-      ring: element("circle", { class: "axis", r: HALF * share }, svg),
-      label: element("text", { class: "scale", x: 3, y: -HALF * share - 2 }, svg),
+  const YOKE = 3, SHAFT_WIDTH = 1.6;                      // in crank radii: yoke of harmonic motion, a shaft in the drawing
+  // Shafts within the circle of the pins stand beside the engine: those that turn with the crank right of it.
+  function placeDevices() {
+    const width = Math.max(1.5 * r, ...scene.cylinders.map((c) => {
+      const across = Math.abs(Math.sin(rad(c.axis)));
+      return across * (radiusOf(c) + (c.rod || YOKE * r) + bore) + (1 - across) * bore;
     }));
-    element("text", { class: "scale", x: -9, y: -104 }, svg).textContent = scene.axes[0][0];
-    element("text", { class: "scale", x: 104, y: -3 }, svg).textContent = scene.axes[1][0];
-    const old = element("path", { class: "old" }, svg);
-    const curve = element("path", { class: "curve" }, svg), chain = element("g", {}, svg);
-    const line = { class: "vector", id: `${id}-vector`, x1: 0, y1: 0 };
-    const vector = element("line", line, svg), tip = element("circle", { class: "tip", r: 3.2 }, svg);
-    let rows = [], scale = 1;
-    const point = ([x, y]) => `${(y * scale).toFixed(2)} ${(-x * scale).toFixed(2)}`;
-    const turns = (of) => Array.from({ length: 361 }, (_, k) => sum(of, k));
-    const path = (values) => "M" + values.map(point).join("L");
-    const largest = (values) => Math.max(0, ...values.map((v) => Math.hypot(...v)));
-    return {
-      choose(all, before) {
-        rows = all;
-        const values = turns(rows), earlier = before ? turns(before) : [];
-        const most = Math.max(largest(values), largest(earlier)), matters = most && most >= unit.least;
-        const full = nice(matters ? most : 1000 * unit.least || 1);
-        scale = HALF / full;
-        for (const { share, label } of rings) label.textContent = most ? figure(full * share, unit, round, full) : "";
-        set(curve, { d: path(values) });
-        set(old, { d: before ? path(earlier) : "" });
-      },
-      turn(theta, showChain) {
-        const [x, y] = sum(rows, theta), size = Math.hypot(x, y);
-        set(vector, { x2: (y * scale).toFixed(3), y2: (-x * scale).toFixed(3) });
-        set(tip, { cx: y * scale, cy: -x * scale });
-        const whole = Math.round(Math.atan2(y, x) * 180 / Math.PI);
-        const direction = String(whole === -180 ? 180 : whole + 0).replace("-", "−");
-        const where = size < unit.least ? "negligible" : `at ${direction}° from ${scene.axes[0]}`;
-        now.textContent = size ? `${figure(size, unit)} ${where}` : "balanced";
-        chain.replaceChildren();
-        let at = [0, 0];
-        const links = (showChain ? rows : []).flatMap(([n, a, b, c, d]) => [
-          ["forward", [a, b], n],
-          ["backward", [c, d], -n],
-        ]);
-        for (const [kind, v, order] of links) {
-          const next = add(at, spin(v, order * theta)), length = Math.hypot(...v) * scale;
-          if (length > 0.5) {
-            const from = { x1: at[1] * scale, y1: -at[0] * scale };
-            const to = { x2: next[1] * scale, y2: -next[0] * scale };
-            element("line", { class: kind, ...from, ...to }, chain);
-            element("circle", { class: "axis", cx: at[1] * scale, cy: -at[0] * scale, r: length }, chain);
-          }
-          at = next;
-        }
-      },
-    };
+    const rows = new Map();
+    return devices.map((d) => {
+      const ahead = Math.hypot(...d.forward) > 0, beside = d.kind === "shaft" && Math.hypot(...d.at) < r, side = `${ahead}`;
+      if (!beside) return { ...d, beside };
+      const orders = rows.get(side) || [];
+      if (!orders.includes(d.order)) rows.set(side, [...orders, d.order]);
+      return { ...d, beside, at: [-SHAFT_WIDTH * r * rows.get(side).indexOf(d.order), (ahead ? 1 : -1) * (width + r)] };
+    });
   }
-
-  // ---------------------------------------------------------------- controls
-  const turning = scene.rotary ? "the cylinders turn clockwise, the crank stands still" : "the crank turns clockwise";
-  const beside = scene.variants.some((variant) => variant.devices.some((d) => d.beside));
-  byId("end-caption").textContent = `From the free end: ${scene.axes[0]} up, ${scene.axes[1]} to the right; ${turning}`
-    + (beside ? ". Dashed: shafts on or near the crank axis, drawn next to the engine" : "");
-  const end = endView(), side = sideView();
-  const views = {
-    force: locusView("force", scene.units.force),
-    moment: locusView("moment", scene.units.moment),
+  const placed = placeDevices(), end = endView(), side = sideView();
+  const turning = scene.rotary ? "cylinders turn clockwise" : "crank turns clockwise";
+  const dashed = placed.some((d) => d.beside) ? "; dashed: on or near the crank axis" : "";
+  byId("end-caption").textContent = `Free end, ${axes[0]} up; ${turning}${dashed}`;
+  return (theta, shake) => {
+    end(theta, placed, shake);
+    side(theta, shake);
   };
-  const angle = byId("angle"), play = byId("play"), chain = byId("chain");
-  const cycle = Number(angle.max);                        // 720 with the gas of a four-stroke
-  const switchFor = (parent, type, name, value, text, checked) => {
-    const label = document.createElement("label"), input = document.createElement("input");
-    Object.assign(input, { type, name, value, checked });
-    label.append(input, ` ${text}`);
-    byId(parent).append(label);
-    return input;
-  };
-  const orders = scene.orders.map((n) =>
-    switchFor("orders", "checkbox", "order", n, n === 0 ? "mean" : n, !left.has(String(n))));
-  if (!orders.length) byId("orders").append("balanced");
-  const variants = scene.variants.map((v, k) => switchFor("variants", "radio", "variant", k, v.label, k === (scene.shown || 0)));
-  byId("variants").hidden = variants.length < 2;
-
-  const chosen = () => Math.max(variants.findIndex((input) => input.checked), 0);
-  function choose() {
-    const wanted = new Set(orders.filter((input) => input.checked).map((input) => Number(input.value)));
-    for (const [quantity, view] of Object.entries(views)) {
-      const pick = (k) => scene.variants[k][quantity].filter((row) => wanted.has(row[0]));
-      view.choose(pick(chosen()), chosen() ? pick(0) : null);
-    }
-    turn();
-  }
-  function turn() {
-    const theta = Number(angle.value);
-    byId("angle-now").textContent = `${Math.round(theta) % cycle}°`;
-    end(theta, scene.variants[chosen()]);
-    side(theta);
-    for (const view of Object.values(views)) view.turn(theta, chain.checked);
-    document.dispatchEvent(new CustomEvent("crank", { detail: theta }));
-  }
-  Page.turn = angle.oninput = chain.onchange = turn;
-  for (const input of [...orders, ...variants]) input.addEventListener("change", choose);
-
-  choose();
-},
-
-// Animation and colours, once.
-start() {
-  const byId = (id) => document.getElementById(id);
-  const angle = byId("angle"), play = byId("play"), theme = byId("theme");
-  const DEGREES_PER_SECOND = 60;
-  let last = null;
-  function step(time) {
-    if (play.getAttribute("aria-pressed") !== "true") { last = null; return; }
-    if (last !== null) {
-      angle.step = "any";
-      angle.value = (Number(angle.value) + DEGREES_PER_SECOND * (time - last) / 1000) % Number(angle.max);
-      Page.turn();
-    }
-    last = time;
-    requestAnimationFrame(step);
-  }
-  play.addEventListener("click", () => {
-    const on = play.getAttribute("aria-pressed") !== "true";
-    play.setAttribute("aria-pressed", on);
-    play.textContent = on ? "Pause" : "Play";
-    if (on) requestAnimationFrame(step);
-    else { angle.step = "1"; angle.value = Math.round(Number(angle.value)); Page.turn(); }
-  });
-  theme.hidden = false;
-  theme.addEventListener("click", () => {
-    const set = document.documentElement.dataset.theme;
-    const dark = set ? set === "dark" : matchMedia("(prefers-color-scheme: dark)").matches;
-    document.documentElement.dataset.theme = dark ? "light" : "dark";
-  });
-},
-};
-Page.start();
-if (document.getElementById("scene")) Page.draw(JSON.parse(document.getElementById("scene").textContent));
+}
+return { draw };
+})();
