@@ -21,10 +21,11 @@ from ..show.sheet import (
     capitalized,
     given,
     number,
+    sentence,
     size_cell,
     size_text,
 )
-from ..sizing.ladder import SINGLE_SHAFTS, Ladder, LeftOut, Step
+from ..sizing.ladder import NO_SHAFTS, SINGLE_SHAFTS, Ladder, LeftOut, Step
 
 if TYPE_CHECKING:
     from ..engine.engine import Engine
@@ -64,6 +65,8 @@ def ladder_grid(
     notes = [_BEARINGS] if has_loads else []
     notes += _tell_loads(ladder, system)
     notes += filter(None, [_tell_left_out(out, ladder, system) for out in ladder.left_out])
+    if ladder.of_locomotive:
+        notes.append(sentence(NO_SHAFTS))
     notes += _tell_roll(ladder, system)
     if tell_fitted:
         notes.append(" ".join(_tell_fitted(ladder)))
@@ -148,11 +151,12 @@ def _tell_rise(before: float, after: float, system: System) -> str:
 
 def _tell_left_out(out: LeftOut, ladder: Ladder, system: System) -> str:
     """Return a sentence on an omitted step: the force or the moment that it would remove, or the
-    change of the main bearing load. Empty if its effect would be printed as 0.
+    change of the main bearing load. Empty if its effect would be printed as 0, or if the engine has
+    no room for it.
     """
     size = abs(ladder.measure(out))
     fall = out.main_bearing_N
-    if size < _HARDLY:
+    if size < _HARDLY or not out.buildable:
         return ""
     share = ""
     if not math.isnan(size):

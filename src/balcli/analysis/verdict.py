@@ -67,7 +67,8 @@ class Finding(NamedTuple):
         order: Order.
         large: Which of force and moment are not small.
         cures: Devices that would cancel their large vectors; none if each of their vectors is
-            small; left out at half orders and at uneven speed.
+            small; left out at half orders and at uneven speed, and where only a shaft would cancel
+            them but the engine is that of a locomotive, which has no room for one.
     """
 
     order: float
@@ -291,7 +292,7 @@ def _find_cures(
     order: float, due: Collection[int], engine: Engine | None
 ) -> tuple[Cure, ...] | None:
     """Return a device for each direction in which a large vector of an order turns; None if no
-    device turns so, or if devices are not named.
+    device turns so, or if devices are not named. A locomotive can have weights, but no shafts.
 
     Args:
         order: Order.
@@ -311,6 +312,8 @@ def _find_cures(
             ratio = int(order) * sense
             further = any(_turns(device, ratio) for device in devices)
             cures.append(Cure(ratio, on_crank=ratio in turning, further=further))
+    if engine is not None and engine.of_locomotive:
+        return tuple(cure for cure in cures if cure.on_crank) or None
     return tuple(cures)
 
 
@@ -339,8 +342,11 @@ def _mark_taken_back(
 
 
 def _turns(device: Device, ratio: int) -> bool:
-    """Return whether a device turns at this ratio; a slider does not turn."""
-    if device.kind is DeviceKind.SLIDER or device.order != abs(ratio):
+    """Return whether a device turns at this ratio to balance the engine; a slider does not turn,
+    and coupling rods drive an axle.
+    """
+    balances = device.kind is not DeviceKind.SLIDER and not device.is_coupling
+    if not balances or device.order != abs(ratio):
         return False
     return bool(np.any(device.forward if ratio > 0 else device.backward))
 

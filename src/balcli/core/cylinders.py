@@ -153,6 +153,8 @@ class Device(NamedTuple):
             direction in which the crank turns, kg m2.
         axle: Axle of a locomotive that carries the device; empty: the driving axle.
         crank: Index of the crank that carries or drives the device.
+        is_coupling: Whether it is the mass of a locomotive's coupling rods, which turns with the
+            crank like a counterweight but is fitted to drive an axle.
     """
 
     order: int
@@ -165,6 +167,12 @@ class Device(NamedTuple):
     spin: Figure = 0.0
     axle: str = ""
     crank: int = 0
+    is_coupling: bool = False
+
+    @property
+    def is_counterweight(self) -> bool:
+        """Whether it is fitted to the crank to balance it, as coupling rods are not."""
+        return self.kind is DeviceKind.COUNTERWEIGHT and not self.is_coupling
 
 
 _STEPS = 720

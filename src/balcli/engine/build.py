@@ -120,6 +120,7 @@ def build(
         rated=Rating(model.operation.speed, None if power is None else 1e3 * power),
         inferred=() if varied else tuple(list_inferred(parts)),
         model=None if varied else model,
+        of_locomotive=model.locomotive is not None,
     )
 
 

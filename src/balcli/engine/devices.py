@@ -36,7 +36,7 @@ def build_devices(parts: Parts) -> Iterator[Device]:
 
 
 def _build_coupling_pins(parts: Parts, first_axis_deg: Figure) -> Iterator[Device]:
-    """Yield the coupling masses of a locomotive, which turn with its axles, as counterweights."""
+    """Yield the coupling masses of a locomotive, which turn with its axles as counterweights do."""
     table = parts.model.locomotive
     figures = parts.figures
     if table is None or table.coupling_planes is None or table.coupling_angles is None:
@@ -52,7 +52,8 @@ def _build_coupling_pins(parts: Parts, first_axis_deg: Figure) -> Iterator[Devic
             turning = _turn(mass * radius, angle + first_axis_deg)
             if np.any(mass):
                 kind = DeviceKind.COUNTERWEIGHT
-                yield Device(1, turning, 0j, 0j, z / 1e3, kind, axle=axle.name)
+                rods = Device(1, turning, 0j, 0j, z / 1e3, kind, axle=axle.name)
+                yield rods._replace(is_coupling=True)
 
 
 def build_device(

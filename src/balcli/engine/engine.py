@@ -212,6 +212,8 @@ class Engine:
         rated: Speed of the file, and brake power at this speed.
         inferred: Values used for keys that the file leaves out and on which results depend.
         model: Engine file; None if no file describes this engine.
+        of_locomotive: Whether its file describes a locomotive. Its balance weights are in the
+            wheels, and no balancer shaft can be fitted.
         placed: The engines that are geared together, if this engine is the whole of them;
             `cylinders` and all figures derived from `cylinders` are then those of the first engine.
             Empty for a single engine.
@@ -242,6 +244,7 @@ class Engine:
     up_deg: float | None = None
     inferred: tuple[Assumed, ...] = ()
     model: EngineFile | None = None
+    of_locomotive: bool = False
     placed: tuple[Placed, ...] = ()
 
     @classmethod

@@ -233,6 +233,7 @@ def gear_engines(placed: Sequence[Placed]) -> Engine:
         crank_inertia=crank_inertia,
         flywheel_inertia=flywheel_inertia,
         model=None,
+        of_locomotive=False,
         placed=tuple(placed),
     )
 

@@ -256,8 +256,11 @@ def explain_symmetry(
     """
     groups = dict(_list_groups(kinds, with_gas=engine.gas is not None))
     reasons = _find_reasons(without_devices(engine), merge_orders(orders), groups)
+    devices = engine.devices
+    coupling = sum(device.is_coupling for device in devices)
     scope = {
-        "without counterweights, shafts and sliders": engine.devices,
+        "without counterweights, shafts and sliders": len(devices) > coupling,
+        "without coupling rods": coupling,
         "at steady speed": engine.ripple,
         "couple and roll about the crank's axis": any(engine.reference_m[:2]),
     }

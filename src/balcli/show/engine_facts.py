@@ -13,7 +13,7 @@ from ..core.phasors import Figure
 from ..engine.engine import Engine, Placed, SilentCylinders
 from ..engine.firing.usual import list_numbers, write_rows
 from ..engine.layout import plan_cylinders
-from ..file.fields import count_lambda_digits, join_words
+from ..file.fields import count_lambda_digits, counted, join_words
 from ..forces.spectrum import find_relevant_orders
 from ..limits import HIGHEST_ORDER_UNASKED
 from .figures import silent_entries
@@ -120,14 +120,23 @@ def _tell_orders(engine: Engine) -> str:
 
 
 def _tell_devices(engine: Engine) -> str:
-    """Return how many devices are included; empty if there are none."""
-    count = len(engine.devices)
+    """Return how many devices, and coupling rods in how many places, are included; empty if there
+    are none.
+    """
+    devices = [*engine.devices]
     for placed in engine.placed:
-        count += len(placed.engine.devices)
-    if not count:
-        return ""
+        devices += placed.engine.devices
+    coupling = sum(device.is_coupling for device in devices)
+    count = len(devices) - coupling
     files = "the files" if engine.placed else "the file"
-    return f"{count} from {files} included"
+    told = []
+    if count:
+        told.append(f"{count} from {files}")
+    if coupling:
+        told.append(f"coupling rods in {counted(coupling, 'place')}")
+    if not told:
+        return ""
+    return f"{' and '.join(told)} included"
 
 
 def tell_reference(point: Iterable[Figure], system: System, *, known: bool) -> str:

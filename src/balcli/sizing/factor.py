@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..core.cylinders import DeviceKind
+from ..core.cylinders import Device
 from ..core.loads import share_by_lever
 from ..core.peaks import find_largest, find_least, find_peak
 from ..core.phasors import EPS, Array, Complex, Phasors, unit
@@ -211,8 +211,9 @@ def _note(fitting: Fitting, factor: float, z: Array, own: bool) -> str:
     if len(set(z)) == 1 and engine.places_known:  # a single plane cannot take a moment
         pins = _list_pins(engine, factor)
         places, weights = _find_counterweights(engine)
-        arms = np.array([*(pin.z for pin in pins), *places]) - z[0]
-        vectors = np.array([*(pin.unbalance for pin in pins), *weights])
+        rod_places, rods = _find_coupling_rods(engine)
+        arms = np.array([*(pin.z for pin in pins), *places, *rod_places]) - z[0]
+        vectors = np.array([*(pin.unbalance for pin in pins), *weights, *rods])
         if abs(arms @ vectors) > LEFT * (np.abs(arms) @ np.abs(vectors)):
             return SAME_PLACE
     if fitting.remedy.devices:
@@ -440,15 +441,18 @@ def _fit_factor(
 
 
 def _find_needs(engine: Engine, factor: float, planes: tuple[float, ...] | None) -> _Planes:
-    """Return the unbalance that each plane needs, has and lacks. Without given planes, each pin has
-    its own plane; but if the file has counterweights, pins at the same position share a plane,
-    because it is not known to which of these pins a weight belongs.
+    """Return the unbalance that each plane needs, has and lacks. Coupling rods of a locomotive need
+    weights, as the pins do. Without given planes, each pin has its own plane; but if the file has
+    counterweights or coupling rods, pins at the same position share a plane, because it is not
+    known to which of these pins a weight belongs.
     """
     pins = _list_pins(engine, factor)
     places, weights = _find_counterweights(engine)
+    rod_places, rods = _find_coupling_rods(engine)
     sets: list[list[_Pin]] = []
     if planes is None:
-        sets = _join_at_same_place(pins) if weights.any() else [[pin] for pin in pins]
+        shared = weights.any() or rods.any()
+        sets = _join_at_same_place(pins) if shared else [[pin] for pin in pins]
         z = np.array([members[0].z for members in sets], float)
     else:
         z = np.array(planes, float)
@@ -461,15 +465,30 @@ def _find_needs(engine: Engine, factor: float, planes: tuple[float, ...] | None)
                 of_pins[plane, k] = pin in members
     else:
         of_pins = share_by_lever(np.array([pin.z for pin in pins]), z)
-    of_weights = np.zeros((len(z), len(places)))
-    if weights.any():
-        of_weights[np.argsort(z)] = share_by_lever(places, np.sort(z))
+    of_weights = _share_in_any_order(places, weights, z)
+    of_rods = _share_in_any_order(rod_places, rods, z)
     unbalances = np.array([pin.unbalance for pin in pins])
-    wanted = -(of_pins @ unbalances)
+    wanted = -(of_pins @ unbalances) - of_rods @ rods
     present = of_weights @ weights
     parts = np.abs(of_pins) @ np.abs(unbalances) + np.abs(of_weights) @ np.abs(weights)
+    parts += np.abs(of_rods) @ np.abs(rods)
     needs = np.stack([wanted, present, wanted - present])
     return _Planes(z, np.where(np.abs(needs) <= LEFT * parts, 0, needs), sets)
+
+
+def _share_in_any_order(places: Array, unbalances: Complex, z: Array) -> Array:
+    """Return the shares of unbalances that planes take by the lever rule, shape (planes,
+    unbalances); 0 if no unbalance differs from 0.
+
+    Args:
+        places: Positions of the unbalances, m.
+        unbalances: Unbalances, kg m.
+        z: Positions of the planes in any order, m.
+    """
+    shares = np.zeros((len(z), len(places)))
+    if unbalances.any():
+        shares[np.argsort(z)] = share_by_lever(places, np.sort(z))
+    return shares
 
 
 def _join_at_same_place(pins: Iterable[_Pin]) -> list[list[_Pin]]:
@@ -506,9 +525,23 @@ def _find_counterweights(engine: Engine) -> tuple[Array, Complex]:
     """Return positions (z, m) of the file's counterweights and their unbalances at crank angle 0
     (kg m).
     """
-    own = [device for device in engine.devices if device.kind is DeviceKind.COUNTERWEIGHT]
-    places = np.array([float(device.z) for device in own])
-    return places, np.array([complex(device.forward) for device in own], complex)
+    return _place_devices(device for device in engine.devices if device.is_counterweight)
+
+
+def _find_coupling_rods(engine: Engine) -> tuple[Array, Complex]:
+    """Return positions (z, m) of a locomotive's coupling rods and their unbalances at crank angle 0
+    (kg m).
+    """
+    return _place_devices(device for device in engine.devices if device.is_coupling)
+
+
+def _place_devices(devices: Iterable[Device]) -> tuple[Array, Complex]:
+    """Return positions (z, m) of devices on the crank and their unbalances at crank angle 0
+    (kg m).
+    """
+    chosen = list(devices)
+    places = np.array([float(device.z) for device in chosen])
+    return places, np.array([complex(device.forward) for device in chosen], complex)
 
 
 def _list_pins(engine: Engine, factor: float) -> list[_Pin]:

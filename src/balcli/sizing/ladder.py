@@ -22,7 +22,7 @@ from typing import Annotated, NamedTuple
 
 import numpy as np
 
-from ..core.cylinders import Device, DeviceKind
+from ..core.cylinders import Device
 from ..core.peaks import find_largest
 from ..core.phasors import Array, Complex
 from ..core.records import HIDDEN
@@ -77,6 +77,9 @@ AS_DRAWN = "as drawn"
 WEIGHTS = "counterweights"
 WEIGHTS_AT_THROWS = "counterweights at every throw"
 SHAFT = "shaft at -1"
+NO_SHAFTS = (
+    "a locomotive has no room for shafts; `balcli locomotive` sizes the weights in its wheels"
+)
 
 _LONG_STROKE_M = 1.0  # only crosshead engines have longer strokes,
 _LONG_STROKE_IN_BORES = 2.5  # or longer ones in proportion to the bore
@@ -127,7 +130,7 @@ class LargestRoll(NamedTuple):
         order: Order.
         amplitude_Nm: Amplitude of the roll.
         shafts_at_mm: Positions x, y at which shafts at +2 and -2 also cancel the roll of order 2,
-            by their speed ratio; left out where no such positions exist.
+            by their speed ratio; left out where no such positions exist, and for locomotives.
         distance_m: Distance of these shafts along the force.
     """
 
@@ -206,12 +209,14 @@ class LeftOut(NamedTuple):
         moment_Nm: Largest rotating moment that it would cancel; left out where positions are not
             known.
         main_bearing_N: Reduction of the largest load of a main bearing.
+        buildable: Whether the engine has room for its devices: a locomotive has none for shafts.
     """
 
     step: str
     force_N: float
     moment_Nm: float | None = None
     main_bearing_N: float | None = None
+    buildable: Annotated[bool, HIDDEN] = True
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -230,6 +235,7 @@ class Ladder:
         by_power: Whether steps are judged by the power related unbalance: the engine is a
             two-stroke engine with crossheads.
         power: Power of such an engine; None if it is not known.
+        of_locomotive: Whether the engine is that of a locomotive, for which no shaft is listed.
     """
 
     scale: Scale
@@ -241,6 +247,7 @@ class Ladder:
     small: Annotated[float, HIDDEN] = SMALL
     by_power: Annotated[bool, HIDDEN] = False
     power: Annotated[Power | None, HIDDEN] = None
+    of_locomotive: Annotated[bool, HIDDEN] = False
 
     def fit(self, step: str | int | None = None) -> Remedy:
         """Return the devices of a listed step and of the steps before it, or only those of several
@@ -302,6 +309,8 @@ class Ladder:
 
     def _explain(self, out: LeftOut) -> str:
         """Return in words the effect of an omitted step and the way to get it, if there is one."""
+        if not out.buildable:
+            return NO_SHAFTS
         share = self.measure(out)
         fall = out.main_bearing_N
         size = f"{abs(share):.2g} % of one cylinder's first order"
@@ -387,8 +396,10 @@ def _draw(engine: Engine, small: float) -> _Drawn:
 
 def is_judged_by_power(engine: Engine) -> bool:
     """Return whether devices are judged by the power related unbalance: every crank belongs to a
-    two-stroke engine with crossheads.
+    two-stroke engine with crossheads, and the engine is not that of a locomotive.
     """
+    if engine.of_locomotive:
+        return False
     return all(is_crosshead_two_stroke(crank.engine) for crank in engine.cranks)
 
 
@@ -433,6 +444,7 @@ class _Offer(NamedTuple):
         takes_back: Whether its counterweights work against those of the file.
         related: Power related unbalance of the moment that it faces, N m/kW; None if not known.
         fall: Reduction of the largest main bearing load, N; only for counterweights at every throw.
+        buildable: Whether the engine has room for its devices.
     """
 
     name: str
@@ -445,6 +457,7 @@ class _Offer(NamedTuple):
     takes_back: bool = False
     related: float | None = None
     fall: float | None = None
+    buildable: bool = True
 
     @property
     def fits_something(self) -> bool:
@@ -496,6 +509,7 @@ def find_ladder(engine: Engine, small: float = SMALL) -> Ladder:
         small=small,
         by_power=drawn.by_power,
         power=drawn.power,
+        of_locomotive=engine.of_locomotive,
     )
 
 
@@ -570,7 +584,10 @@ def _offer_weights_at_throws(
 
 
 def _offer_shafts(drawn: _Drawn) -> Iterator[_Offer]:
-    """Yield the steps with balancer shafts, for order 1 and for order 2."""
+    """Yield the steps with balancer shafts, for order 1 and for order 2. A locomotive has no room
+    for them.
+    """
+    buildable = not drawn.engine.of_locomotive
     cylinders = max(len(drawn.engine.rising_numbers), FEWEST_CYLINDERS_COUNTED)
     without_crank = {-1}.difference(find_carriers(drawn.engine))
     for residual, senses, limit in (
@@ -585,11 +602,12 @@ def _offer_shafts(drawn: _Drawn) -> Iterator[_Offer]:
         yield _Offer(
             SHAFT if residual.order == 1 else name_shafts(named),
             residual.order,
-            listed=bool(due),
+            listed=buildable and bool(due),
             own=add_shafts(drawn.start, residual, due).remedy,
             cancels=_measure(residual, named, drawn.scales),
             limit=limit,
             worth_it=not is_small(max(sizes.values()), limit),
+            buildable=buildable,
         )
 
 
@@ -700,7 +718,7 @@ def _list_arms(engine: Engine) -> Array:
 
 def _list_counterweights(engine: Engine) -> list[Device]:
     """Return the counterweights of all cranks."""
-    return [one for one in engine.every_device if one.kind is DeviceKind.COUNTERWEIGHT]
+    return [device for device in engine.every_device if device.is_counterweight]
 
 
 def _measure_unbalance(device: Device) -> float:
@@ -774,6 +792,7 @@ def _leave_out(engine: Engine, offer: _Offer) -> LeftOut:
         force_N=offer.cancels.force,
         moment_Nm=offer.cancels.moment if engine.places_known else None,
         main_bearing_N=offer.fall,
+        buildable=offer.buildable,
     )
 
 
@@ -822,7 +841,7 @@ def _find_roll(drawn: _Drawn) -> LargestRoll | None:
     second = drawn.second
     of_order_2 = compute_spectra(hold_steady(engine), [2], (kind.name,))[kind.name]
     amplitude = 2 * complex(of_order_2.forward[0])
-    if not (amplitude and second.force(1) and second.force(-1)):
+    if engine.of_locomotive or not (amplitude and second.force(1) and second.force(-1)):
         return roll
     places = place_pair(second, find_wanted_roll(second, amplitude / second.newtons_per_kg_m))
     distance = find_distance(second, places)

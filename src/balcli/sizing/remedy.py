@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from ..core.cylinders import Device, DeviceKind
+from ..core.cylinders import Device
 from ..engine.engine import Engine
 from ..engine.placed import build_fitted
 from ..file.model import Counterweight, EngineFile, Shaft, Slider
@@ -115,8 +115,8 @@ def fit_devices(engine: Engine, remedy: Remedy) -> Engine:
 
 
 def remove_counterweights(engine: Engine) -> Engine:
-    """Return the engine without the counterweights of its file."""
-    devices = tuple(d for d in engine.devices if d.kind is not DeviceKind.COUNTERWEIGHT)
+    """Return the engine without the counterweights of its file; coupling rods remain."""
+    devices = tuple(device for device in engine.devices if not device.is_counterweight)
     model = engine.model and engine.model.model_copy(update={"counterweight": ()})
     return replace(engine, devices=devices, model=model)
 
