@@ -127,6 +127,31 @@ def test_other_mechanisms_by_differences(name):
         assert np.abs(bend - curve["acceleration_m_per_s2"]).max() < 1e-5 * np.abs(bend).max()
 
 
+def test_the_rod_swings_as_its_angle_changes():
+    """By the closed form of a centred slider-crank (Lu and Meng (1-6)) at steady speed, and by differences at an uneven
+    one.
+    """
+    subject = build(parse((ENGINES / "single.toml").read_text(encoding="utf-8")))
+    angles = divide_revolution(15)
+    curve = compute_cylinder_curves(subject, 1, angles)
+    alpha = np.radians(angles)
+    cos_beta = np.sqrt(1 - (0.3 * np.sin(alpha)) ** 2)
+    omega = float(subject.omega)
+    speed = 0.3 * omega * np.cos(alpha) / cos_beta
+    acceleration = -0.3 * (1 - 0.3**2) * omega**2 * np.sin(alpha) / cos_beta**3
+    assert curve["rod_speed_rad_per_s"] == pytest.approx(speed, abs=1e-12 * omega)
+    assert curve["rod_acceleration_rad_per_s2"] == pytest.approx(acceleration, abs=1e-12 * omega**2)
+
+    uneven = build_text(UNEVEN)
+    h = 1e-3
+    mid, before, after = (compute_cylinder_curves(uneven, 1, angles + d) for d in (0, -h, h))
+    changing = uneven.omega * (1 + 0.02 * np.cos(np.radians(2 * angles - 40)))
+    slope = np.radians(after["rod_angle_deg"] - before["rod_angle_deg"]) / (2 * np.radians(h)) * changing
+    bend = (after["rod_speed_rad_per_s"] - before["rod_speed_rad_per_s"]) / (2 * np.radians(h)) * changing
+    assert mid["rod_speed_rad_per_s"] == pytest.approx(slope, abs=1e-7 * np.abs(slope).max())
+    assert mid["rod_acceleration_rad_per_s2"] == pytest.approx(bend, abs=1e-7 * np.abs(bend).max())
+
+
 def test_a_piston_at_uneven_speed_accelerates_as_its_velocity_changes_in_time():
     """dv/dt is dv/dtheta times the crank speed there."""
     text = TEXTS["uneven"]

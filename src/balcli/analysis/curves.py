@@ -244,11 +244,16 @@ def _compute_cylinder_parts(engine: Engine, row: int, crank_deg: Array) -> dict[
     v = -m.velocity[row]
     a = -m.acceleration[row]
     angles = np.broadcast_to(np.arctan2(m.lean, m.cosine), motion.psi.shape)
+    # spin is positive in the sense of the crank, against which the rod's angle increases
+    slope = 0.0 - np.broadcast_to(m.spin, motion.psi.shape)[row]
+    slope_rate = 0.0 - np.broadcast_to(m.spin_rate, motion.psi.shape)[row]
     return {
         "travel_m": r * motion.travel()[row : row + 1],
         "velocity_m_per_s": (r * motion.omega * v)[None],
         "acceleration_m_per_s2": r * np.array([motion.omega**2 * a, motion.xi * v]),
         "rod_angle_deg": np.degrees(angles[row : row + 1]),
+        "rod_speed_rad_per_s": (motion.omega * slope)[None],
+        "rod_acceleration_rad_per_s2": np.array([motion.omega**2 * slope_rate, motion.xi * slope]),
     }
 
 
