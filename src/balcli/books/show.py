@@ -189,6 +189,14 @@ def _write_exact(erratum: Erratum) -> str:
 ERRATA = Renderer(sheet=lay_out_errata, document=describe_errata, rows=list_errata)
 
 
+OUTSIDE = (
+    "docs/sources.md names the command for every equation, table and figure of the five. Outside "
+    "balcli: finite-element stress, fatigue and reliability; lateral vibration, whirling and "
+    "gyroscopic moments of shafts; stiffness of a throw from its dimensions; analysis of recorded "
+    "vibration traces; dry-friction dampers."
+)
+
+
 def lay_out_list(tables: Sequence[Table], _system: System) -> Sheet:
     """Return a list of the tables with their errata, and a list of sources."""
     of_problems = 0
@@ -208,7 +216,7 @@ def lay_out_list(tables: Sequence[Table], _system: System) -> Sheet:
         Column("source", [source.key for source in SOURCES], words=True),
         Column("printed in", [source.citation for source in SOURCES], words=True),
     ]
-    parts = (_tabulate("", tables, note), Grid("Sources", printed))
+    parts = (_tabulate("", tables, note), Grid("Sources", printed, OUTSIDE))
     return Sheet("Printed tables, recomputed", parts)
 
 
