@@ -47,7 +47,7 @@ def test_extremes_are_those_of_the_curve(ratio, offset):
         assert curve[np.rint(at).astype(int) % N] == pytest.approx([highest, lowest], rel=1e-5)
     minima = (rate < np.roll(rate, 1)) & (rate <= np.roll(rate, -1))
     assert found.acceleration.type == np.count_nonzero(minima)
-    assert (found.two_term is None) == bool(offset)
+    assert (found.offset_ratio or 0) == pytest.approx(offset / 45)
 
 
 @pytest.mark.parametrize(("share", "type_"), [(0.999, 1), (1.001, 2)])
@@ -72,6 +72,23 @@ def test_two_terms():
     assert two.acceleration_max_m_per_s2 == pytest.approx(rate.max(), rel=1e-12)
     assert two.acceleration_min_m_per_s2 == pytest.approx(rate.min(), rel=1e-9)
     assert two.acceleration_min_own_deg == pytest.approx(rate.argmin() / 1000, abs=2e-3)
+
+
+def test_two_terms_with_an_offset():
+    """v = r w (sin psi + lam/2 sin 2 psi - lam xi cos psi) of the engine CA485, offset -1.6 mm, at 4300 rpm."""
+    found = piston(load_example("tsinghua_ca485")).mechanisms[0]
+    two = found.two_term
+    assert round(found.offset_ratio, 5) == -0.03765
+    assert (round(two.velocity_max_m_per_s, 4), round(two.velocity_max_own_deg, 2)) == (19.9962, 74.32)
+    assert (round(two.velocity_min_m_per_s, 4), round(two.velocity_min_own_deg, 2)) == (-19.8816, 284.68)
+    assert (round(two.acceleration_max_m_per_s2, 1), round(two.acceleration_max_own_deg, 2)) == (11233.8, 359.70)
+    assert (round(two.acceleration_min_m_per_s2, 1), round(two.acceleration_min_own_deg, 2)) == (-6221.2, 144.15)
+
+
+@pytest.mark.parametrize(("ratio", "minima"), [(0.249, 1), (0.2501, 2)])
+def test_two_terms_have_two_minima_above_a_quarter(ratio, minima):
+    found = piston(build_text(changed(("length = 160", f"ratio = {ratio}")))).mechanisms[0]
+    assert found.two_term.type == minima
 
 
 def test_an_offset_of_ten_millimetres():
@@ -161,7 +178,7 @@ def test_pistons_of_different_strokes_are_different_mechanisms(rod, ratios):
 
 @pytest.mark.parametrize(("of_first", "of_second"), [(0, 10), (10, 0), (10, -10)])
 def test_pistons_of_different_offsets_are_different_mechanisms(of_first, of_second):
-    """Stroke and dead centres by triangles; a formula of two terms stands only beside a centred piston."""
+    """Stroke and dead centres by triangles; the offset ratio stands only beside a piston that is not centred."""
     pistons = {"1": {"piston_offset": of_first}, "2": {"piston_offset": of_second}}
     for each, offset in zip(move_two(cylinder=pistons).mechanisms, (of_first, of_second), strict=True):
         outer, inner = (math.degrees(math.asin(offset / arm)) for arm in (240, 160))
@@ -170,7 +187,7 @@ def test_pistons_of_different_offsets_are_different_mechanisms(of_first, of_seco
         assert each.outer_dead_center_own_deg == pytest.approx(outer)
         assert each.inner_dead_center_own_deg == pytest.approx(180 + inner)
         assert each.inward_stroke_deg == pytest.approx(180 + inner - outer)
-        assert (each.two_term is None) == (offset != 0)
+        assert each.offset_ratio == (pytest.approx(offset / 40) if offset else None)
 
 
 def test_one_of_two_pistons_is_chosen_by_its_number():

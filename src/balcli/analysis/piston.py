@@ -44,6 +44,7 @@ _USUAL = (  # Lu and Meng, Automobile Engine Design, 1990, section 1.1.1.1 and T
 )
 _HIGH_SPEED = 9.0  # mean piston speed above which an engine is a high-speed one, m/s
 _SAMPLES = 32  # samples per period of the highest order, to count minima
+_TWO_TERM_SAMPLES = 2048  # as above: near the limit, the minima of two terms are close together
 
 
 @dataclass(frozen=True)
@@ -85,13 +86,16 @@ class Acceleration:
 @dataclass(frozen=True, kw_only=True)
 class TwoTerm:
     """Velocity and acceleration by the first two terms of their series. The velocity at crank angle
-    psi is r omega (sin psi + lam/2 sin 2 psi); r: crank radius, omega: crank speed, lam: r over the
-    rod length.
+    psi is r omega (sin psi + lam/2 sin 2 psi - lam xi cos psi); r: crank radius, omega: crank
+    speed, lam: r over the rod length, xi: offset over r.
 
     Attributes:
         velocity_max_m_per_s: Highest velocity.
         velocity_max_own_deg: Crank angle of the highest velocity.
+        velocity_min_m_per_s: Lowest velocity.
+        velocity_min_own_deg: Crank angle of the lowest velocity.
         acceleration_max_m_per_s2: Highest acceleration.
+        acceleration_max_own_deg: Crank angle of the highest acceleration.
         acceleration_min_m_per_s2: Lowest acceleration.
         acceleration_min_own_deg: Crank angle of the lowest acceleration.
         type: Number of local minima of the acceleration in a revolution.
@@ -99,7 +103,10 @@ class TwoTerm:
 
     velocity_max_m_per_s: float
     velocity_max_own_deg: float
+    velocity_min_m_per_s: float
+    velocity_min_own_deg: float
     acceleration_max_m_per_s2: float
+    acceleration_max_own_deg: float
     acceleration_min_m_per_s2: float
     acceleration_min_own_deg: float
     type: int
@@ -112,6 +119,8 @@ class PistonMotion:
     Attributes:
         cylinders: Numbers of the cylinders.
         rod_ratio: Crank radius over rod length; left out for articulated rods and harmonic motion.
+        offset_ratio: Offset over crank radius; left out for centred pistons, and where `rod_ratio`
+            is.
         stroke_m: True stroke.
         swept_volume_m3: Swept volume of one cylinder; left out without a bore.
         outer_dead_center_own_deg: Crank angle at which the piston is farthest from the crank.
@@ -121,11 +130,12 @@ class PistonMotion:
         mean_speed_m_per_s: Mean piston speed.
         velocity: Highest and lowest velocity.
         acceleration: Highest and lowest acceleration.
-        two_term: Velocity and acceleration by two terms; only for centred slider-cranks.
+        two_term: Velocity and acceleration by two terms; only for slider-cranks.
     """
 
     cylinders: tuple[int, ...]
     rod_ratio: float | None = None
+    offset_ratio: float | None = None
     stroke_m: float
     swept_volume_m3: float | None = None
     outer_dead_center_own_deg: float
@@ -198,13 +208,16 @@ def piston(engine: Engine) -> Pistons:
         inward = (bottom + 180 - top) % 360
         hung = isinstance(c.linkage, Articulated) and bool(c.linkage.master[first] != first)
         lam = float(np.broadcast_to(c.lam, len(numbers))[first])
-        centred = c.linkage is None and lam and not np.broadcast_to(c.eps, len(numbers))[first]
+        eps = float(np.broadcast_to(c.eps, len(numbers))[first])
+        xi = eps / lam if lam else 0.0
+        slides = c.linkage is None and lam
         series = np.asarray(harmonics["piston"].c[:, int(kind.real)], complex)
         velocity = _find_extremes(orders, series / (1j * orders), radius * omega)
         mechanisms.append(
             PistonMotion(
                 cylinders=tuple(sorted(numbers[rows].tolist())),
                 rod_ratio=None if hung or not lam else lam,
+                offset_ratio=None if hung or not xi else xi,
                 stroke_m=stroke,
                 swept_volume_m3=math.pi / 4 * bore**2 * stroke if bore > 0 else None,
                 outer_dead_center_own_deg=(top + 180) % 360 - 180,
@@ -214,7 +227,7 @@ def piston(engine: Engine) -> Pistons:
                 mean_speed_m_per_s=stroke * omega / math.pi,
                 velocity=Velocity(*velocity),
                 acceleration=_find_acceleration(orders, series, radius * omega**2),
-                two_term=_use_two_terms(lam, radius, omega) if centred else None,
+                two_term=_use_two_terms(lam, xi, radius, omega) if slides else None,
             )
         )
     return Pistons(
@@ -244,9 +257,11 @@ def choose_cylinder(result: Pistons, number: int) -> Pistons:
     return replace(result, mechanisms=tuple(chosen))
 
 
-def _find_acceleration(orders: Array, series: Complex, scale: float) -> Acceleration:
+def _find_acceleration(
+    orders: Array, series: Complex, scale: float, samples: int = _SAMPLES
+) -> Acceleration:
     """Return the extremes of the acceleration from its phasors by order."""
-    angles = np.linspace(0, 2 * np.pi, _SAMPLES * len(orders), endpoint=False)
+    angles = np.linspace(0, 2 * np.pi, samples * len(orders), endpoint=False)
     jerk = (np.exp(1j * np.outer(angles, orders)) @ (1j * orders * series)).real
     turns = (jerk <= 0) & (np.roll(jerk, -1) > 0)
     return Acceleration(*_find_extremes(orders, series, scale), int(np.count_nonzero(turns)))
@@ -263,30 +278,57 @@ def _find_extremes(
     return *high, *low
 
 
-def _use_two_terms(lam: float, radius: float, omega: float) -> TwoTerm:
-    """Return velocity and acceleration of a centred slider-crank by their first two terms.
+def _use_two_terms(lam: float, xi: float, radius: float, omega: float) -> TwoTerm:
+    """Return velocity and acceleration of a slider-crank by their first two terms.
 
-    The acceleration in units of r omega^2 is `cos psi + lam cos 2 psi`. Its minimum is at
-    `cos psi = -1/(4 lam)` if there is such an angle psi, otherwise at 180 deg.
+    The acceleration in units of r omega^2 is `cos psi + lam xi sin psi + lam cos 2 psi`.
+
+    Source: Lu and Meng, Automobile Engine Design, 1990, (1-11); the term with the offset follows
+    from the travel `1 - cos psi + lam/2 (sin psi - xi)^2`.
     """
-    fastest, speed = fastest_two_term(lam)
-    scale = radius * omega**2
+    if xi:
+        orders = np.array([1.0, 2.0])
+        series = np.array([1 - 1j * lam * xi, lam])
+        velocity = Velocity(*_find_extremes(orders, series / (1j * orders), radius * omega))
+        scale = radius * omega**2
+        acceleration = _find_acceleration(orders, series, scale, _TWO_TERM_SAMPLES)
+    else:
+        velocity = _find_centred_velocity(lam, radius * omega)
+        acceleration = _find_centred_acceleration(lam, radius * omega**2)
+    return TwoTerm(
+        velocity_max_m_per_s=velocity.max_m_per_s,
+        velocity_max_own_deg=velocity.max_own_deg,
+        velocity_min_m_per_s=velocity.min_m_per_s,
+        velocity_min_own_deg=velocity.min_own_deg,
+        acceleration_max_m_per_s2=acceleration.max_m_per_s2,
+        acceleration_max_own_deg=acceleration.max_own_deg,
+        acceleration_min_m_per_s2=acceleration.min_m_per_s2,
+        acceleration_min_own_deg=acceleration.min_own_deg,
+        type=acceleration.type,
+    )
+
+
+def _find_centred_velocity(lam: float, scale: float) -> Velocity:
+    """Return the extremes of the two-term velocity without an offset."""
+    angle, value = fastest_two_term(lam)
+    highest = scale * float(value)
+    highest_deg = math.degrees(float(angle))
+    return Velocity(highest, highest_deg, -highest, 360 - highest_deg)
+
+
+def _find_centred_acceleration(lam: float, scale: float) -> Acceleration:
+    """Return the extremes of the two-term acceleration without an offset. The minimum is at `cos
+    psi = -1/(4 lam)` if there is such an angle psi, otherwise at 180 deg.
+    """
     if lam > _TWO_TERM_LIMIT:
         lowest = lam + 1 / (8 * lam)
         lowest_deg = math.degrees(math.acos(-1 / (4 * lam)))
-        kind = 2
+        minima = 2
     else:
         lowest = 1 - lam
         lowest_deg = 180.0
-        kind = 1
-    return TwoTerm(
-        velocity_max_m_per_s=radius * omega * float(speed),
-        velocity_max_own_deg=math.degrees(float(fastest)),
-        acceleration_max_m_per_s2=scale * (1 + lam),
-        acceleration_min_m_per_s2=-scale * lowest,
-        acceleration_min_own_deg=lowest_deg,
-        type=kind,
-    )
+        minima = 1
+    return Acceleration(scale * (1 + lam), 0.0, -scale * lowest, lowest_deg, minima)
 
 
 # ------------------------------------------------------------------ quantities of variants
@@ -358,7 +400,7 @@ def sheet(result: Pistons, system: System) -> Sheet:
         if motion.two_term is not None:
             two_term = _write_two_term(motion.two_term, exact, system)
             columns.append(_FigureColumn("two-term", two_term))
-            if motion.two_term.type != motion.acceleration.type:
+            if motion.offset_ratio is None and motion.two_term.type != motion.acceleration.type:
                 notes.append(
                     f"The acceleration has two minima above a rod ratio of {TYPE_LIMIT:.4f}; by the"
                     f" two-term formula, above {_TWO_TERM_LIMIT}."
