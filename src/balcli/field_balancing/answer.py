@@ -26,6 +26,7 @@ from ..file.fields import counted, join_words, shorten, suggest_nearest
 from ..file.plain_tables import take_tables
 from ..file.units import ask_unit
 from ..show.result import Result
+from .amplitudes import AmplitudeFit, fit_amplitudes
 from .influence import (
     Influence,
     Series,
@@ -46,11 +47,14 @@ _ROUNDING = 1e-13  # a prediction below this share of the largest reading is a r
 # A warning is given if a reading differs from its prediction by more than this share of a scale:
 # the largest reading as found, or the largest change by weights, whichever is larger.
 _SURPRISING = 0.5
+_MISFIT = 0.05  # a larger misfit of amplitudes, as a share of the largest reading, is doubtful
 
 
 def find_doubts(result: FieldBalance) -> Iterator[Doubt]:
     """Yield warnings of everything suspicious in a result and its runs."""
     file = result.file
+    if result.fit is not None and result.fit.share > _MISFIT:
+        yield _doubt_fit(result, result.fit)
     alike = [each for each in result.corrections if each.own_effect < _NEARLY_DEPENDENT]
     if len(alike) > 1:
         told: str = Message(
@@ -74,31 +78,56 @@ def find_doubts(result: FieldBalance) -> Iterator[Doubt]:
         )
         yield Doubt("", told)
     series = collect_series(file)
-    if file.influence is None:
-        yield from _doubt_trials(result, series)
-    for each in series:
-        yield from _doubt_runs(result, each)
+    if result.fit is not None:
+        runs = result.runs
+        yield from _doubt_trials(result, [_Trials(series[0], runs.coefficients, runs.found)])
+    else:
+        if file.influence is None:
+            trials = [_Trials(each, *fit_coefficients(each)) for each in series]
+            yield from _doubt_trials(result, trials)
+        for each in series:
+            yield from _doubt_runs(result, each)
     if file.radius is not None and (radius := max(file.radius)) < _SMALLEST_RADIUS:
         yield Doubt("radius", f"{radius:g} mm; {ask_unit('mm', f'{radius:g} m')}")
 
 
-def _doubt_trials(result: FieldBalance, series: list[Series]) -> Iterator[Doubt]:
+def _doubt_fit(result: FieldBalance, fit: AmplitudeFit) -> Doubt:
+    """Return the warning that amplitudes do not fit one unbalance."""
+    row, _ = np.unravel_index(int(np.abs(fit.misfit).argmax()), fit.misfit.shape)
+    amount = f"{fit.rms:.3g} {result.unit or ''}".rstrip()
+    worst = result.file.name_run(int(row))
+    told = (
+        f"the readings do not fit one unbalance: their misfit is {amount} (rms), "
+        f"{100 * fit.share:.2g}% of the largest reading; repeat '{worst}', which "
+        "fits worst, with the same weights"
+    )
+    return Doubt("", told)
+
+
+class _Trials(NamedTuple):
+    """Runs at one speed, with the influence coefficients and readings as found of the fit."""
+
+    series: Series
+    coefficients: Complex
+    found: Complex
+
+
+def _doubt_trials(result: FieldBalance, trials: list[_Trials]) -> Iterator[Doubt]:
     """Yield warnings of weak trial weights, and of corrections far above all trial weights."""
     for correction in result.corrections:
         plane = correction.plane
         weight = abs(correction.weight)
         k = result.file.planes.index(plane)
-        for each in series:
-            alpha, found = fit_coefficients(each)
-            change = np.abs(np.outer(alpha[:, k], each.weights[:, k])).max()
+        for series, alpha, found in trials:
+            change = np.abs(np.outer(alpha[:, k], series.weights[:, k])).max()
             if change < _SMALL_CHANGE * (largest := np.abs(found).max()):
-                at = f" at {each.speed_rpm:g} rpm" if len(series) > 1 else ""
+                at = f" at {series.speed_rpm:g} rpm" if len(trials) > 1 else ""
                 told = (
                     f"the trial weight in {plane}{at} changes no reading by more than "
                     f"{change:.3g}, {100 * change / largest:.2g}% of the largest; make it heavier"
                 )
                 yield Doubt("", told)
-        trial = max(float(np.abs(each.weights[:, k]).max()) for each in series)
+        trial = max(float(np.abs(each.series.weights[:, k]).max()) for each in trials)
         if weight > _FAR_BEYOND * trial:
             told = (
                 f"the correction of {weight:.3g} {result.weight_unit} in {plane} is "
@@ -263,6 +292,14 @@ class FieldBalance(Result):
         phases: Direction in which phases of readings count: with or against rotation.
         weights: Direction in which angles of weights count: with or against rotation.
         minimise: Minimised quantity: the sum of squared readings, or the largest reading.
+        method: How the readings were evaluated: from amplitudes without phase; left out if they
+            have phases.
+        ambiguous: Whether two unbalances fit the amplitudes, so that `corrections` is empty; left
+            out if readings have phases.
+        fit_rms: Root mean square of the misfit of the amplitudes over all sensors and runs; left
+            out if readings have phases.
+        solutions: Both correction weights that fit the amplitudes, the lighter one first; left out
+            unless `ambiguous` is true.
         readings: Sensor and speed of every reading.
         influence: Influence coefficients: change of a reading by one unit of weight in a plane.
         corrections: Correction weights of the planes that are not left out.
@@ -278,6 +315,8 @@ class FieldBalance(Result):
             missing.
         file: File of runs.
         runs: Readings and influence coefficients of all speeds.
+        used: Names of the planes that get a weight.
+        fit: Fit of amplitudes without phase; None if readings have phases.
     """
 
     format: Literal["balcli.field/1"] = "balcli.field/1"
@@ -287,6 +326,10 @@ class FieldBalance(Result):
     phases: Sense
     weights: Sense
     minimise: Minimise
+    method: Literal["amplitudes"] | None = None
+    ambiguous: bool | None = None
+    fit_rms: float | None = None
+    solutions: tuple[Weight, ...] | None = None
     readings: tuple[Sensor, ...]
     influence: Annotated[Complex, _READING, Axes(2)]
     corrections: tuple[Correction, ...]
@@ -300,11 +343,13 @@ class FieldBalance(Result):
     permitted: Permitted | None = None
     file: Annotated[RunsFile, HIDDEN]
     runs: Annotated[Influence, HIDDEN]
+    used: Annotated[tuple[str, ...], HIDDEN]
+    fit: Annotated[AmplitudeFit | None, HIDDEN] = None
 
     @property
     def summary(self) -> str:
         """Planes that get a weight."""
-        return f"in {', '.join(each.plane for each in self.corrections)}"
+        return f"in {', '.join(self.used)}"
 
     @property
     def limited(self) -> bool:
@@ -314,8 +359,7 @@ class FieldBalance(Result):
     @property
     def left_out(self) -> list[str]:
         """Planes that are left out."""
-        used = {each.plane for each in self.corrections}
-        return [plane for plane in self.file.planes if plane not in used]
+        return [plane for plane in self.file.planes if plane not in self.used]
 
     @property
     def doubts(self) -> tuple[Doubt, ...]:
@@ -340,7 +384,10 @@ def find_corrections(
         BalcliError: `without` names all planes, or a plane that does not exist.
     """
     used = _choose_planes(file, without)
-    runs = find_influence(file, used, name)
+    fit = fit_amplitudes(file, used, name) if file.has_only_amplitudes else None
+    if fit is not None and fit.answers is not None:
+        return _leave_open(file, minimise, used, fit)
+    runs = find_influence(file, used, name) if fit is None else fit.influence
     matrix = runs.coefficients[:, used]
     now = runs.start
     _refuse_dependent(matrix, [file.planes[k] for k in used], name)
@@ -382,7 +429,6 @@ def find_corrections(
                 pieces=limits[j].plan(add, float(negligible[j])),
             )
         )
-    sensors = file.sensors or [f"sensor {k}" for k, _ in enumerate(file.run[0].readings, 1)]
     return FieldBalance(
         name=file.name,
         unit=file.unit,
@@ -390,7 +436,10 @@ def find_corrections(
         phases=phases,
         weights=senses,
         minimise=minimise,
-        readings=tuple(map(Sensor, cycle(sensors), runs.speeds_rpm)),
+        method=None if fit is None else "amplitudes",
+        ambiguous=None if fit is None else False,
+        fit_rms=None if fit is None else fit.rms,
+        readings=_list_sensors(file, runs),
         influence=runs.coefficients,
         corrections=tuple(corrections),
         before=runs.latest,
@@ -403,7 +452,56 @@ def find_corrections(
         permitted=_find_permitted(file, runs, used, step),
         file=file,
         runs=runs,
+        used=tuple(file.planes[k] for k in used),
+        fit=fit,
     )
+
+
+def _leave_open(
+    file: RunsFile, minimise: Minimise, used: list[int], fit: AmplitudeFit
+) -> FieldBalance:
+    """Return the result of amplitudes that two unbalances fit: both answers, and no corrections.
+
+    Args:
+        file: File of runs.
+        minimise: Minimised quantity.
+        used: Index of the only plane.
+        fit: Fit with two answers.
+    """
+    runs = fit.influence
+    answers = fit.answers.corrections if fit.answers is not None else ()
+    left = runs.factors * np.abs(runs.found)
+    phases, senses = file.senses
+    return FieldBalance(
+        name=file.name,
+        unit=file.unit,
+        weight_unit=file.weight_unit,
+        phases=phases,
+        weights=senses,
+        minimise=minimise,
+        method="amplitudes",
+        ambiguous=True,
+        fit_rms=fit.rms,
+        solutions=answers,
+        readings=_list_sensors(file, runs),
+        influence=runs.coefficients,
+        corrections=(),
+        before=runs.latest,
+        residual=runs.latest,
+        largest=float(left.max()),
+        rms=float(np.sqrt(np.mean(left**2))),
+        condition=1.0,
+        file=file,
+        runs=runs,
+        used=tuple(file.planes[k] for k in used),
+        fit=fit,
+    )
+
+
+def _list_sensors(file: RunsFile, runs: Influence) -> tuple[Sensor, ...]:
+    """Return sensor and speed of every reading."""
+    names = file.sensors or [f"sensor {k}" for k, _ in enumerate(file.run[0].readings, 1)]
+    return tuple(map(Sensor, cycle(names), runs.speeds_rpm))
 
 
 def _choose_planes(file: RunsFile, without: Collection[str]) -> list[int]:
@@ -481,7 +579,7 @@ def _find_permitted(
     if file.grade is None or file.mass is None or file.speed is None or list_missing(file):
         return None
     best = make_small(runs.coefficients[:, used], -runs.start, runs.factors).x
-    scatter = find_scatter(file, runs, used, best)
+    scatter = None if file.has_only_amplitudes else find_scatter(file, runs, used, best)
     whole = find_permitted_unbalance(file.grade, file.mass, file.speed)
     shares = np.array(file.shares or np.ones(len(file.planes)))
     planes = []

@@ -42,6 +42,10 @@ def field(
     `balcli new field runs.toml` writes a file to start from: planes, a run as found, and a run with
     a trial weight for each plane. Weights and readings are printed in the units of the file.
 
+    With an instrument that shows no phase, write readings as bare numbers (`readings = [6.2]`). One
+    plane then needs four runs (as found, and a trial weight at three angles such as 0, 120 and 240
+    deg), two planes need seven. After three runs in one plane, two answers are printed.
+
     \b
     Examples:
       balcli field runs.toml
@@ -61,5 +65,6 @@ def field(
     if plot is not None and drawn is not None:
         write_figure(pages.make_field(result), drawn, plot)
     show([result], pages.RENDERER, form, output, units)
-    if check and result.permitted is not None and not result.permitted.reached:
+    permitted = result.permitted
+    if check and (result.ambiguous or (permitted is not None and not permitted.reached)):
         raise typer.Exit(Exit.DIFFERENCE)

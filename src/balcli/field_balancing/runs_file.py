@@ -45,6 +45,7 @@ _GRADE = re.compile(rf"\s*[Gg]\s*({BARE_FIGURE})\s*", re.ASCII)
 _POLAR = re.compile(rf"\s*({BARE_FIGURE})\s*@\s*({BARE_FIGURE})\s*(?:deg|°)?\s*", re.ASCII)
 _AT_RADIUS = re.compile(rf"\bat\s+({BARE_FIGURE})\s*([a-z]*)", re.ASCII)  # "10 g at 150 mm @ 0"
 _FARTHEST_DEG = 1e6
+_MOST_PLANES_WITHOUT_PHASE = 2
 FREE = "free"  # value of `places` for a plane that takes weights at any angle
 _AMOUNTS = Dimension("g", "a unit of mass or of unbalance", ("g", "oz", "g mm"))
 
@@ -100,6 +101,21 @@ class Polar(Number):
 
     def json(self) -> Node:
         return {"type": "string", "pattern": rf"^{_POLAR.pattern}$"}
+
+
+class Amplitude(Number):
+    """A reading: amplitude @ phase, or a bare number for an amplitude without phase."""
+
+    def __init__(self) -> None:
+        super().__init__(PLAIN, least=0, most=1e12)
+        self.polar = Polar("170 @ 112", zero=True)
+
+    def read(self, value: object) -> complex | float:  # type: ignore[override]
+        bare = isinstance(value, (int, float)) and not isinstance(value, bool)
+        return super().read(value) if bare else self.polar.read(value)
+
+    def json(self) -> Node:
+        return {"anyOf": [self.polar.json(), {"type": "number", "minimum": 0, "maximum": 1e12}]}
 
 
 def make_polar(amplitude: float, angle_deg: float) -> complex:
@@ -160,7 +176,7 @@ T = TypeVar("T")
 Weights = TypeVar("Weights", complex, "Complex")
 ByPlane = Annotated[tuple[T, ...], Field(min_length=1, max_length=MOST_BALANCING_PLANES)]
 BySensor = Annotated[tuple[T, ...], Field(min_length=1, max_length=MOST_SENSORS)]
-Reading = Annotated[complex, Polar("170 @ 112", zero=True)]
+Reading = Annotated[complex | float, Amplitude()]
 Weight = Annotated[complex, Polar("1.15 @ 0", zero=False)]
 Coefficient = Annotated[complex, Polar("0.0155 @ 113", zero=True)]
 Amount = Annotated[float, Number(PLAIN, above=0, most=1e9)]
@@ -177,7 +193,8 @@ class Run(FileTable):
     name: Name | None = None
     """Name of the run. Example: 'trial front'"""
     readings: BySensor[Reading]
-    """Amplitude @ phase in degrees of every sensor, in the same order in every run. Example:
+    """Amplitude @ phase in degrees of every sensor, in the same order in every run; if the
+    instrument shows no phase, amplitudes as bare numbers in all runs. Example:
     ['170 @ 112', '53 @ 78']"""
     weights: dict[str, Weight] = Field(default_factory=dict)
     """Weights put on for this run: amount @ angle in degrees, by plane; left out: no weights.
@@ -245,8 +262,18 @@ class RunsFile(FileTable):
         return read_amount_unit(self.weight_unit).powers == MASS.powers
 
     @property
+    def has_only_amplitudes(self) -> bool:
+        """Whether readings have no phase."""
+        return not isinstance(self.run[0].readings[0], complex)
+
+    @property
     def senses(self) -> tuple[Sense, Sense]:
-        """Directions of phases of readings and of angles of weights: with or against rotation."""
+        """Directions of phases of readings and of angles of weights: with or against rotation.
+        Without phases, both are the direction of the weights.
+        """
+        if self.has_only_amplitudes:
+            marked = self.weights or "with"
+            return marked, marked
         phases: Sense = "against" if self.rotation == "lag" else "with"
         return phases, self.weights or phases
 
@@ -371,6 +398,8 @@ def _find_misfits(file: RunsFile) -> Iterator[Problem]:
             text = f"has {counted(len(values), what)}, but there are {of}; give one for each"
             yield Problem(path, text)
     yield from _check_holes(file)
+    if file.has_only_amplitudes:
+        yield from _check_amplitudes(file)
     for k, run in enumerate(file.run, 1):
         yield from _check_run(file, k, run, sensors)
 
@@ -390,6 +419,38 @@ def _check_holes(file: RunsFile) -> Iterator[Problem]:
                 yield Problem(key, f"hole {k} of {size:g} mm {fault.format(rim)}")
 
 
+def _check_phases(file: RunsFile, k: int, run: Run) -> Iterator[Problem]:
+    """Yield the first reading of the k-th run that has no phase while others have one, or the other
+    way round.
+    """
+    fault = "has no phase, but the first reading of the file has one"
+    if file.has_only_amplitudes:
+        fault = "has a phase, but the first reading of the file has none"
+    for j, reading in enumerate(run.readings, 1):
+        if isinstance(reading, complex) == file.has_only_amplitudes:
+            text = 'write all readings with phase, as in "170 @ 112", or all without, as in 170'
+            yield Problem(f"run.{k}.readings.{j}", f"{fault}; {text}")
+            return
+
+
+def _check_amplitudes(file: RunsFile) -> Iterator[Problem]:
+    """Yield the keys that readings without phase do not allow."""
+    if "rotation" in file.model_fields_set:
+        yield Problem("rotation", "is for phases, but readings have none; leave it out")
+    if file.influence is not None:
+        hint = "leave them out, and give trial runs"
+        yield Problem("influence", f"coefficients need readings with phases; {hint}")
+    if len(file.planes) > _MOST_PLANES_WITHOUT_PHASE:
+        yield Problem(
+            "planes",
+            f"has {counted(len(file.planes), 'plane')}; readings without phase balance one or two",
+        )
+    speeds = dict.fromkeys(run.speed for run in file.run)
+    if len(speeds) > 1 and None not in speeds:
+        listed = join_words([f"{speed:g} rpm" for speed in speeds])
+        yield Problem("run", f"has {listed}; readings without phase are balanced at one speed")
+
+
 def _check_run(file: RunsFile, k: int, run: Run, sensors: int) -> Iterator[Problem]:
     """Yield contradictions in the k-th run (from 1); a run has as many readings as `sensors`."""
     if len(run.readings) != sensors:
@@ -399,6 +460,7 @@ def _check_run(file: RunsFile, k: int, run: Run, sensors: int) -> Iterator[Probl
             f"has {counted(len(run.readings), 'reading')}, but {whose} {sensors}; give one for "
             "each sensor, in the same order in every run",
         )
+    yield from _check_phases(file, k, run)
     with_speed = [n for n, other in enumerate(file.run, 1) if other.speed is not None]
     if with_speed and run.speed is None:
         hint = f"run.{with_speed[0]} gives its speed, so every run must"

@@ -12,11 +12,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..core.phasors import Array, Complex
 from ..core.records import Node, angle_deg, list_figures, to_document
 from ..show.formats import Renderer, Rows, name_cell
 from ..show.plot_style import BLUE, INK, MANY_LOOKS, PAPER, SOFT, fit_name, open_figure, put_title
 from ..show.sheet import UNKNOWN, Column, Facts, Grid, Sheet, Text, degrees, number
 from ..show.units import System
+from .amplitudes import AmplitudeFit, Answers
 from .answer import FieldBalance, Permitted
 
 if TYPE_CHECKING:
@@ -26,6 +28,7 @@ if TYPE_CHECKING:
     from ..show.plot_style import Look
 
 
+_ROUNDING = 1e-9  # a predicted amplitude below this share of the reading as found is 0
 _HEADER = ("part", "speed_rpm", "name", "figure", "value", "unit")
 _WAY = {"with": "the way the rotor turns", "against": "against the way the rotor turns"}
 
@@ -48,7 +51,9 @@ def _list_lines(found: Node, planes: tuple[str, ...]) -> Iterator[tuple[object, 
             yield from _list_part("influence", value, name, "", reading["speed_rpm"])
     for each in found.get("permitted", {"planes": ()})["planes"]:
         yield from _list_part("permitted", each, each["plane"])
-    keys = ("condition", "largest", "rms", "bound")
+    for each in found.get("solutions", ()):
+        yield from _list_part("solution", each, planes[0], found["weight_unit"])
+    keys = ("condition", "largest", "rms", "bound", "method", "ambiguous", "fit_rms")
     yield from _list_part("details", {key: found[key] for key in keys if key in found})
 
 
@@ -66,7 +71,12 @@ def _list_part(
 def sheet(result: FieldBalance, system: System) -> Sheet:
     """Return all tables; weights and readings are in the units of the file."""
     file = result.file
-    parts: list[Grid | Facts | Text] = [_show_senses(result), _show_corrections(result, system)]
+    parts: list[Grid | Facts | Text] = [_show_senses(result)]
+    if result.fit is not None and result.fit.answers is not None:
+        parts += [_show_answers(result, result.fit.answers, system)]
+        parts += [_show_open_readings(result, result.fit, result.fit.answers)]
+        return Sheet(f"{file.name or 'rotor without a name'}: field balancing", tuple(parts))
+    parts.append(_show_corrections(result, system))
     if file.places or file.drill:
         parts.append(_show_pieces(result, system))
     if result.permitted is not None:
@@ -76,6 +86,9 @@ def sheet(result: FieldBalance, system: System) -> Sheet:
 
 
 def _show_senses(result: FieldBalance) -> Text:
+    if result.fit is not None:
+        marked = "Readings are amplitudes only; angles of weights count as they are marked."
+        return Text("How angles count", (marked,))
     phases = result.phases
     weights = result.weights
     same = "like phases" if phases == weights else "opposite to phases"
@@ -126,6 +139,56 @@ def _show_corrections(result: FieldBalance, system: System) -> Grid:
     shares = [f"{each.own_effect:.0%}{', at its limit' * each.at_limit}" for each in every]
     columns.append(Column("own effect", shares))
     return Grid("Corrections", columns, " ".join(_explain_corrections(result)))
+
+
+def _show_answers(result: FieldBalance, answers: Answers, system: System) -> Grid:
+    """Return the table of both weights that fit the amplitudes."""
+    (plane,) = result.used
+    k = result.file.planes.index(plane)
+    columns = [Column("answer", ["lighter", "heavier"], words=True)]
+    columns.append(Column("plane", [plane, plane], words=True))
+    columns += _list_polar(f"weight, {result.weight_unit}", answers.corrections)
+    per_weight = result.file.find_unbalance_per_weight(k)
+    if result.file.radius is not None and per_weight is not None:
+        radius = number(system.length.of(result.file.radius[k] / 1e3))
+        columns.append(Column(f"radius, {system.length.name}", [radius, radius]))
+        sizes = [abs(weight) * per_weight for weight in answers.corrections]
+        unbalances = [number(system.unbalance.of(size)) for size in sizes]
+        columns.append(Column(f"unbalance, {system.unbalance.name}", unbalances))
+    return Grid(
+        "Two answers",
+        columns,
+        "Two answers fit. Put the lighter one on: if the reading does not fall as predicted, use "
+        "the other. A trial weight off the circle through the others would decide. Weights to add "
+        "to the rotor as found, with all trial weights off.",
+    )
+
+
+def _show_open_readings(result: FieldBalance, fit: AmplitudeFit, answers: Answers) -> Grid:
+    """Return the table of readings with the lighter answer on, by which answer is right."""
+    lighter = answers.corrections[0]
+    found = np.abs(fit.influence.found)
+    unit = f", {result.unit}" if result.unit else ""
+    columns = [Column("reading", _name_readings(result), words=True)]
+    columns.append(Column(f"as found{unit}", _write_amplitudes(found, found)))
+    for head, alpha in (
+        ("if it is right", answers.firsts),
+        ("if the other is right", answers.others),
+    ):
+        predicted = np.abs(found + alpha * lighter)
+        columns.append(Column(head, _write_amplitudes(predicted, found)))
+    return Grid("Readings, predicted with the lighter one on", columns, _tell_misfit(result, fit))
+
+
+def _write_amplitudes(amplitudes: Array, found: Array) -> list[str]:
+    """Return amplitudes as texts; rounding errors of readings as found are 0."""
+    shown = np.where(amplitudes <= _ROUNDING * found, 0, amplitudes)
+    return [number(float(amplitude)) for amplitude in shown]
+
+
+def _tell_misfit(result: FieldBalance, fit: AmplitudeFit) -> str:
+    amount = " ".join(filter(None, [number(fit.rms, 3), result.unit]))
+    return f"Misfit of the amplitudes: {amount} (rms), {fit.share:.1%} of the largest reading."
 
 
 def _show_g_mm(value: float | None, system: System) -> str:
@@ -205,21 +268,26 @@ def _show_permitted(result: FieldBalance, found: Permitted, system: System) -> G
         Column("plane", [each.plane for each in every], words=True),
         Column(f"permitted, {unit}", write(each.permitted_g_mm for each in every)),
         Column(f"there now, {unit}", write(each.present_g_mm for each in every)),
-        Column(f"scatter, {unit}", write(each.scatter_g_mm for each in every)),
         Column("", [each.verdict for each in every], words=True, marked=not_reached),
         Column(f"after, {unit}", write(each.after_g_mm for each in every)),
     ]
-    spread = "largest error of 'there now' (95 %), estimated from the residuals of the fit"
-    if every[0].scatter_g_mm is None:
-        spread = "unknown, because the fit has as many unknowns as readings; add a run"
     state = f"in '{result.trimmed}'" if result.trimmed else "of the rotor as found"
-    return Grid(
-        f"Permitted residual unbalance, ISO 21940-11, G {file.grade:g}",
-        columns,
+    note = (
         f"{mass.of(file.mass or 0.0):g} {mass.name} at {file.speed:g} rpm: permitted eccentricity "
         f"{number(1e3 * found.specific_mm)} µm. There now: unbalance {state}, from its readings; "
-        f"after: unbalance after the corrections. Scatter: {spread}.",
+        "after: unbalance after the corrections."
     )
+    if result.fit is None:
+        scatter = Column(f"scatter, {unit}", write(each.scatter_g_mm for each in every))
+        columns.insert(3, scatter)
+        note += f" Scatter: {_explain_scatter(found)}."
+    return Grid(f"Permitted residual unbalance, ISO 21940-11, G {file.grade:g}", columns, note)
+
+
+def _explain_scatter(found: Permitted) -> str:
+    if found.planes[0].scatter_g_mm is None:
+        return "unknown, because the fit has as many unknowns as readings; add a run"
+    return "largest error of 'there now' (95 %), estimated from the residuals of the fit"
 
 
 def _name_readings(result: FieldBalance) -> list[str]:
@@ -234,10 +302,10 @@ def _name_readings(result: FieldBalance) -> list[str]:
 def _show_readings(result: FieldBalance) -> Grid:
     unit = f", {result.unit}" if result.unit else ""
     columns = [Column("reading", _name_readings(result), words=True)]
-    columns += _list_polar(f"as found{unit}", result.runs.found)
+    columns += _list_readings(result, f"as found{unit}", result.runs.found)
     if result.trimmed:
-        columns += _list_polar(f"{result.runs.state}{unit}", result.before)
-    columns += _list_polar(f"after{unit}", result.residual)
+        columns += _list_readings(result, f"{result.runs.state}{unit}", result.before)
+    columns += _list_readings(result, f"after{unit}", result.residual)
     what = f"Largest{' weighted' * bool(result.file.reading_weights)} reading after the corrections"
     note = f"{what}: {number(result.largest)}, rms {number(result.rms)}. "
     if not result.residual.any():
@@ -248,7 +316,15 @@ def _show_readings(result: FieldBalance) -> Grid:
     else:
         which = "that the places and limits allow" if result.limited else "possible"
         note += f"The sum of squares of the readings is the least {which}."
+    if result.fit is not None:
+        note += f" {_tell_misfit(result, result.fit)}"
     return Grid("Readings, predicted after the corrections", columns, note)
+
+
+def _list_readings(result: FieldBalance, head: str, values: Complex) -> list[Column]:
+    """Return the columns of readings: amplitudes below `head`, and phases if readings have any."""
+    columns = _list_polar(head, values)
+    return columns if result.fit is None else columns[:1]
 
 
 def _show_influence(result: FieldBalance) -> Grid:
@@ -256,10 +332,11 @@ def _show_influence(result: FieldBalance) -> Grid:
     for each in result.corrections:
         effects = result.influence[:, result.file.planes.index(each.plane)]
         columns += _list_polar(each.plane, effects, 5)
-    note = (
-        f"Change of a reading by 1 {result.weight_unit} at 0 deg in the plane; angles count like "
-        f"phases, {result.phases} rotation."
-    )
+    note = f"Change of a reading by 1 {result.weight_unit} at 0 deg in the plane; "
+    if result.fit is None:
+        note += f"angles count like phases, {result.phases} rotation."
+    else:
+        note += "angles count from the reading as found, in the direction of those of weights."
     if result.trimmed and result.file.influence is None:
         note += " The coefficients are fitted to all runs by least squares."
     return Grid("Influence coefficients", columns, note)
@@ -279,6 +356,8 @@ def make_field(result: FieldBalance) -> Figure:
         _draw_weights(right, result)
         unit = f", {result.unit}" if result.unit else ""
         readings = f"Readings{unit}; phases count {result.phases} rotation"
+        if result.fit is not None:
+            readings = f"Readings{unit}; amplitudes only"
         weights = f"Weights, {result.weight_unit}; angles count {result.weights} rotation"
         for ax, sense, title in ((left, result.phases, readings), (right, result.weights, weights)):
             ax.set_theta_zero_location("N")  # the rotor turns anticlockwise
@@ -314,6 +393,12 @@ def _draw_weights(ax: PolarAxes, result: FieldBalance) -> None:
     drilled = result.file.drill is not None
     marks: Look = {"marker": "x" if drilled else "s", "markerfacecolor": "none", "linestyle": ""}
     sizes = [0.0]
+    answers = zip(("lighter", "heavier"), result.solutions or (), MANY_LOOKS, strict=False)
+    for name, weight, (line, colour) in answers:
+        text = f"{name}: {number(abs(weight), 3)} at {angle_deg(weight):.1f} deg"
+        angles = [np.angle(weight)] * 2
+        ax.plot(angles, [0, abs(weight)], label=text, color=colour, linestyle=line, marker="o")
+        sizes.append(abs(weight))
     for each, (line, colour) in zip(result.corrections, cycle(MANY_LOOKS), strict=False):
         name = fit_name(each.plane, 30)
         rays = {name: (each.step, line)}
