@@ -190,9 +190,9 @@ def test_readings_that_do_not_fit_are_doubted(error, doubted):
     for k, w in enumerate(states):
         reading = 0.37 * abs(unbalance + w) * (error if k == 1 else 1)
         text += run([reading], [("p1", w)] if w else [], f'name = "number {k}"')
-    doubts = [each for each in balance(text).doubts if "do not fit one unbalance" in each]
+    doubts = [each for each in balance(text).doubts if "do not fit one unbalance" in each.message]
     assert bool(doubts) == doubted
-    assert all("repeat 'number 1', which fits worst" in each for each in doubts)
+    assert all("repeat 'number 1', which fits worst" in each.message for each in doubts)
 
 
 # ------------------------------------------------------------------ what is refused
