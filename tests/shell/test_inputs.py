@@ -47,7 +47,9 @@ def test_what_varies_is_not_doubted(changes, number, doubted):
 def test_what_varies_in_one_geared_engine_is_doubted_in_the_others(tmp_path):
     for name in ("first", "second"):
         write(tmp_path / f"{name}.toml", "crank.stroke = 90\nrod.length = 160\npiston = { bore = 80, mass = 500 }\n")
-    engines = "".join(f'[[engine]]\nfile = "{name}.toml"\n' for name in ("first", "second"))
+    engines = "".join(
+        f'[[engine]]\nfile = "{name}.toml"\nat = [{x}, 0, 0]\n' for name, x in (("first", 0), ("second", 200))
+    )
     pair = write(tmp_path / "pair.toml", engines)
     err = run_here("sweep", pair, "--vary", "engine.1.piston.mass=0.4,0.5", "-q", "force.2.major").err
     assert err.startswith(f"warning: {pair}: second.toml: piston.mass: 500 kg in a bore of 80 mm")

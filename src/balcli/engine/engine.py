@@ -24,6 +24,7 @@ from ..file.doubts import Doubt, find_suspicious, name_files
 from ..file.fields import join_words
 from ..file.model import EngineFile
 from ..file.plain_tables import list_tables
+from .clearance import THROW_IN_BORES, SweptCylinder, doubt_clearances
 from .figures import find_first_largest, or_zero, place_in_plane
 from .firing.fits import find_fitting_splay
 from .numbering import doubt_firing
@@ -166,6 +167,20 @@ class Placed(NamedTuple):
         """Return a point x + iy in the engine's own axes, m, from one in the axes of the whole."""
         return self.turn_back(place - place_in_plane(*self.at_m[:2]))
 
+    @property
+    def swept(self) -> SweptCylinder:
+        """Cylinder that its throws sweep, in the axes of the whole; no figure may vary."""
+        x, y, z = (float(place) for place in self.at_m)
+        throws = z + np.ravel(self.engine.throws_m)
+        bore = float(np.nan_to_num(self.engine.bore_m))  # nan if the file gives none
+        side = THROW_IN_BORES * bore / 2
+        return SweptCylinder(
+            axis_m=complex(x, y),
+            radius_m=float(np.max(self.engine.throw_radii_m)),
+            start_m=float(throws.min()) - side,
+            end_m=float(throws.max()) + side,
+        )
+
 
 NONE_SILENT = SilentCylinders()
 _ONE_PLACE = 1e-9  # m; throws that are closer have the same position
@@ -279,11 +294,18 @@ class Engine:
     def unlikely(self) -> tuple[Doubt, ...]:
         """Warnings of figures in the file that are allowed but unlikely."""
         if self.placed:
-            return name_files((one.file, one.engine.unlikely) for one in self.placed)
+            of_files = name_files((one.file, one.engine.unlikely) for one in self.placed)
+            if self.model is None:
+                return of_files
+            return (*of_files, *self.doubt_clearances())
         of_gas = () if self.gas is None else self.gas.doubts
         if self.model is None:
             return of_gas
         return (*find_suspicious(self.model), *doubt_firing(self.model), *of_gas)
+
+    def doubt_clearances(self) -> Iterator[Doubt]:
+        """Yield warnings of geared engines whose cranks would strike each other."""
+        yield from doubt_clearances([one.swept for one in self.placed])
 
     def doubt_speeds(self, speeds_rpm: ArrayLike) -> tuple[Doubt, ...]:
         """Return warnings if the file does not give the gas at some of these speeds (rpm)."""

@@ -78,7 +78,17 @@ def _doubt_fixed(model: EngineFile, varied: Sequence[str]) -> Iterator[Doubt]:
         model: File of a single engine.
         varied: Names of the numbers that vary.
     """
-    for doubt in (*find_suspicious(model), *doubt_firing(model)):
+    yield from _select_fixed((*find_suspicious(model), *doubt_firing(model)), varied)
+
+
+def _select_fixed(doubts: Iterable[Doubt], varied: Sequence[str]) -> Iterator[Doubt]:
+    """Yield the doubts that do not concern varied numbers.
+
+    Args:
+        doubts: Doubts about a file.
+        varied: Names of the numbers that vary.
+    """
+    for doubt in doubts:
         if not any(doubt.concerns(number) for number in varied):
             yield doubt
 
@@ -118,6 +128,8 @@ class Sweep:
         with naming_file(self.name):
             if self.file.engine:
                 found = name_files(self._doubt_geared(varied))
+                clearances = build(self.file).doubt_clearances()
+                found += tuple(_select_fixed(clearances, varied))
             else:
                 found = tuple(_doubt_fixed(self.file, varied))
             if any(crank.gas is not None and crank.gas.speeds for crank in self.file.cranks):
