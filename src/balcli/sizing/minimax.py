@@ -149,7 +149,9 @@ def size_minimax(engine: Engine, options: SchemeOptions) -> Remedy:
     if options.orders is not None:
         orders = sorted({1, *options.orders})
         force = force.select_orders(force.orders[np.isin(force.orders, orders)])
-        named = f"orders {', '.join(f'{order:g}' for order in orders)}"
+        named = (
+            f"orders {', '.join(f'{order:g}' for order in orders)} (each exact: F2 has A2, not λ)"
+        )
     circle = enclose_curve(force)
     newtons_per_kg_m = float(engine.omega) ** 2
     noise = fitting.find_residual(1).noise[FORWARD_FORCE] * newtons_per_kg_m

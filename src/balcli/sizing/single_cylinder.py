@@ -249,8 +249,9 @@ _ECCENTRIC_SLIDER = (
     "k = r_b/e, mu = m_b r_b/(m r); m: reciprocating mass, r: crank radius, m_b: weight of each of "
     "the two shafts, r_b: radius of its weight and of its pin, e: distance of the axes of shaft "
     "and disc; forces in units of m r omega^2; design a: pin on the shaft, slot in the disc; b: "
-    "pin on the disc, slot on the shaft; criteria: largest and mean remaining force; the shafts "
-    "are symmetric to the cylinder axis"
+    "pin on the disc, slot on the shaft; criteria: largest and mean remaining force; "
+    "engine force: orders 1+2 are cos theta + lambda cos 2 theta (Wang's two terms, with lambda "
+    "instead of A2), all orders are exact; the shafts are symmetric to the cylinder axis"
 )
 _SPEED_LAW = (
     "a: 1 + cos theta/sqrt(k^2 - sin^2 theta), b: k (k - cos theta)/(1 + k^2 - 2 k cos theta) "
