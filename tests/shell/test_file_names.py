@@ -182,11 +182,24 @@ def test_parquet_says_nothing_where_there_is_nothing_and_what_it_is():
     assert table.schema.metadata[b"balcli.version"] == __version__.encode()
 
 
-@pytest.mark.parametrize(("command", "name"), [("plot", "X.svg"), ("report", "X.html")])
-def test_one_file_is_named_to_write_and_may_be_the_second_name(command, name):
-    assert refusal(command, "good.toml") == f"name the file to write, such as -o {name}"
-    assert run_here(command, "good.toml", name)[:2] == (0, "")
-    assert Path(name).stat().st_size > 1000
+@pytest.mark.parametrize(("command", "ending"), [("plot", ".svg"), ("report", ".html")])
+def test_one_file_is_named_to_write_and_may_be_the_second_name(command, ending):
+    """Without a name, the file has that of the engine file, and standard error says so."""
+    assert run_here(command, "good.toml", f"X{ending}") == (0, "", "")
+    assert Path(f"X{ending}").stat().st_size > 1000
+    assert run_here(command, "good.toml") == (0, "", f"written: good{ending}\n")
+    assert Path(f"good{ending}").stat().st_size > 1000
+    assert run_here("-q", command, "good.toml") == (0, "", "")
+    assert refusal(command, "-") == f"name the file to write, such as -o X{ending}"
     assert refusal(command, "good.toml", "a.svg", "-o", "b.svg") == (
         "a.svg and --output b.svg: one file is written; leave one out"
     )
+
+
+def test_a_page_is_opened_in_the_browser(monkeypatch):
+    opened = []
+    monkeypatch.setattr("webbrowser.open", lambda address: opened.append(address) or len(opened) < 2)
+    assert run_here("report", "good.toml", "X.html", "--open") == (0, "", "")
+    assert opened == [Path("X.html").resolve().as_uri()]
+    assert run_here("report", "good.toml", "X.html", "--open") == (0, "", "warning: no browser was found for X.html\n")
+    assert refusal("report", "good.toml", "-o", "-", "--open") == "--open needs a file"

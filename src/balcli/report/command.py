@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from ..errors import warn
+from ..errors import BalcliError, is_quiet, say, warn
 from ..file.toml import name_file
 from ..shell import scheme_options
 from ..shell.file_names import choose_target, format_of, parse_output, picture_form
@@ -30,8 +30,9 @@ from ..show.formats import Units
 from ..show.units import SYSTEMS
 from .names import OF_TORSION, PAGES, check_page
 
-PAGE = "File to write; - is standard output."
-PICTURE = "File to write; .svg, .png or .pdf."
+PAGE = "File to write; - is standard output. Default: the engine's name and .html."
+PICTURE = "File to write; .svg, .png or .pdf. Default: the engine's name and .svg."
+OPEN = "Show the page in the browser."
 SPEEDS = "Speeds for torsion, rpm; default: 0.5 to 1.5 times the file's speed."
 WHAT = (
     "overview: locus of the force (of the moment if the force is balanced), and spectrum; "
@@ -64,6 +65,7 @@ def report(
     speed: Speed = None,
     orders: Orders = None,
     cylinder: Annotated[int | None, optional("N", "Also show the motion of piston N.")] = None,
+    show: Annotated[bool, typer.Option("--open", help=OPEN)] = False,
     units: UnitsOption = Units.SI,
 ) -> None:
     """Write a self-contained HTML page: the engine in motion, and its free forces and moments
@@ -71,10 +73,14 @@ def report(
 
     \b
     Example:
-      balcli report v8.toml v8.html
+      balcli report v8.toml --open
     """
-    refuse_overwriting(reads=[path], writes={"OUT": target, "--output": output})
-    output = parse_output(choose_target(target, output, "X.html"))
+    named = target or output
+    chosen = choose_target(target, output, path, ".html")
+    refuse_overwriting(reads=[path], writes={"OUT": target, "--output": output if named else chosen})
+    output = parse_output(chosen)
+    if output is None and show:
+        raise BalcliError("--open needs a file")
     format_of(output, None, {".html": "html", ".htm": "html"}, "html")
     from . import live, page as pages
 
@@ -90,6 +96,28 @@ def report(
     name = name_file(path)
     book = live.describe_one(model, engine, text.decode(), name, share)
     emit(pages.page(found._replace(cylinder=cylinder), system, book, name, share), output)
+    if named is None:
+        _tell_written([chosen])
+    if show:
+        _open_page(chosen)
+
+
+def _tell_written(files: Sequence[Path]) -> None:
+    """Print the names of files that were written under names that the user did not choose."""
+    if not is_quiet():
+        say(f"written: {', '.join(map(str, files))}")
+
+
+def _open_page(file: Path) -> None:
+    """Show a page in the browser; warn if there is none."""
+    import webbrowser
+
+    try:
+        shown = webbrowser.open(file.resolve().as_uri())
+    except webbrowser.Error:
+        shown = False
+    if not shown:
+        warn(f"no browser was found for {file}")
 
 
 def complete_pages(typed: str) -> list[str]:
@@ -129,8 +157,10 @@ def plot(
     Example:
       balcli plot v8.toml v8.svg
     """
-    refuse_overwriting(reads=[path], writes={"OUT": target, "--output": output})
-    output = choose_target(target, output, "X.svg")
+    named = target or output
+    chosen = choose_target(target, output, path, ".svg")
+    refuse_overwriting(reads=[path], writes={"OUT": target, "--output": output if named else chosen})
+    output = chosen
     form = picture_form(output)
     pages = parse_pages(what)
     files = [output]  # one page, or a PDF
@@ -147,6 +177,8 @@ def plot(
 
     asked = Asked(speed, orders, speeds, cylinder, scheme, options, units)
     write_pages(make_figures(path, pages, asked), files, form)
+    if named is None:
+        _tell_written(files)
 
 
 def _warn_of_idle(

@@ -51,22 +51,27 @@ def parse_output(path: Path | None) -> Path | None:
     return None if str(path) in ("-", "/dev/stdout", "/dev/fd/1") else path
 
 
-def choose_target(second: Path | None, output: Path | None, example: str) -> Path:
-    """Return the file to which a page or picture is written.
+def choose_target(second: Path | None, output: Path | None, source: str, ending: str) -> Path:
+    """Return the file to which a page or picture is written: by default, one in the current folder
+    with the name of the engine file.
 
     Args:
         second: Second argument of the command, which may name this file; None: not given.
         output: Value of `--output`; None: not given.
-        example: File name for the message.
+        source: Engine file; `-`: standard input.
+        ending: Ending of the default name, such as `.html`.
 
     Raises:
-        BalcliError: Both are given, or neither.
+        BalcliError: Both are given, or neither for an engine file without a name.
     """
     if second is not None and output is not None:
         raise BalcliError(f"{second} and --output {output}: one file is written; leave one out")
-    if (target := second or output) is None:
-        raise BalcliError(f"name the file to write, such as -o {example}")
-    return target
+    target = second or output
+    if target is not None:
+        return target
+    if source == "-" or not Path(source).stem:
+        raise BalcliError(f"name the file to write, such as -o X{ending}")
+    return Path(f"{Path(source).stem}{ending}")
 
 
 def format_option(formats: Iterable[Format], text: str) -> object:

@@ -120,11 +120,11 @@ const Tables = (() => {
   }
 
   // ------------------------------------------------------------------ ladder and devices
-  function sizeColumn(figures, values, kind, smallest) {
+  function sizeColumn(figures, values, kind) {
     const unit = fit(UNIT_OF[kind], Math.max(...values)), scale = scaleOf(figures, kind);
     const cells = values.map((value) => {
       if (value <= TINY * scale) return BALANCED;
-      return smallest && value < limits.negligible * scale ? SMALLEST : number(value / unit.size);
+      return value < limits.negligible * scale ? SMALLEST : number(value / unit.size);
     });
     return { unit, cells };
   }
@@ -132,11 +132,11 @@ const Tables = (() => {
     const { steps } = figures.ladder, head = ["step"], rows = steps.map(({ step }, k) => [`${k} ${step}`]);
     const put = (title, cells) => { head.push(title); cells.forEach((cell, k) => rows[k].push(cell)); };
     for (const kind of kindsOf(figures)) {
-      const { unit, cells } = sizeColumn(figures, steps.map((step) => step[`peak_${KEYS[kind]}`]), kind, true);
+      const { unit, cells } = sizeColumn(figures, steps.map((step) => step[`peak_${KEYS[kind]}`]), kind);
       put(`${kind}, ${unit.name}`, cells);
     }
     if (steps[0].main_bearing_N !== undefined) {
-      const { unit, cells } = sizeColumn(figures, steps.map((step) => step.main_bearing_N), "force", false);
+      const { unit, cells } = sizeColumn(figures, steps.map((step) => step.main_bearing_N), "force");
       put(`main bearing, ${unit.name}`, cells);
     }
     put("weights", steps.map((step) => String(step.counterweights || UNKNOWN)));
