@@ -293,7 +293,7 @@ const Kernel = (() => {
       tops.push({ value: size(value(theta, 0)), theta: TURN - at < 1e-5 ? 0 : at });
     });
     const top = Math.max(...tops.map((each) => each.value));
-    return tops.filter((each) => each.value >= top * (1 - 1e-9)).sort((a, b) => a.theta - b.theta)[0];
+    return tops.filter((each) => each.value >= top - 1e-12 * total).sort((a, b) => a.theta - b.theta)[0];
   }
 
   // ------------------------------------------------------------------ the ladder
