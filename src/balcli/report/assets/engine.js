@@ -290,7 +290,7 @@ const Kernel = (() => {
         if (curvature < 0) theta -= Math.max(-step, Math.min(step, dot(p, d1) / curvature));
       }
       const at = ((theta % TURN) + TURN) % TURN;
-      tops.push({ value: size(value(theta, 0)), theta: TURN - at < 1e-5 ? 0 : at });
+      tops.push({ value: size(value(theta, 0)), theta: TURN - at < 1e-6 ? 0 : at });
     });
     const top = Math.max(...tops.map((each) => each.value));
     return tops.filter((each) => each.value >= top - 1e-12 * total).sort((a, b) => a.theta - b.theta)[0];
