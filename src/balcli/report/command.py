@@ -77,7 +77,9 @@ def report(
     """
     named = target or output
     chosen = choose_target(target, output, path, ".html")
-    refuse_overwriting(reads=[path], writes={"OUT": target, "--output": output if named else chosen})
+    refuse_overwriting(
+        reads=[path], writes={"OUT": target, "--output": output if named else chosen}
+    )
     output = parse_output(chosen)
     if output is None and show:
         raise BalcliError("--open needs a file")
@@ -159,7 +161,9 @@ def plot(
     """
     named = target or output
     chosen = choose_target(target, output, path, ".svg")
-    refuse_overwriting(reads=[path], writes={"OUT": target, "--output": output if named else chosen})
+    refuse_overwriting(
+        reads=[path], writes={"OUT": target, "--output": output if named else chosen}
+    )
     output = chosen
     form = picture_form(output)
     pages = parse_pages(what)
