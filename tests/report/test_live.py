@@ -405,6 +405,20 @@ def test_the_table_of_orders_names_what_would_cancel_them(show):
 
 
 @live
+@pytest.mark.parametrize(
+    ("text", "wanted"),
+    [
+        (examples.text("locomotive4"), {"1": "counterweights", "2": "no device is named"}),
+        (GOOD + "[[operation.speed_ripple]]\norder = 1\namplitude = 0.1\n", {"1": "no device is named"}),
+        (examples.text("marine6"), {"2": "compensators"}),
+    ],
+)
+def test_the_table_of_orders_names_only_devices_that_the_verdict_names(show, text, wanted):
+    cures = dict(show(text).run(ORDERS))
+    assert {order: cures[order] for order in wanted} == wanted
+
+
+@live
 def test_no_order_is_found_that_the_command_does_not_list(show):
     """With `--small 0` nothing is small, but orders of rounding size are no orders."""
     text = examples.text("ford_ecoboost_1_0")

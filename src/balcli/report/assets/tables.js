@@ -73,10 +73,11 @@ const Tables = (() => {
     return { head, rows, words: [0] };
   }
   // What cancels an order, in a few words; none for a small one.
-  function tellCures({ verdict }, order) {
+  function tellCures({ verdict, page }, order) {
     const finding = verdict.matter.find((each) => each.order === order);
     if (!finding) return "";
     if (order > 2) return "usually left";
+    if (!finding.cures && !page.crossheads) return "no device is named";  // uneven speed, half orders, shafts of locomotives
     if (!finding.cures) return order > 1 ? "compensators" : "counterweights, compensators";
     const back = finding.cures.filter((cure) => cure.takes_back), told = back.length ? back : finding.cures;
     return told.map(nameCure).join(", ") || "no part is worth a shaft";
