@@ -7,7 +7,8 @@ from support.paths import ENGINE_FILES
 
 from balcli.engine.parse import parse
 from balcli.file import examples as new
-from balcli.file.doubts import Doubt, find_suspicious, name_files
+from balcli.file.doubt import Doubt, name_files
+from balcli.file.doubts import find_suspicious
 
 FREE = ("firing_order = [1, 3, 4, 2]\n", "")  # no firing order, which throws would have to fit
 DEGREES = (

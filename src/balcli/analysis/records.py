@@ -11,7 +11,7 @@ from ..core.phasors import Array, Phasors
 from ..core.records import HIDDEN, INLINE, Reached, WrittenAs, remove_unit
 from ..engine.engine import CylinderNumber
 from ..file import model
-from ..file.doubts import Doubt
+from ..file.doubt import Doubt
 from ..file.fields import order_number
 from ..forces.crankshaft import AlongCrank, CrankLoads, InnerLoads
 from ..forces.guide import GuideMoments

@@ -14,7 +14,7 @@ from ..core.piecewise import PiecewiseCurve, merged_breaks, polyline, resolved
 from ..core.speed_ripple import surplus
 from ..errors import ArgumentError, BalcliError
 from ..file.csv_columns import ANGLE_SYMBOLS, Head, read_columns
-from ..file.doubts import Doubt
+from ..file.doubt import Doubt
 from ..file.units import ANGLE, TORQUE
 from ..forces.spectrum import check_orders
 from ..limits import (

@@ -22,7 +22,7 @@ from ..core.phasors import Array
 from ..core.piecewise import resolved
 from ..errors import BalcliError, InputError, Problem
 from ..file.csv_columns import Head, NumberColumns, locate_beside, read_columns
-from ..file.doubts import Doubt
+from ..file.doubt import Doubt
 from ..file.gas_tables import DIAGRAM_KEYS, MEAN_PRESSURES, Gas
 from ..file.model import Override
 from ..file.table import FileTable

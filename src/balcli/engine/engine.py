@@ -20,7 +20,8 @@ from ..core.records import HIDDEN, Node, WrittenAs
 from ..core.speed_ripple import RippleLine
 from ..errors import MOMENTS_UNKNOWN, BalcliError, wrong_type
 from ..file.assumed import Assumed, join_assumed, select_assumed
-from ..file.doubts import Doubt, find_suspicious, name_files
+from ..file.doubt import Doubt, name_files
+from ..file.doubts import find_suspicious
 from ..file.fields import join_words
 from ..file.model import EngineFile
 from ..file.plain_tables import list_tables

@@ -19,7 +19,7 @@ from ..core.cylinder_pressure import GasPiston, GasTorque
 from ..core.phasors import Array
 from ..core.piecewise import PiecewiseCurve, polyline, resolved
 from ..errors import BalcliError
-from ..file.doubts import Doubt
+from ..file.doubt import Doubt
 
 
 class CylinderGas(NamedTuple):

@@ -17,7 +17,8 @@ from ..core.phasors import Array
 from ..core.piecewise import PiecewiseCurve, polyline
 from ..errors import BalcliError
 from ..file.csv_columns import ANGLE_SYMBOLS, GAUGE_UNITS, Head, NumberColumns
-from ..file.doubts import MAX_PRESSURE, Doubt
+from ..file.doubt import Doubt
+from ..file.doubts import MAX_PRESSURE
 from ..file.gas_tables import Gas
 from ..file.units import ANGLE, BAR, PRESSURE
 

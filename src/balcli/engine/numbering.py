@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from ..core.phases import TURN
-from ..file.doubts import Doubt
+from ..file.doubt import Doubt
 from ..file.firing_order import write_order
 from ..file.model import EngineFile
 from ..limits import SMALL

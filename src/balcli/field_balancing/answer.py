@@ -21,7 +21,7 @@ from ..core.phasors import Complex
 from ..core.records import HIDDEN, INLINE, Axes, Polar, angle_deg
 from ..core.unbalance import find_permitted_unbalance
 from ..errors import ArgumentError, InputError, Message, Problem, check_type, list_words
-from ..file.doubts import Doubt
+from ..file.doubt import Doubt
 from ..file.fields import counted, join_words, shorten, suggest_nearest
 from ..file.plain_tables import take_tables
 from ..file.units import ask_unit

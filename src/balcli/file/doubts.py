@@ -7,15 +7,15 @@ range and a remedy.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
-from typing import Any, NamedTuple
+from collections.abc import Iterator
 
 import numpy as np
 
-from ..errors import NameArgument, tell
-from .fields import WrittenFigure, count_lambda_digits, printable
+from .doubt import Doubt, Figure, doubt_figures, walk_figures
+from .fields import count_lambda_digits
 from .model import PISTON_PARTS, EngineFile
 from .plain_tables import list_tables
+from .ranges import find_radians, find_unusual, list_ranges
 from .units import ask_unit
 
 # The mass of similar pistons grows with the cube of the bore. With pin and rings, aluminium pistons
@@ -78,80 +78,6 @@ GRAMS = 'is it in kg? Give grams as in "47 g"'
 _MASSES_OF_PISTON = (*(f"piston.{key}" for key in ("mass", *PISTON_PARTS)), "crosshead.mass")
 
 
-class Doubt(NamedTuple):
-    """A warning: a figure of a file, or of a result, is allowed but unlikely.
-
-    Attributes:
-        path: Dotted name of the doubted key or table; empty if no single key is doubted.
-        message: The figure, its usual range and a remedy, as words that follow the path.
-        also: Further keys of which one may be wrong instead.
-        file: Name of the file of the key, if an engine consists of several files.
-    """
-
-    path: str
-    message: str
-    also: tuple[str, ...] = ()
-    file: str = ""
-
-    def __str__(self) -> str:
-        return self.tell(str)
-
-    def tell(self, name_argument: NameArgument) -> str:
-        """Return file, path and message, with the names that `name_argument` returns for arguments
-        that the message names.
-        """
-        message = tell(self.message, name_argument)
-        return ": ".join(filter(None, (self.file, self.path, message)))
-
-    def concerns(self, number: str) -> bool:
-        """Return whether a number of the file is one of the doubted keys, or belongs to one of
-        them as the member of a list or a key of a table.
-
-        Args:
-            number: Dotted name of the number, such as `crank.throws.2`.
-        """
-        keys = filter(None, (self.path, *self.also))
-        return any(f"{number}.".startswith(f"{key}.") for key in keys)
-
-
-def name_files(of_files: Iterable[tuple[str, Iterable[Doubt]]]) -> tuple[Doubt, ...]:
-    """Return the doubts about several files, with the names of the files. A doubt about a file that
-    is named several times appears once.
-
-    Args:
-        of_files: Name of each file, and the doubts about it.
-    """
-    named = [doubt._replace(file=file) for file, doubts in of_files for doubt in doubts]
-    return tuple(dict.fromkeys(named))
-
-
-class Figure(NamedTuple):
-    """A figure of a file and its usual range.
-
-    Attributes:
-        path: Dotted name of the key that gives the figure.
-        value: Value of the figure.
-        least: Lower end of the usual range.
-        most: Upper end of the usual range.
-        unit: Unit of value and range, with a space before it; empty for a plain number.
-        hint: Text about the probable mistake.
-        subject: Name of the figure with a verb, such as "the mean piston speed is", if the figure
-            is not the value of the key itself.
-        also: Further keys on which the figure depends.
-        digits: Number of digits of the value that are shown.
-    """
-
-    path: str
-    value: float
-    least: float
-    most: float
-    unit: str
-    hint: str
-    subject: str = ""
-    also: tuple[str, ...] = ()
-    digits: int = 4
-
-
 def find_suspicious(model: EngineFile) -> list[Doubt]:
     """Return warnings for figures that are allowed but unlikely; empty for an ordinary engine.
 
@@ -167,7 +93,18 @@ def find_suspicious(model: EngineFile) -> list[Doubt]:
     for path, key, value in walk_figures("gas", list_tables(model.gas)):
         if key in PRESSURES:
             figures.append(Figure(path, value, *PRESSURES[key], question))
-    return [*_find_missing(model), *_doubt(figures), *doubt_losses("torsion", model.torsion)]
+    figures += find_unusual(list_ranges(model))
+    doubts = [
+        *_find_missing(model),
+        *doubt_figures(figures),
+        *doubt_losses("torsion", model.torsion),
+    ]
+    doubted = {doubt.path for doubt in doubts}
+    for path, value in find_radians(model):
+        if path not in doubted:
+            told = f"{value:.4g} deg is a round part of a turn in radians; {RADIANS}"
+            doubts.append(Doubt(path, told))
+    return doubts
 
 
 def doubt_losses(path: str, tables: object) -> Iterator[Doubt]:
@@ -178,48 +115,11 @@ def doubt_losses(path: str, tables: object) -> Iterator[Doubt]:
         tables: Table or tables in which each key `loss` is checked.
     """
     hint = "{0:g} % is {1:g}, and a relative damping psi is a loss factor of psi/(2 pi)"
-    yield from _doubt(
+    yield from doubt_figures(
         Figure(place, loss, 0, LOSS, "", hint.format(loss, loss / 100))
         for place, key, loss in walk_figures(path, list_tables(tables))
         if key == "loss"
     )
-
-
-def walk_figures(path: str, tables: Any) -> Iterator[tuple[str, Any, Any]]:
-    """Yield path, key and value of each figure or text in tables, and in the tables and lists
-    within them. Members of lists count from 1 in paths, and have their number as key.
-
-    Args:
-        path: Path of the tables; empty: they are a whole file.
-        tables: Result of `plain_tables.list_tables`; None: there are no tables.
-    """
-    parts = tables.items() if isinstance(tables, dict) else enumerate(tables or (), 1)
-    for key, value in parts:
-        place = f"{path}.{key}".removeprefix(".")
-        if isinstance(value, (dict, list)):
-            yield from walk_figures(place, value)
-        else:
-            yield place, key, value
-
-
-def _doubt(figures: Iterable[Figure]) -> Iterator[Doubt]:
-    """Yield a warning for each figure outside its usual range."""
-    for path, value, least, most, unit, hint, subject, also, digits in figures:
-        if least <= value <= most:
-            continue
-        usual = f"{_round(least)} to {_round(most)}"
-        if most == math.inf:
-            usual = f"at least {_round(least)}"
-        elif least == 0 <= value:
-            usual = f"at most {_round(most)}"
-        written = f' ("{printable(value.text)}")' if isinstance(value, WrittenFigure) else ""
-        found = f"{subject} {value:.{digits}g}{unit}{written}".lstrip()
-        yield Doubt(path, f"{found}, where {usual} is usual; {hint}", also)
-
-
-def _round(value: float) -> str:
-    """Return two significant digits, without an exponent if the number is not too long."""
-    return f"{float(f'{value:.2g}'):.12g}"
 
 
 def _find_missing(model: EngineFile) -> Iterator[Doubt]:
@@ -405,7 +305,7 @@ def _list_cranks(model: EngineFile) -> Iterator[Figure]:
     for number, weight in enumerate(model.counterweight if most else (), 1):
         path = f"counterweight.{number}"
         question = "is it in g mm?"
-        if weight.unbalance:
+        if weight.unbalance and not weight.to_fit:
             size = abs(weight.unbalance)
             yield Figure(f"{path}.unbalance", size, 0, most, " g mm", question)
         elif weight.mass and weight.radius:

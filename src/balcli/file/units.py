@@ -510,6 +510,11 @@ def _measure(figure: str, dimension: Dimension) -> Fraction:
             force = read_unit(re.sub(mass, name, names), dimension)
             if force.powers == dimension.powers:
                 return number * force.scale
+        inverse_powers = tuple(-power for power in unit.powers)
+        if dimension in (STIFFNESS, TORSIONAL_STIFFNESS) and inverse_powers == dimension.powers:
+            inverse = 1 / (number * unit.scale / read_unit(dimension.unit, dimension).scale)
+            told = f"is a flexibility; its inverse is {float(inverse):.6g} {dimension.unit}"
+            raise ValueError(told)
         names_of_kinds = (kind.name for kind in _KINDS if kind.powers == unit.powers)
         name = next(names_of_kinds, "of another dimension")
         raise ValueError(f"is {name}, but {wanted(dimension)}")

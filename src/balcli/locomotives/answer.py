@@ -33,7 +33,7 @@ from ..core.phasors import Array, Complex, unit, wrap_degrees
 from ..core.records import HIDDEN, INLINE, Polar, angle_deg
 from ..engine.engine import Engine, check_engine, refuse_geared, take_model
 from ..errors import MOMENTS_UNKNOWN, Argument, ArgumentError, InputError, Problem
-from ..file.doubts import Doubt
+from ..file.doubt import Doubt
 from ..file.edit import set_keys, set_speed
 from ..file.fields import Number
 from ..file.locomotive_tables import FACTOR, Axle, Locomotive

@@ -21,7 +21,8 @@ from ..engine.figures import find_first_largest
 from ..engine.load import build_named
 from ..engine.parse import join_engines
 from ..errors import InputError, Problem
-from ..file.doubts import Doubt, doubt_losses
+from ..file.doubt import Doubt
+from ..file.doubts import doubt_losses
 from ..file.fields import printable, shorten
 from ..file.model import EngineFile
 from ..file.mount_tables import Mount, Point

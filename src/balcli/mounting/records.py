@@ -17,7 +17,7 @@ from ..core.records import HIDDEN, Asked, Axes
 from ..core.vibration import Complex, Real
 from ..engine.engine import CylinderNumber
 from ..file.assumed import Assumed
-from ..file.doubts import Doubt
+from ..file.doubt import Doubt
 from ..file.fields import printable
 from ..show.result import Result
 from ..sizing.remedy import Remedy

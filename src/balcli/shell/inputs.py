@@ -31,7 +31,7 @@ from .values import parse_cylinder
 
 if TYPE_CHECKING:
     from ..engine.engine import Engine
-    from ..file.doubts import Doubt
+    from ..file.doubt import Doubt
     from ..file.model import EngineFile
 
 

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from html import escape
 
 from ..engine.engine import Engine
-from ..file.doubts import Doubt
+from ..file.doubt import Doubt
 from .engine_facts import engine_facts
 from .formats import Columns, Values
 from .sheet import NAMELESS, Column, Facts, Grid, Sheet, Text, number

@@ -28,7 +28,7 @@ from .units import SI, SYSTEMS, System
 if TYPE_CHECKING:
     import pandas
 
-    from ..file.doubts import Doubt
+    from ..file.doubt import Doubt
 
 
 class Result:

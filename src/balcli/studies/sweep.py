@@ -29,7 +29,8 @@ from ..engine.numbering import doubt_firing
 from ..engine.parse import read
 from ..errors import ArgumentError, BalcliError, InputError, check_type, naming_file
 from ..file.assumed import Assumed
-from ..file.doubts import Doubt, find_suspicious, name_files
+from ..file.doubt import Doubt, name_files
+from ..file.doubts import find_suspicious
 from ..file.model import EngineFile
 from ..file.toml import name_file
 from ..forces.kinds import DEFAULT_QUANTITIES, GAS_KINDS

@@ -20,7 +20,7 @@ from ..engine.engine import CylinderNumber, Engine, take_model
 from ..engine.load import build_tables
 from ..errors import Argument, ArgumentError, check_type
 from ..file.assumed import Assumed
-from ..file.doubts import Doubt
+from ..file.doubt import Doubt
 from ..file.fields import counted, order_number, printable
 from ..file.plain_tables import take_tables
 from ..file.units import SPEED, convert

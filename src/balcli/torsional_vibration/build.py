@@ -13,7 +13,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
-from itertools import count
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
@@ -27,7 +26,7 @@ from ..core.vibration import Real
 from ..engine.engine import Engine
 from ..errors import BalcliError, InputError, Problem
 from ..file.assumed import STEADY, Assumed, assume
-from ..file.doubts import Doubt
+from ..file.doubt import Doubt
 from ..file.fields import counted, shorten
 from ..file.model import EngineFile
 from ..file.torsion_tables import (
@@ -76,7 +75,8 @@ class PlannedNode(NamedTuple):
 
 class PlannedShaft(NamedTuple):
     """A shaft between two nodes, given by their indices, and its table in the units of the file.
-    `ratio` is the speed of the shaft's end divided by the speed of its start.
+    `ratio` is the speed of the shaft's end divided by the speed of its start; `path` is the dotted
+    name of its stiffness in the file, empty if the file gives none.
     """
 
     name: str
@@ -84,6 +84,7 @@ class PlannedShaft(NamedTuple):
     end: int
     table: ShaftKeys
     ratio: float = 1.0
+    path: str = ""
 
 
 def assemble_system(
@@ -145,7 +146,7 @@ def assemble_system(
         limit_pa=None if keys.limit is None else keys.limit * 1e6,
         angle_limit=None if keys.angle_limit is None else math.radians(keys.angle_limit),
         last=len(planned) - 1,
-        doubts=tuple(_doubt_light_shafts(chain, shafts)),
+        doubts=(*_doubt_light_shafts(chain, shafts), *_doubt_stiffness(chain, shafts)),
         **others,
     )
 
@@ -186,6 +187,42 @@ def _doubt_light_shafts(chain: Chain, shafts: Sequence[PlannedShaft]) -> Iterato
         yield Doubt("", told)
 
 
+# Usual stiffness of a shaft, as its natural frequency with both ends over that at which shear waves
+# of steel cross the smaller end: rubber couplings have 0.001. Figures in other units lie outside.
+_STIFFNESS = 3e-4, 2.0
+_DENSITY = 7850.0  # of steel, kg/m3
+_SHEAR_WAVE = 3200.0  # speed in steel, m/s
+
+
+def _doubt_stiffness(chain: Chain, shafts: Sequence[PlannedShaft]) -> Iterator[Doubt]:
+    """Yield a warning of the stiffness that fits the inertias at both ends of its shaft least."""
+    ends = np.where(chain.clamped, np.inf, chain.inertia)
+    before = ends[chain.start] / chain.ratio**2
+    after = ends[chain.end]
+    least, most = _STIFFNESS
+    worst = 1.0
+    doubt = None
+    for shaft, stiffness, *inertias in zip(shafts, chain.stiffness, before, after, strict=True):
+        smaller = min(inertias)
+        if not shaft.path or not 0 < stiffness < math.inf or not 0 < smaller < math.inf:
+            continue
+        frequency = math.sqrt(stiffness * sum(1 / inertia for inertia in inertias))
+        quickness = frequency * (smaller / _DENSITY) ** 0.2 / _SHEAR_WAVE
+        beyond = max(least / quickness, quickness / most)
+        if beyond > worst:
+            worst = beyond
+            size = "low" if quickness < least else "high"
+            both = " and ".join(f"{inertia:.4g}" for inertia in inertias)
+            told = (
+                f"{stiffness:.4g} N m/rad, unusually {size} between inertias of {both} kg m2; are "
+                'stiffness and inertias in N m/rad and kg mm^2? Other units: "1.2 MN m/rad", '
+                '"15000 kg m^2"'
+            )
+            doubt = Doubt(shaft.path, told)
+    if doubt is not None:
+        yield doubt
+
+
 # ------------------------------------------------------------------ a chain file
 def build_chain(
     file: ChainFile,
@@ -209,10 +246,13 @@ def build_chain(
     joints: list[tuple[str, str, ShaftKeys, float]] = [(s.from_, s.to, s, 1.0) for s in file.shaft]
     joints += [(g.from_, g.to, _MESH, g.ratio) for g in file.gear]
     labels = _tell_apart([f"{start}-{end}" for start, end, *_ in joints])
-    shafts = [
-        PlannedShaft(label, index[start], index[end], table, ratio)
-        for label, (start, end, table, ratio) in zip(labels, joints, strict=True)
-    ]
+    shafts = []
+    for number, (label, joint) in enumerate(zip(labels, joints, strict=True), 1):
+        start, end, table, ratio = joint
+        path = f"shaft.{number}.stiffness" if table.stiffness is not None else ""
+        meshes = number > len(file.shaft)
+        planned = PlannedShaft(label, index[start], index[end], table, ratio)
+        shafts.append(planned if meshes else planned._replace(path=path))
     of_steel = [shaft for shaft in file.shaft if shaft.is_of_unnamed_steel]
     assumed: tuple[Assumed, ...] = ()
     if of_steel:
@@ -366,14 +406,20 @@ def build_engine_system(
     gears = dict.fromkeys(throws, 1.0)
     for _, part, of in led:
         gears[part.name] = gears[of] if part.gear is None else part.gear
-    leading = [  # the shaft from a part's neighbour to the part; stiffness at the part's speed
-        PlannedShaft(part.name, place[of], place[part.name], part, gears[part.name] / gears[of])
-        for _, part, of in joints
-    ]
+    leading = []  # the shaft from a part's neighbour to the part; stiffness at the part's speed
+    for path, part, of in joints:
+        ratio = gears[part.name] / gears[of]
+        shaft = PlannedShaft(part.name, place[of], place[part.name], part, ratio)
+        known = part.stiffness is not None
+        leading.append(shaft._replace(path=f"{path}.stiffness") if known else shaft)
     plain = ShaftKeys.model_construct(diameter=torsion.throw_diameter, bore=torsion.throw_bore)
     stiffness = _each(torsion.throw_stiffness or (), len(throws) - 1)
     tables = [plain.model_copy(update={"stiffness": each}) for each in stiffness]
-    between = map(PlannedShaft, _name_between(throws), count(front), count(front + 1), tables)
+    names = enumerate(zip(_name_between(throws), tables, strict=False), front)
+    between = [
+        PlannedShaft(name, first, first + 1, table, path="torsion.throw_stiffness")
+        for first, (name, table) in names
+    ]
     ends = (
         place[_find_end([j for j in led if j.path.startswith(f"torsion.{key}")], gears, start)]
         for key, start in (("front", throws[0]), ("rear", throws[-1]))

@@ -75,7 +75,7 @@ def torsion(
     form = text_format(output, form)
     drawn = None if plot is None else picture_form(plot, "--plot")
     require_ending(write, ".toml", "--write")
-    from ..file.doubts import Doubt
+    from ..file.doubt import Doubt
     from . import answer, dampers, load, plot as picture, show as pages
 
     asked = answer.parse_question(speeds, holzer or (), damper, damper_at, damper_inertia, units)

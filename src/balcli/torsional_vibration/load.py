@@ -11,7 +11,8 @@ from ..engine.engine import Engine, refuse_geared
 from ..engine.load import build_named
 from ..engine.parse import parse
 from ..errors import ArgumentError
-from ..file.doubts import Doubt, doubt_losses, walk_figures
+from ..file.doubt import Doubt, walk_figures
+from ..file.doubts import doubt_losses
 from ..file.messages import CHAIN, ENGINE, refuse_other_kind
 from ..file.model import EngineFile
 from ..file.plain_tables import list_tables

@@ -15,7 +15,7 @@ from ..core.vibration import Complex, Indices, Real
 from ..engine.engine import NONE_SILENT, SilentCylinders
 from ..errors import BalcliError
 from ..file.assumed import Assumed
-from ..file.doubts import Doubt
+from ..file.doubt import Doubt
 from ..forces.spectrum import GasAtSpeeds
 from .chain import Chain, Damping, find_pieces, pendulum_inertia, pendulum_swing, viscous_inertia
 

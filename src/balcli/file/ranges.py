@@ -1,0 +1,310 @@
+"""Compare lengths, unbalances, inertias and pressures of a file with other figures of the file.
+
+A figure in another unit than that of bare numbers is wrong by 10, 25.4, 1000 or a million; the
+ranges are narrower than these factors, and wide enough for engines from models to ships. A figure
+that is 0, or whose reference the file lacks, is not doubted. Of a list, and of the devices of a
+kind, only the value farthest out is named.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import pairwise
+from typing import NamedTuple, TypeGuard
+
+from .doubt import Figure, walk_figures
+from .fields import WrittenFigure
+from .model import PISTON_PARTS, Counterweight, EngineFile, Shaft, Slider
+from .plain_tables import list_tables
+
+
+class Sizes(NamedTuple):
+    """Figures of an engine with which others are compared.
+
+    Attributes:
+        stroke: Largest stroke, mm.
+        bore: Bore, mm; the stroke if the file gives none.
+        bore_known: Whether the file gives the bore.
+        rod: Length of the rod, mm; 0: not known.
+        mass: Mass of a piston with its crosshead and of a rod, kg; 0: not known.
+    """
+
+    stroke: float
+    bore: float
+    bore_known: bool
+    rod: float
+    mass: float
+
+    @property
+    def radius(self) -> float:
+        """Crank radius, mm."""
+        return self.stroke / 2
+
+    @property
+    def wide(self) -> float:
+        """The larger of stroke and bore, mm."""
+        return max(self.stroke, self.bore)
+
+
+def measure(model: EngineFile) -> Sizes:
+    """Return the figures of a file with which others are compared."""
+    stroke = max(model.crank.strokes)
+    rod = model.rod
+    piston = model.piston
+    length = rod.length or 0.0
+    if rod.ratio:
+        length = stroke / 2 / rod.ratio
+    of_rod = rod.mass or (rod.small_end or 0.0) + (rod.big_end or 0.0)
+    of_piston = sum(getattr(piston, key) or 0.0 for key in ("mass", *PISTON_PARTS))
+    return Sizes(
+        stroke=stroke,
+        bore=piston.bore or stroke,
+        bore_known=piston.bore is not None,
+        rod=length,
+        mass=of_rod + of_piston + model.crosshead.mass,
+    )
+
+
+class Range(NamedTuple):
+    """A usual range of the figures of one kind.
+
+    Attributes:
+        figures: Figures with their dotted names.
+        least: Lower end.
+        most: Upper end.
+        unit: Unit of bare numbers.
+        others: Other units that may be meant, each with its size in bare numbers.
+        basis: Figure on which the range depends, in words.
+        subject: Name of the figure with a verb, if it is not the value of the key itself.
+        hint: Remedy; empty: that the figure has another unit.
+    """
+
+    figures: Sequence[tuple[str, float]]
+    least: float
+    most: float
+    unit: str
+    others: tuple[tuple[str, float], ...]
+    basis: str
+    subject: str = ""
+    hint: str = ""
+
+
+# Units that may be meant, with their sizes in the unit of bare numbers
+_LENGTHS = (("in", 25.4), ("m", 1000.0))
+_PRESSURES = (("MPa", 10.0), ("psi", 0.0689476), ("kPa", 0.01))
+_INERTIAS = (("kg m^2", 1e6), ("kg cm^2", 100.0), ("g m^2", 1e3))
+_UNBALANCES = (("kg mm", 1e3), ("g cm", 10.0), ("oz in", 720.0), ("kg m", 1e6))
+_SPECIFIC = 1e3  # g in a kg: unbalances are in g mm
+
+
+def list_ranges(model: EngineFile) -> Iterator[Range]:
+    """Yield the usual ranges of the figures of a file."""
+    size = measure(model)
+    stroke = f"a stroke of {size.stroke:g} mm"
+    bore = f"a bore of {size.bore:g} mm" if size.bore_known else stroke
+    yield from _list_places_of_throws(model, size, bore)
+    yield Range(
+        figures=[("layout.stagger", model.layout.stagger)],
+        least=0.02 * size.bore,
+        most=size.wide,
+        unit="mm",
+        others=_LENGTHS,
+        basis=bore,
+    )
+    if size.rod:
+        cg = model.rod.cg or 0.0
+        share = f"as a share of the length it is {cg * size.rod:.4g} mm" if cg < 1 else ""
+        yield Range(
+            figures=[("rod.cg", cg)],
+            least=0.1 * size.rod,
+            most=math.inf,
+            unit="mm",
+            others=_LENGTHS,
+            basis=f"a rod of {size.rod:g} mm",
+            hint=share,
+        )
+    yield Range(
+        figures=[("piston.offset", model.piston.offset)],
+        least=0.001 * size.stroke,
+        most=math.inf,
+        unit="mm",
+        others=_LENGTHS,
+        basis=stroke,
+    )
+    if model.articulation is not None:
+        yield Range(
+            figures=[("articulation.knuckle_radius", model.articulation.knuckle_radius)],
+            least=0.2 * size.radius,
+            most=1.5 * size.radius,
+            unit="mm",
+            others=_LENGTHS,
+            basis=f"a crank radius of {size.radius:g} mm",
+        )
+    yield from _list_devices(model, size, stroke)
+    yield from _list_points(model, size, stroke)
+    yield from _list_pressures(model)
+    yield from _list_inertias(model, size)
+
+
+def _list_places_of_throws(model: EngineFile, size: Sizes, bore: str) -> Iterator[Range]:
+    crank = model.crank
+    least = size.bore
+    if not size.bore_known or model.layout.rods == "alternating":
+        least *= 0.3
+    gaps = [("crank.spacing", crank.spacing or 0.0)]
+    if crank.positions is not None:
+        places = sorted(crank.positions)
+        steps = [after - before for before, after in pairwise(places)]
+        gaps = [("crank.positions", step) for step in steps]
+    yield Range(
+        figures=gaps,
+        least=least,
+        most=10 * size.wide,
+        unit="mm",
+        others=_LENGTHS,
+        basis=bore,
+        subject="" if crank.positions is None else "the distance of two neighbours is",
+    )
+
+
+def _list_devices(model: EngineFile, size: Sizes, stroke: str) -> Iterator[Range]:
+    unbalance = size.mass * _SPECIFIC * size.radius
+    for kind in (Counterweight, Shaft, Slider):
+        tables = [(path, table) for path, table in model.tables() if isinstance(table, kind)]
+        places = [(f"{path}.position", table.position) for path, table in tables]
+        yield Range(places, 0.005 * size.stroke, math.inf, "mm", _LENGTHS, stroke)
+        radii = [(f"{path}.radius", getattr(table, "radius", None)) for path, table in tables]
+        known = [(path, radius) for path, radius in radii if radius is not None]
+        yield Range(known, 0.1 * size.stroke, 5 * size.stroke, "mm", _LENGTHS, stroke)
+        sizes = [(f"{path}.unbalance", table.unbalance) for path, table in tables]
+        given = [(path, abs(size)) for path, size in sizes if _is_number(size)]
+        if given and unbalance:
+            largest = max(given, key=lambda pair: pair[1])
+            basis = f"rods and pistons of {size.mass:.4g} kg"
+            yield Range([largest], 0.001 * unbalance, math.inf, "g mm", _UNBALANCES, basis)
+
+
+def _is_number(unbalance: float | None) -> TypeGuard[float]:
+    """Return whether an unbalance is given, and not to be fitted."""
+    return unbalance is not None and not math.isnan(unbalance)
+
+
+def _list_points(model: EngineFile, size: Sizes, stroke: str) -> Iterator[Range]:
+    """Yield ranges of places: of each, the largest coordinate."""
+    for kind in ("mount", "point", "shaft", "slider"):
+        places = []
+        for number, table in enumerate(getattr(model, kind, ()), 1):
+            place = max(map(abs, table.at))
+            places.append((f"{kind}.{number}.at", place))
+        yield Range(places, 0.05 * size.stroke, math.inf, "mm", _LENGTHS, stroke)
+
+
+def _list_pressures(model: EngineFile) -> Iterator[Range]:
+    gas = model.gas
+    if gas is None:
+        return
+    intake = getattr(gas, "intake", None) or 1.0
+    for path, key, value in walk_figures("gas", list_tables(gas)):
+        if key in ("imep", "bmep"):
+            basis = f"an intake of {intake:g} bar"
+            yield Range([(path, value)], 1.3 * intake, math.inf, "bar", _PRESSURES, basis)
+
+
+def _list_inertias(model: EngineFile, size: Sizes) -> Iterator[Range]:
+    torsion = model.torsion
+    if torsion is None or not torsion.throw_inertia or not size.mass:
+        return
+    swung = size.mass * size.radius**2
+    inertias = [("torsion.throw_inertia", inertia) for inertia in torsion.throw_inertia]
+    basis = f"rods and pistons of {size.mass:.4g} kg"
+    yield Range(inertias, 0.02 * swung, 1000 * swung, "kg mm^2", _INERTIAS, basis)
+
+
+def find_unusual(ranges: Iterable[Range]) -> Iterator[Figure]:
+    """Yield the figure of each range that is farthest outside it."""
+    for usual in ranges:
+        outside = [pair for pair in usual.figures if _is_outside(pair[1], usual)]
+        if outside:
+            path, value = max(outside, key=lambda pair: _find_distance(pair[1], usual))
+            yield Figure(
+                path=path,
+                value=value,
+                least=usual.least if value > 0 else -usual.most,
+                most=usual.most if value > 0 else -usual.least,
+                unit=f" {usual.unit}",
+                hint=usual.hint or _guess_unit(value, usual),
+                subject=usual.subject,
+                basis=usual.basis,
+            )
+
+
+def _is_outside(value: float, usual: Range) -> bool:
+    return value != 0 and not usual.least <= abs(value) <= usual.most
+
+
+def _find_distance(value: float, usual: Range) -> float:
+    """Return how many times a value lies outside its range."""
+    return max(usual.least / abs(value), abs(value) / usual.most)
+
+
+def _guess_unit(value: float, usual: Range) -> str:
+    """Return the remedy: the first unit with which the figure lies in its range."""
+    for unit, size in usual.others:
+        if usual.least <= abs(value) * size <= usual.most:
+            return f'with another unit, write it: "{value:g} {unit}"'
+    return f"bare numbers are in {usual.unit}"
+
+
+# ------------------------------------------------------------------ angles in radians
+_TABLES_OF_ANGLES = ("crank", "layout", "cylinder", "counterweight", "shaft", "slider")
+_ANGLES = frozenset(
+    {
+        "throws",
+        "splay",
+        "bank_angle",
+        "banks",
+        "row_angle",
+        "firing_intervals",
+        "bank",
+        "throw",
+        "angle",
+        "direction",
+    }
+)
+_PARTS_OF_PI = (math.pi / 4, math.pi / 5, math.pi / 6, 2 * math.pi / 7)
+_NEAR = 0.002
+_SMALLEST_RADIANS = 0.5
+_LARGEST_RADIANS = 6.3
+
+
+def find_radians(model: EngineFile) -> Iterator[tuple[str, float]]:
+    """Yield path and value of bare angles that are round fractions of a turn in radians, one for
+    each key.
+    """
+    tables = list_tables(model)
+    seen = set()
+    for name in _TABLES_OF_ANGLES:
+        for path, _, value in walk_figures(name, tables.get(name)):
+            key = _name_key(path)
+            if key in seen or key.rpartition(".")[2] not in _ANGLES:
+                continue
+            if isinstance(value, float | int) and _is_radian(value):
+                seen.add(key)
+                yield key, value
+
+
+def _name_key(path: str) -> str:
+    """Return the key of a figure: without the number of a member of a list."""
+    parent, _, last = path.rpartition(".")
+    return parent if last.isdigit() and parent.rpartition(".")[2] in _ANGLES else path
+
+
+def _is_radian(value: float) -> bool:
+    if isinstance(value, WrittenFigure) or not _SMALLEST_RADIANS <= abs(value) <= _LARGEST_RADIANS:
+        return False
+    for part in _PARTS_OF_PI:
+        nearest = part * round(abs(value) / part)
+        if abs(abs(value) - nearest) < _NEAR:
+            return True
+    return False
