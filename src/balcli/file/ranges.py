@@ -78,6 +78,7 @@ class Range(NamedTuple):
         basis: Figure on which the range depends, in words.
         subject: Name of the figure with a verb, if it is not the value of the key itself.
         hint: Remedy; empty: that the figure has another unit.
+        also: Further keys on which the range depends.
     """
 
     figures: Sequence[tuple[str, float]]
@@ -88,6 +89,7 @@ class Range(NamedTuple):
     basis: str
     subject: str = ""
     hint: str = ""
+    also: tuple[str, ...] = ()
 
 
 # Units that may be meant, with their sizes in the unit of bare numbers
@@ -95,6 +97,16 @@ _LENGTHS = (("in", 25.4), ("m", 1000.0))
 _PRESSURES = (("MPa", 10.0), ("psi", 0.0689476), ("kPa", 0.01))
 _INERTIAS = (("kg m^2", 1e6), ("kg cm^2", 100.0), ("g m^2", 1e3))
 _UNBALANCES = (("kg mm", 1e3), ("g cm", 10.0), ("oz in", 720.0), ("kg m", 1e6))
+_INTAKES = 0.15, 12.0  # usual pressures of the intake, bar
+# Keys on which ranges depend
+_STROKE = ("crank.stroke",)
+_BORE = ("piston.bore", *_STROKE)
+_ROD = ("rod.length", "rod.ratio")
+_MASSES = (
+    *_STROKE,
+    *(f"piston.{key}" for key in ("mass", *PISTON_PARTS)),
+    *("crosshead.mass", "rod.mass", "rod.small_end", "rod.big_end"),
+)
 _SPECIFIC = 1e3  # g in a kg: unbalances are in g mm
 
 
@@ -111,6 +123,7 @@ def list_ranges(model: EngineFile) -> Iterator[Range]:
         unit="mm",
         others=_LENGTHS,
         basis=bore,
+        also=_BORE,
     )
     if size.rod:
         cg = model.rod.cg or 0.0
@@ -123,6 +136,7 @@ def list_ranges(model: EngineFile) -> Iterator[Range]:
             others=_LENGTHS,
             basis=f"a rod of {size.rod:g} mm",
             hint=share,
+            also=_ROD,
         )
     yield Range(
         figures=[("piston.offset", model.piston.offset)],
@@ -131,6 +145,7 @@ def list_ranges(model: EngineFile) -> Iterator[Range]:
         unit="mm",
         others=_LENGTHS,
         basis=stroke,
+        also=_STROKE,
     )
     if model.articulation is not None:
         yield Range(
@@ -140,6 +155,7 @@ def list_ranges(model: EngineFile) -> Iterator[Range]:
             unit="mm",
             others=_LENGTHS,
             basis=f"a crank radius of {size.radius:g} mm",
+            also=_STROKE,
         )
     yield from _list_devices(model, size, stroke)
     yield from _list_points(model, size, stroke)
@@ -165,6 +181,7 @@ def _list_places_of_throws(model: EngineFile, size: Sizes, bore: str) -> Iterato
         others=_LENGTHS,
         basis=bore,
         subject="" if crank.positions is None else "the distance of two neighbours is",
+        also=_BORE,
     )
 
 
@@ -173,16 +190,17 @@ def _list_devices(model: EngineFile, size: Sizes, stroke: str) -> Iterator[Range
     for kind in (Counterweight, Shaft, Slider):
         tables = [(path, table) for path, table in model.tables() if isinstance(table, kind)]
         places = [(f"{path}.position", table.position) for path, table in tables]
-        yield Range(places, 0.005 * size.stroke, math.inf, "mm", _LENGTHS, stroke)
+        yield Range(places, 0.005 * size.stroke, math.inf, "mm", _LENGTHS, stroke, also=_STROKE)
         radii = [(f"{path}.radius", getattr(table, "radius", None)) for path, table in tables]
         known = [(path, radius) for path, radius in radii if radius is not None]
-        yield Range(known, 0.1 * size.stroke, 5 * size.stroke, "mm", _LENGTHS, stroke)
+        yield Range(known, 0.1 * size.stroke, 5 * size.stroke, "mm", _LENGTHS, stroke, also=_STROKE)
         sizes = [(f"{path}.unbalance", table.unbalance) for path, table in tables]
         given = [(path, abs(size)) for path, size in sizes if _is_number(size)]
-        if given and unbalance:
-            largest = max(given, key=lambda pair: pair[1])
+        if unbalance:
             basis = f"rods and pistons of {size.mass:.4g} kg"
-            yield Range([largest], 0.001 * unbalance, math.inf, "g mm", _UNBALANCES, basis)
+            yield Range(
+                given, 0.001 * unbalance, math.inf, "g mm", _UNBALANCES, basis, also=_MASSES
+            )
 
 
 def _is_number(unbalance: float | None) -> TypeGuard[float]:
@@ -197,7 +215,7 @@ def _list_points(model: EngineFile, size: Sizes, stroke: str) -> Iterator[Range]
         for number, table in enumerate(getattr(model, kind, ()), 1):
             place = max(map(abs, table.at))
             places.append((f"{kind}.{number}.at", place))
-        yield Range(places, 0.05 * size.stroke, math.inf, "mm", _LENGTHS, stroke)
+        yield Range(places, 0.05 * size.stroke, math.inf, "mm", _LENGTHS, stroke, also=_STROKE)
 
 
 def _list_pressures(model: EngineFile) -> Iterator[Range]:
@@ -205,10 +223,20 @@ def _list_pressures(model: EngineFile) -> Iterator[Range]:
     if gas is None:
         return
     intake = getattr(gas, "intake", None) or 1.0
+    if not _INTAKES[0] <= intake <= _INTAKES[1]:
+        return  # the intake is doubted itself
     for path, key, value in walk_figures("gas", list_tables(gas)):
         if key in ("imep", "bmep"):
             basis = f"an intake of {intake:g} bar"
-            yield Range([(path, value)], 1.3 * intake, math.inf, "bar", _PRESSURES, basis)
+            yield Range(
+                [(path, value)],
+                1.3 * intake,
+                math.inf,
+                "bar",
+                _PRESSURES,
+                basis,
+                also=("gas.intake",),
+            )
 
 
 def _list_inertias(model: EngineFile, size: Sizes) -> Iterator[Range]:
@@ -218,7 +246,7 @@ def _list_inertias(model: EngineFile, size: Sizes) -> Iterator[Range]:
     swung = size.mass * size.radius**2
     inertias = [("torsion.throw_inertia", inertia) for inertia in torsion.throw_inertia]
     basis = f"rods and pistons of {size.mass:.4g} kg"
-    yield Range(inertias, 0.02 * swung, 1000 * swung, "kg mm^2", _INERTIAS, basis)
+    yield Range(inertias, 0.02 * swung, 1000 * swung, "kg mm^2", _INERTIAS, basis, also=_MASSES)
 
 
 def find_unusual(ranges: Iterable[Range]) -> Iterator[Figure]:
@@ -235,6 +263,7 @@ def find_unusual(ranges: Iterable[Range]) -> Iterator[Figure]:
                 unit=f" {usual.unit}",
                 hint=usual.hint or _guess_unit(value, usual),
                 subject=usual.subject,
+                also=usual.also,
                 basis=usual.basis,
             )
 

@@ -512,8 +512,10 @@ def _measure(figure: str, dimension: Dimension) -> Fraction:
                 return number * force.scale
         inverse_powers = tuple(-power for power in unit.powers)
         if dimension in (STIFFNESS, TORSIONAL_STIFFNESS) and inverse_powers == dimension.powers:
-            inverse = 1 / (number * unit.scale / read_unit(dimension.unit, dimension).scale)
-            told = f"is a flexibility; its inverse is {float(inverse):.6g} {dimension.unit}"
+            bare = read_unit(dimension.unit, dimension)
+            inverse = 1 / (number * unit.scale * bare.scale)
+            size = f"{float(inverse):.6g}".replace("e+0", "e").replace("e+", "e")
+            told = f"is a flexibility; its inverse is {size} {dimension.unit}"
             raise ValueError(told)
         names_of_kinds = (kind.name for kind in _KINDS if kind.powers == unit.powers)
         name = next(names_of_kinds, "of another dimension")

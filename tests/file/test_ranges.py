@@ -1,0 +1,189 @@
+"""Figures compared with others of the same file: both sides of each limit, at two sizes of engine, and angles."""
+
+import math
+
+import pytest
+import tomli_w
+from support.commands import refusal, run_here
+from support.paths import ENGINES, write
+
+from balcli.engine.parse import parse, read
+from balcli.file.doubts import find_suspicious
+
+# A three of bore 75 and stroke 80 mm; masses are those of bore^3, so that it can be built larger.
+BORE, STROKE, ROD = 75.0, 80.0, 140.0
+PISTON, BIG, SMALL = 0.3, 0.3, 0.1
+SWUNG = PISTON + BIG + SMALL
+
+
+def make(scale=1.0, **changed):
+    """Tables of the engine `scale` times as large, with other or further tables."""
+    cube = scale**3
+    tables = {
+        "crank": {"stroke": STROKE * scale, "throws": [0, 240, 120], "spacing": 90 * scale},
+        "rod": {"length": ROD * scale, "big_end": BIG * cube, "small_end": SMALL * cube},
+        "piston": {"bore": BORE * scale, "mass": PISTON * cube},
+        "operation": {"speed": 3000 / scale},
+    }
+    for key, table in changed.items():
+        tables[key] = {**tables.get(key, {}), **table} if isinstance(table, dict) else table
+    return tables
+
+
+def list_doubted(tables):
+    return [doubt.path for doubt in find_suspicious(parse(tomli_w.dumps(tables)))]
+
+
+WHOLE = {"mass": SWUNG - PISTON, "cg": 60.0, "big_end": None, "small_end": None}
+LIMITS = {  # path: limit, whether figures below it are doubted, and the tables that give a figure
+    "crank.spacing": (BORE, True, 1, lambda x: {"crank": {"spacing": x}}),
+    "crank.spacing most": (10 * STROKE, False, 1, lambda x: {"crank": {"spacing": x}}),
+    "crank.positions": (BORE, True, 1, lambda x: {"crank": {"positions": [-x - 500, 0, x], "spacing": None}}),
+    "layout.stagger": (0.02 * BORE, True, 1, lambda x: {"layout": {"bank_angle": 90, "stagger": x}}),
+    "layout.stagger most": (STROKE, False, 1, lambda x: {"layout": {"bank_angle": 90, "stagger": x}}),
+    "piston.offset": (0.001 * STROKE, True, 1, lambda x: {"piston": {"offset": x}}),
+    "counterweight.1.radius": (
+        0.1 * STROKE,
+        True,
+        1,
+        lambda x: {"counterweight": [{"mass": 0.1, "radius": x, "position": 90}]},
+    ),
+    "shaft.1.radius": (
+        5 * STROKE,
+        False,
+        1,
+        lambda x: {"shaft": [{"ratio": -1, "mass": 0.1, "radius": x, "position": 90, "at": [90, 90]}]},
+    ),
+    "slider.1.position": (
+        0.005 * STROKE,
+        True,
+        1,
+        lambda x: {"slider": [{"order": 2, "direction": 0, "unbalance": 2000, "position": x, "at": [90, 90]}]},
+    ),
+    "shaft.1.at": (
+        0.05 * STROKE,
+        True,
+        1,
+        lambda x: {"shaft": [{"ratio": -1, "unbalance": 2000, "position": 90, "at": [x / 2, -x]}]},
+    ),
+    "counterweight.1.unbalance": (
+        0.001 * SWUNG * 1e3 * STROKE / 2,
+        True,
+        4,
+        lambda x: {"counterweight": [{"unbalance": -x, "position": 90}]},
+    ),
+}
+
+
+def strip(tables):
+    """Leave out what is None, and scale places that the cases give for the small engine."""
+    return {
+        key: {name: value for name, value in table.items() if value is not None} if isinstance(table, dict) else table
+        for key, table in tables.items()
+    }
+
+
+@pytest.mark.parametrize("name", LIMITS)
+def test_a_figure_is_doubted_on_one_side_of_its_limit(name):
+    limit, below, _, give = LIMITS[name]
+    path = name.partition(" ")[0]
+    for factor, doubted in ((0.99, below), (1.01, not below)):
+        tables = strip(make(**give(limit * factor)))
+        assert (path in list_doubted(tables)) == doubted, factor
+
+
+@pytest.mark.parametrize("name", ["crank.spacing", "piston.offset", "counterweight.1.unbalance"])
+@pytest.mark.parametrize("scale", [0.125, 25.0])
+def test_limits_grow_with_the_engine(name, scale):
+    """Lengths with the size, unbalances with its fourth power: from a stroke of 10 mm to one of 2 m."""
+    limit, _, power, give = LIMITS[name]
+    for factor, doubted in ((0.99, True), (1.01, False)):
+        tables = strip(make(scale, **give(limit * factor * scale**power)))
+        assert (name in list_doubted(tables)) == doubted
+
+
+def test_a_centre_of_mass_as_a_share_is_doubted():
+    for cg, doubted in ((0.3, True), (0.099 * ROD, True), (0.101 * ROD, False), (0, False)):
+        tables = make(rod=WHOLE | {"cg": cg})
+        assert ("rod.cg" in list_doubted(strip(tables))) == doubted
+    (doubt,) = find_suspicious(parse(tomli_w.dumps(strip(make(rod=WHOLE | {"cg": 0.3})))))
+    assert "as a share of the length it is 42 mm" in doubt.message
+
+
+def test_without_a_bore_throws_may_be_nearer():
+    for spacing, doubted in ((0.29 * STROKE, True), (0.31 * STROKE, False)):
+        tables = make(crank={"spacing": spacing}, piston={"bore": None})
+        assert ("crank.spacing" in list_doubted(strip(tables))) == doubted
+
+
+@pytest.mark.parametrize("key", ["imep", "bmep"])
+@pytest.mark.parametrize("intake", [None, 2.0])
+def test_a_mean_pressure_lies_above_the_intake(key, intake):
+    for pressure, doubted in ((1.29 * (intake or 1), True), (1.31 * (intake or 1), False)):
+        gas = {"cycle": "otto", "compression_ratio": 10, key: pressure}
+        gas |= {"intake": intake} if intake else {}
+        gas |= {"mechanical_efficiency": 0.9} if key == "bmep" else {}
+        tables = make(gas=gas, layout={"firing_order": [1, 3, 2]})
+        assert (f"gas.{key}" in list_doubted(tables)) == doubted
+
+
+@pytest.mark.parametrize(
+    ("angle", "doubted"),
+    [
+        (math.pi / 2, True),
+        (2.618, True),
+        (-2.0944, True),
+        (4 * math.pi / 7, True),
+        (1.5738, False),
+        (2 * math.pi + 0.1, False),
+        (90, False),
+        (0.4488, False),
+    ],
+)
+def test_a_round_part_of_a_turn_in_radians_is_doubted(angle, doubted):
+    weight = {"unbalance": 3000, "position": 90, "angle": angle}
+    assert ("counterweight.1.angle" in list_doubted(make(counterweight=[weight]))) == doubted
+
+
+def test_an_angle_with_its_unit_is_not_doubted():
+    weight = {"unbalance": 3000, "position": 90, "angle": "2.618 deg"}
+    assert list_doubted(make(counterweight=[weight])) == []
+
+
+def test_of_a_list_the_member_farthest_out_is_named():
+    weights = [{"unbalance": size, "position": 90} for size in (20, 3, 5)]
+    assert list_doubted(make(counterweight=weights)) == ["counterweight.2.unbalance"]
+
+
+def test_no_example_is_doubted():
+    for file in sorted(ENGINES.rglob("*.toml")):
+        model = read(str(file))
+        if not model.engine:
+            assert find_suspicious(model) == [], file
+
+
+# ---------------------------------------------------------------- torsion
+CHAIN = """node = [{{name = "a", inertia = "{inertia} kg m^2"}}, {{name = "b", inertia = "40000 kg m^2"}}]
+shaft = [{{from = "a", to = "b", stiffness = {stiffness}}}]
+"""
+
+
+def quickness(stiffness, inertia):
+    """Natural frequency with both ends, over the frequency of shear waves in a body of steel of the smaller inertia."""
+    frequency = math.sqrt(stiffness * (1 / inertia + 1 / 40000))
+    return frequency * (inertia / 7850) ** 0.2 / 3200
+
+
+@pytest.mark.parametrize("inertia", [0.02, 15000])
+@pytest.mark.parametrize(("limit", "doubted_below"), [(3e-4, True), (2.0, False)])
+def test_a_stiffness_fits_its_inertias(tmp_path, inertia, limit, doubted_below):
+    for factor, doubted in ((0.99, doubted_below), (1.01, not doubted_below)):
+        stiffness = (limit * factor / quickness(1.0, inertia)) ** 2
+        file = write(tmp_path / "chain.toml", CHAIN.format(inertia=inertia, stiffness=f"{stiffness:.9e}"))
+        told = run_here("torsion", file).err
+        assert ("shaft.1.stiffness" in told) == doubted
+
+
+def test_a_flexibility_with_its_unit_is_told_with_its_inverse(tmp_path):
+    file = write(tmp_path / "chain.toml", CHAIN.format(inertia=15000, stiffness='"4e-9 rad/Nm"'))
+    assert refusal("torsion", file).endswith('"4e-9 rad/Nm" is a flexibility; its inverse is 2.5e8 N m/rad')
