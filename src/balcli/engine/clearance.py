@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
-from ..file.doubts import Doubt
+from ..file.doubt import Doubt
 
 THROW_IN_BORES = 0.3  # least width of a throw along the crank
 _ROUNDING = 1e-9  # a smaller share of the distance of two cranks is rounding

@@ -26,7 +26,7 @@ from .quantity_names import tell_speeds
 if TYPE_CHECKING:
     from ..show.units import System
     from .deviations import Source
-from .scatter import Scatter, Spread
+    from .scatter import Scatter, Spread
 
 SHOWN = 6  # largest number of changes of each quantity in a table
 BOUND = "Bound: nominal value plus the magnitudes of all single changes; variants may exceed it"
