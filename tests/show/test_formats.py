@@ -25,6 +25,7 @@ SHOWN = {  # by renderer
     "comparison": ("compare", V6, V8),
     "piston": ("piston", V6),
     "errata": ("tables", "liu-3", "--errata"),
+    "all_schemes": ("balance", V8, "--scheme", "all"),
     "field_balancing": ("field", "-"),
     "layouts": ("layouts",),
     "marine": ("analyze", V6, V8, "--format", "marine", "--speed", "60,124"),
