@@ -9,6 +9,7 @@ from support.engines import GOOD, build_text
 from support.gas_engines import FOUR, WIEBE
 from support.paths import ENGINE_FILES, ENGINES
 
+from balcli import load_example
 from balcli.analysis.answer import QUANTITIES, Analysis, analyze
 from balcli.engine.build import build
 from balcli.engine.engine import Engine
@@ -184,3 +185,22 @@ def test_what_is_small_is_small_beside_the_force_of_one_piston_and_its_rod_end()
     assert scale["force"] == pytest.approx(force, rel=1e-14)
     assert scale["moment"] == pytest.approx(0.3 * force, rel=1e-14)
     assert scale["torque"] == pytest.approx(0.045 * force, rel=1e-14)
+
+
+def test_a_bank_alone_is_the_row_of_its_cylinders():
+    """A bank of a flat-plane V8 has four times the second order of a cylinder, along its own axis (Liu (1.3)); both
+    together are the engine.
+    """
+    v8 = load_example("v8_flatplane")
+    result = analyze(v8, [2], only=["force"], by="bank")
+    cylinder = analyze(v8, [2], only=["force"], by="cylinder").cylinders[0].spectra["force"]
+    left, right = result.banks
+    assert (left.axis_deg, right.axis_deg) == (-45, 45)
+    assert (left.cylinders, right.cylinders) == ((1, 2, 3, 4), (5, 6, 7, 8))
+    for bank in result.banks:
+        force = bank.spectra["force"]
+        assert force.major == pytest.approx(4 * cylinder.major, rel=1e-12)
+        assert force.minor == pytest.approx(0, abs=1e-12 * force.major[0])
+        assert force.axis_deg == pytest.approx([bank.axis_deg])
+    both = left.spectra["force"].vectors + right.spectra["force"].vectors
+    assert both == pytest.approx(result.spectra["force"].vectors, rel=1e-12)

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import reduce
+from operator import add
 from types import NoneType
 from typing import Annotated, Literal
 
@@ -46,6 +48,7 @@ from .crank_drive import find_journals, list_masses, relate_to_power
 from .parts import find_parts
 from .records import (
     BalanceParts,
+    BankShare,
     CylinderShare,
     Journal,
     Masses,
@@ -102,6 +105,7 @@ class Analysis(OrdersAndPeaks, Result):
             that remain with them.
         ladder: Devices that balance the engine, step by step.
         cylinders: Forces and moments of each single cylinder, without devices.
+        banks: Forces and moments of each single bank, without devices.
         inner: Shear force and bending moment along the crankshaft; for an engine with gas, also
             loads of bearings and block.
         guide: H- and X-type guide-force moments.
@@ -127,6 +131,7 @@ class Analysis(OrdersAndPeaks, Result):
     sizing: Asked[Sizing] = Asked('only=["sizing"]')
     ladder: Asked[Ladder] = Asked('only=["ladder"]')
     cylinders: Asked[tuple[CylinderShare, ...]] = Asked('by="cylinder"')
+    banks: Asked[tuple[BankShare, ...]] = Asked('by="bank"')
     inner: Asked[Annotated[InnerLoads, WrittenAs(describe_inner)]] = Asked('only=["inner"]')
     guide: Asked[Annotated[GuideMoments, WrittenAs(describe_guide)]] = Asked('only=["guide"]')
     travel: tuple[Stroke, ...] | None = None
@@ -194,7 +199,7 @@ def analyze(
     engine: Engine,
     orders: Iterable[float] | None = None,
     only: str | Collection[str] | None = None,
-    by: Literal["cylinder"] | None = None,
+    by: Literal["cylinder", "bank"] | None = None,
     why: bool = False,
     guide_height: float | None = None,
     beside: Collection[Engine] = (),
@@ -210,7 +215,7 @@ def analyze(
         only: Any of force, moment, couple, torque, roll, peak, sizing, ladder, inner, guide,
             journals, masses, parts, pru (power related unbalance) and gas, as a list or a text with
             commas; default: the first six (force to peak), and gas if the engine has gas.
-        by: "cylinder": compute the phasors of each single cylinder as well.
+        by: "cylinder" or "bank": compute the phasors of each single cylinder or bank as well.
         why: Whether to find out why each order is balanced or not, and to compute phasor stars.
         guide_height: Distance from the crankshaft to the middle of the guides, m, for the X-type
             guide moment; default: the length of each rod.
@@ -230,14 +235,14 @@ def analyze(
     wanted = _choose_quantities(check_engine("analyze", engine), only)
     _check_height(guide_height)
     check_small(check_number("small", small, "give a share, such as 0.05"))
-    check_type("by", by, (str, NoneType), 'give "cylinder"')
-    if by not in (None, "cylinder"):
-        raise ArgumentError('{by} {other!r}: give "cylinder"', other=by)
+    check_type("by", by, (str, NoneType), 'give "cylinder" or "bank"')
+    if by not in (None, "cylinder", "bank"):
+        raise ArgumentError('{by} {other!r}: give "cylinder" or "bank"', other=by)
     check_type("why", why, bool, "give True or False")
     check_type("beside", beside, Collection, "give engines, such as [engine]")
     for other in beside:
         check_engine("analyze", other)
-    if why or not wanted.isdisjoint(_OF_ONE_CRANK):
+    if why or by == "bank" or not wanted.isdisjoint(_OF_ONE_CRANK):
         refuse_geared(engine)
     asked = None if orders is None else check_orders(orders, [engine, *beside])
     shown = wanted.intersection(EVERY_KIND)
@@ -269,7 +274,8 @@ def analyze(
         peak=find_peaks(everything) if peaked else None,
         sizing=_size(engine, ladder, asked, wanted) if ladder and "sizing" in wanted else None,
         ladder=ladder if "ladder" in wanted else None,
-        cylinders=_analyze_cylinders(engine, visible.orders, shown) if by else None,
+        cylinders=_analyze_cylinders(engine, visible.orders, shown) if by == "cylinder" else None,
+        banks=_analyze_banks(engine, visible.orders, shown) if by == "bank" else None,
         inner=find_inner_loads(engine, asked) if "inner" in wanted else None,
         guide=compute_guide_moments(engine, asked, guide_height) if "guide" in wanted else None,
         travel=list_strokes(engine) if has_linkage else None,
@@ -355,6 +361,22 @@ def _analyze_cylinders(
     shares = []
     for number in engine.rising_numbers:
         shares.append(CylinderShare(number, own.select_place(engine.numbers.index(number))))
+    return tuple(shares)
+
+
+def _analyze_banks(engine: Engine, orders: Array, kinds: Collection[str]) -> tuple[BankShare, ...]:
+    own = _analyze_cylinders(engine, orders, kinds)
+    c = engine.cylinders
+    ends = [*c.starts[1:].tolist(), c.count]
+    shares = []
+    for axis_deg, start, end in zip(c.axis_deg.tolist(), c.starts.tolist(), ends, strict=True):
+        here = engine.numbers[start:end]
+        numbers = [number for number in engine.rising_numbers if number in here]
+        members = [share.spectra for share in own if share.cylinder in numbers]
+        sums = {}
+        for name in members[0].kinds:
+            sums[name] = reduce(add, [spectra.kinds[name] for spectra in members]).drop_noise()
+        shares.append(BankShare(axis_deg, tuple(numbers), replace(members[0], kinds=sums)))
     return tuple(shares)
 
 

@@ -34,8 +34,10 @@ SpeedsOption = Annotated[
     ),
 ]
 By = Annotated[
-    Literal["cylinder"] | None,
-    optional("cylinder", "Also show forces and moments of each single cylinder.", "--by"),
+    Literal["cylinder", "bank"] | None,
+    optional(
+        "cylinder|bank", "Also show forces and moments of each single cylinder or bank.", "--by"
+    ),
 ]
 Why = Annotated[
     bool, typer.Option("--why", help="Print why orders are balanced or not, and phasor stars.")
@@ -51,7 +53,7 @@ class Request(NamedTuple):
         quantities: Quantities to compute; None: the default quantities of each engine.
         parts: Words of `--only`; empty if it is not given.
         whole: Whether every table and every order is shown.
-        by: "cylinder": forces and moments of each single cylinder are shown; None: they are not.
+        by: "cylinder" or "bank": forces and moments of each single one are shown as well.
         why: Whether to show why orders are balanced or not, and phasor stars.
         height_m: Distance from the crankshaft to the middle of the guides; None: each rod's length.
         misfires: Numbers of the cylinders without gas.
@@ -65,7 +67,7 @@ class Request(NamedTuple):
     quantities: list[str] | None
     parts: frozenset[str]
     whole: bool
-    by: Literal["cylinder"] | None
+    by: Literal["cylinder", "bank"] | None
     why: bool
     height_m: float | None
     misfires: tuple[str, ...]

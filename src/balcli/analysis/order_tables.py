@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from ..engine.engine import CylinderNumber
 from ..file.fields import order_number
 from ..forces.kinds import FORCE, GAS_KINDS, KINDS, MOMENT, ROLL, Kind
 from ..show.figures import peak_deg, phase_deg, size_or_mean
@@ -150,14 +149,14 @@ def textbook_tables(book: Textbook, system: System, *, every: bool = False) -> I
 
 
 def cylinder_tables(
-    cylinder: CylinderNumber, share: Spectra, system: System, *, about_crank: bool
+    title: str, share: Spectra, system: System, *, about_crank: bool
 ) -> Iterator[Grid]:
-    """Yield tables of one cylinder's share: vectors as size and angle, couple and torques as
-    amplitude and phase.
+    """Yield tables of the share of a cylinder or bank: vectors as size and angle, couple and
+    torques as amplitude and phase.
 
     Args:
-        cylinder: Number of the cylinder.
-        share: Spectra of the cylinder.
+        title: Title of the tables.
+        share: Spectra of the cylinder or bank.
         system: System of units.
         about_crank: Whether couple and torques are wanted.
     """
@@ -169,7 +168,6 @@ def cylinder_tables(
             vectors.append(_column(f"{kind.name} {way}", part, system.unit(kind)))
     for kind, phasors in share.scalars() if about_crank else ():
         scalars.append(_column(kind.name, phasors.x.conj(), system.moment))
-    title = f"Cylinder {cylinder} alone"
     if len(vectors) > 1:
         yield Grid(title, vectors)
         title += ", about the crank"

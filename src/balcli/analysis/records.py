@@ -40,6 +40,20 @@ class CylinderShare(NamedTuple):
     spectra: Annotated[Spectra, WrittenAs(list_orders, "orders")]
 
 
+class BankShare(NamedTuple):
+    """Forces and moments of a single bank: the sum of those of its cylinders.
+
+    Attributes:
+        axis_deg: Angle of the cylinder axes of the bank, from x.
+        cylinders: Numbers of its cylinders.
+        spectra: Orders of the bank's forces and moments.
+    """
+
+    axis_deg: float
+    cylinders: tuple[CylinderNumber, ...]
+    spectra: Annotated[Spectra, WrittenAs(list_orders, "orders")]
+
+
 @dataclass(frozen=True)
 class PeaksAndOrders:
     """Peaks and orders of an engine.

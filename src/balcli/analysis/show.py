@@ -98,11 +98,10 @@ def _parts(result: Analysis, system: System, view: View) -> Iterator[Part]:
     else:
         yield from _order_parts_in_brief(result, system, view)
     yield from tell_uncounted(result)
-    if hasattr(result, "cylinders"):
-        about_crank = view.whole or bool(view.parts)
-        for share in result.cylinders:
-            spectra = share.spectra.with_moment_if(result.moments_known)
-            yield from cylinder_tables(share.cylinder, spectra, system, about_crank=about_crank)
+    about_crank = view.whole or bool(view.parts)
+    for title, share in _list_shares(result).items():
+        spectra = share.with_moment_if(result.moments_known)
+        yield from cylinder_tables(f"{title} alone", spectra, system, about_crank=about_crank)
     yield from _further_parts(result, system)
     if hasattr(result, "ladder"):
         yield ladder_grid(result.ladder, result.engine, system)
@@ -261,10 +260,25 @@ def rows(
     return Rows(header, _all_rows(result, system, named))
 
 
+def _list_shares(result: Analysis) -> dict[str, Spectra]:
+    """Return the spectra of single cylinders or banks that were asked for, by their titles."""
+    shares = {}
+    if hasattr(result, "cylinders"):
+        for cylinder in result.cylinders:
+            shares[f"Cylinder {cylinder.cylinder}"] = cylinder.spectra
+    if hasattr(result, "banks"):
+        for bank in result.banks:
+            numbers = ", ".join(map(str, bank.cylinders))
+            shares[f"Bank at {bank.axis_deg:g} deg (cylinders {numbers})"] = bank.spectra
+    return shares
+
+
 def _all_rows(result: Analysis, system: System, named: Collection[str]) -> Iterator[FigureRow]:
     shares: dict[CylinderNumber, Spectra] = {}
     if hasattr(result, "cylinders"):
         shares = {share.cylinder: share.spectra for share in result.cylinders}
+    elif hasattr(result, "banks"):
+        shares = {f"bank {share.axis_deg:g}": share.spectra for share in result.banks}
     yield from figure_rows(result, system, shares)
     if "ladder" in named and hasattr(result, "ladder"):
         for step, name, value, unit in list_ladder(result.ladder):
