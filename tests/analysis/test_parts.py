@@ -232,6 +232,6 @@ def test_a_counterweight_that_meets_a_piston_is_warned_of():
     text = GOOD.replace("mass = 0.5", "mass = 0.5\nskirt = 60") + "[[counterweight]]\nunbalance = 900\n" + SECTOR
     low = 1e3 * (0.16 - 0.045 - 0.06 - 0.075)
     assert (
-        f"counterweight.1 has a clearance of {low:.4g} mm"
+        f"counterweight.1: has a clearance of {low:.4g} mm"
         in run_here("analyze", "-", "--only", "parts", stdin=text).err
     )
