@@ -198,9 +198,11 @@ class Engine:
             arm = cg if rod["pendulum"]["pivot"] == "big_end" else length - cg
             inertia = mass * GRAVITY * arm * rod["pendulum"]["period"] ** 2 / (4 * math.pi**2) - mass * arm**2
         piston = self.data["piston"]
+        # A crosshead moves with its piston.
+        crosshead = own.get("crosshead_mass", self.data.get("crosshead", {}).get("mass", 0.0))
         return (
             {
-                "mass": own.get("piston_mass", sum(piston.get(k, 0) for k in PISTON)),
+                "mass": own.get("piston_mass", sum(piston.get(k, 0) for k in PISTON)) + crosshead,
                 "offset": own.get("piston_offset", piston.get("offset", 0)) / 1e3,
             },
             {"length": length, "mass": mass, "cg": cg, "inertia": inertia},

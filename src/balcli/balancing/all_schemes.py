@@ -185,7 +185,7 @@ def _count_parts(balanced: Balance) -> tuple[int, float]:
 _NOTE = (
     "Force, moment: largest left over a revolution, all orders. Share: of one cylinder's first "
     "order ({scale}). Roll: largest order that inertia leaves. kg: sum of the parts, each at its "
-    "radius. balance --scheme NAME shows one scheme, and its options change it."
+    "radius. A scheme by its name shows more, and has options of its own."
 )
 
 

@@ -141,7 +141,7 @@ class Balance(Result):
     assumed: tuple[Assumed, ...] | None = None
     before: Annotated[Analysis, WrittenAs(shorten_with_bearings)]
     after: Annotated[Analysis, WrittenAs(shorten_with_bearings)]
-    permitted: Asked[PermittedUnbalance] = Asked("--grade and --mass of `balcli balance`")
+    permitted: Asked[PermittedUnbalance] = Asked("the command `balcli balance` with grade and mass")
     ladder: Asked[Ladder] = Asked("a scheme that leaves articulated rods unchanged")
     parts: Asked[BalanceParts] = Asked("shapes=Shapes(bearings=(-0.13, 0.13))")
     tools: Annotated[Tools, HIDDEN] = field(default_factory=Tools)
