@@ -289,6 +289,13 @@ def test_commands_of_one_crank(geared, tmp_path, command):
     assert told == "v4.toml and two.toml are geared together; run this on one of them"
 
 
+def test_two_engines_of_one_file_are_told_as_such(geared, tmp_path):
+    geared()
+    same = write(tmp_path / "same.toml", "".join('[[engine]]\nfile = "v4.toml"\n' for _ in range(2)))
+    write(same, same.read_text().replace('"v4.toml"\n', '"v4.toml"\nname = "first"\n', 1) + "at = [300, 0, 0]\n")
+    assert refusal("piston", same) == "2 engines of v4.toml are geared together; run this on v4.toml"
+
+
 @pytest.mark.parametrize(
     "command",
     [

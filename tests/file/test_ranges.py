@@ -187,3 +187,19 @@ def test_a_stiffness_fits_its_inertias(tmp_path, inertia, limit, doubted_below):
 def test_a_flexibility_with_its_unit_is_told_with_its_inverse(tmp_path):
     file = write(tmp_path / "chain.toml", CHAIN.format(inertia=15000, stiffness='"4e-9 rad/Nm"'))
     assert refusal("torsion", file).endswith('"4e-9 rad/Nm" is a flexibility; its inverse is 2.5e8 N m/rad')
+
+
+@pytest.mark.parametrize(("mass", "doubted"), [(0.99, False), (1.01, True)])
+def test_a_pendulum_has_less_inertia_than_the_whole_chain(tmp_path, mass, doubted):
+    """Two nodes of 2 kg m2 each; mass times the square of radius and length: 3 kg m2 per kg at 1.5 and 0.232 m."""
+    reach = 1.5 * (1 + 1 / 2.5**2)
+    damper = f'{{ kind = "pendulum", mass = {mass * 4 / reach**2:.9f}, radius = 1500, order = 2.5 }}'
+    nodes = f'node = [{{name = "a", inertia = 2e6, damper = {damper}}}, {{name = "b", inertia = 2e6}}]\n'
+    file = write(tmp_path / "chain.toml", f'{nodes}shaft = [{{from = "a", to = "b", stiffness = 1e6}}]\n')
+    assert ("more than all nodes together" in run_here("torsion", file).err) == doubted
+
+
+def test_positions_that_do_not_rise_are_doubted():
+    for positions, doubted in (([-90, 0, 90], False), ([-90, 90, 0], True), ([90, 0, -90], True)):
+        tables = strip(make(crank={"positions": positions, "spacing": None}))
+        assert ("crank.positions" in list_doubted(tables)) == doubted

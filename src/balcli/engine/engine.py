@@ -630,8 +630,12 @@ def refuse_geared(subject: Engine | EngineFile) -> None:
     """
     geared = subject.placed if isinstance(subject, Engine) else subject.engine
     if geared:
-        files = join_words([one.file or one.name for one in geared])
-        raise BalcliError(f"{files} are geared together; run this on one of them")
+        files = list(dict.fromkeys(one.file or one.name for one in geared))
+        if len(files) == 1:
+            raise BalcliError(
+                f"{len(geared)} engines of {files[0]} are geared together; run this on {files[0]}"
+            )
+        raise BalcliError(f"{join_words(files)} are geared together; run this on one of them")
 
 
 def take_model(engine: Engine) -> EngineFile:

@@ -112,7 +112,8 @@ def doubt_figures(figures: Iterable[Figure]) -> Iterator[Doubt]:
         if figure.least <= value <= figure.most:
             continue
         written = f' ("{printable(value.text)}")' if isinstance(value, WrittenFigure) else ""
-        said = f"{figure.subject} {value:.{figure.digits}g}{figure.unit}{written}".lstrip()
+        shown = f"{float(f'{value:.{figure.digits}g}'):.12g}"
+        said = f"{figure.subject} {shown}{figure.unit}{written}".lstrip()
         usual = f"{_tell_range(figure)} is usual"
         if figure.basis:
             usual = f"{usual} with {figure.basis}"

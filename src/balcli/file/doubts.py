@@ -147,6 +147,12 @@ def _find_missing(model: EngineFile) -> Iterator[Doubt]:
             "of each, or crank.spacing"
         )
         yield Doubt(f"cylinder.{placed[0]}.position", told)
+    if crank.positions is not None and list(crank.positions) != sorted(crank.positions):
+        told = (
+            "do not rise; throws count from the free end, and z grows towards the flywheel: is "
+            "each position that of its throw?"
+        )
+        yield Doubt("crank.positions", told)
     stroke = max(crank.strokes)
     speed = model.operation.speed
     bore = model.piston.bore

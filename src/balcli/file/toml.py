@@ -24,7 +24,10 @@ _LONGEST_LINE = 80  # largest number of characters of a line in a message
 _NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)"
 _DASHED = r"\d+(?:-\d+)+"  # a firing order, 1-3-4-2
 # Patterns of values without quotes, and the remedy; the first that matches is used.
+_NO_DIGIT_BEFORE = r"(?<![\w.])\.(?=\d)"
+_NO_DIGIT_BEHIND = r"(?<=\d)\.(?![\d.])"
 _HINTS = (
+    (rf"[^\"']*(?:{_NO_DIGIT_BEFORE}|{_NO_DIGIT_BEHIND})[^\"']*", "write {whole}"),
     (rf"{_NUMBER},\d+", "write a decimal point, not a comma"),
     (rf"{_NUMBER}[dD][+-]?\d+", "an exponent is written with e, as in 1.5e3"),
     (
@@ -149,7 +152,7 @@ def _find_line(text: str, error: str) -> int:
 
 def _explain(text: str, line: int) -> str:
     """Return a line that is not valid, and the remedy for some slips: units without quotes, lists
-    without brackets, a decimal comma.
+    without brackets, a decimal comma, a point without a digit before or behind it.
     """
     shown = text.split("\n")[line - 1].strip()
     if not 0 < len(shown) <= _LONGEST_LINE or not shown.isprintable():
@@ -162,4 +165,6 @@ def _explain(text: str, line: int) -> str:
     in_inches = re.sub("''|[\"″]", " in", value)
     listed = value.replace("-", " ") if re.fullmatch(_DASHED, value) else value
     numbers = ", ".join(re.findall(_NUMBER, listed))
-    return f": {key} = {value}{hint.format(key=key, value=in_inches, numbers=numbers)}"
+    whole = re.sub(_NO_DIGIT_BEHIND, ".0", re.sub(_NO_DIGIT_BEFORE, "0.", value))
+    remedy = hint.format(key=key, value=in_inches, numbers=numbers, whole=whole)
+    return f": {key} = {value}{remedy}"

@@ -146,7 +146,11 @@ def assemble_system(
         limit_pa=None if keys.limit is None else keys.limit * 1e6,
         angle_limit=None if keys.angle_limit is None else math.radians(keys.angle_limit),
         last=len(planned) - 1,
-        doubts=(*_doubt_light_shafts(chain, shafts), *_doubt_stiffness(chain, shafts)),
+        doubts=(
+            *_doubt_light_shafts(chain, shafts),
+            *_doubt_stiffness(chain, shafts),
+            *_doubt_pendulums(chain, pendulums, nodes),
+        ),
         **others,
     )
 
@@ -185,6 +189,23 @@ def _doubt_light_shafts(chain: Chain, shafts: Sequence[PlannedShaft]) -> Iterato
             "(g/cm3) adds half of the inertia to the node at each end"
         )
         yield Doubt("", told)
+
+
+def _doubt_pendulums(
+    chain: Chain, pendulums: Sequence[Pendulums], nodes: Sequence[PlannedNode]
+) -> Iterator[Doubt]:
+    """Yield a warning of pendulums with more inertia than all nodes together."""
+    whole = float(chain.inertia.sum())
+    for pendulum in pendulums:
+        inertia = pendulum.mass * (pendulum.radius + pendulum.length) ** 2
+        if inertia > whole:
+            node = nodes[pendulum.node].table.name
+            told = (
+                f"the pendulums on {node} weigh {pendulum.mass:.4g} kg and have {inertia:.4g} kg "
+                f"m2, more than all nodes together ({whole:.4g} kg m2); is their mass in kg, and "
+                "their radius in mm?"
+            )
+            yield Doubt("", told)
 
 
 # Usual stiffness of a shaft, as its natural frequency with both ends over that at which shear waves
