@@ -66,7 +66,8 @@ def test_a_wheel_has_the_examples_and_the_page(tmp_path):
         inside = content.namelist()
         shipped = {f"balcli/engines/{p.relative_to(ENGINES).as_posix()}" for p in EVERY}
         assert shipped <= set(inside)
-        assert {f"balcli/report/assets/report.{end}" for end in ("html", "css", "js")} <= set(inside)
+        assets = (ROOT / "src" / "balcli" / "report" / "assets").iterdir()
+        assert {f"balcli/report/assets/{asset.name}" for asset in assets} <= set(inside)
         content.extractall(tmp_path / "installed")
     listed = run_command("engines", env={"PYTHONPATH": str(tmp_path / "installed")}).stdout
     assert listed == ask("engines")
