@@ -56,7 +56,8 @@ def test_orders_do_not_depend_on_those_shown_with_them(name):
     for kind, phasors in default.spectra.items():
         for other in (asked, single, many):
             common = np.intersect1d(default.orders, other.orders)
-            here, there = phasors.select_orders(common), other.spectra[kind.name].select_orders(common)
+            here = phasors.select_orders(common)
+            there = other.spectra[kind.name].select_orders(common)
             assert np.all(np.abs(here.vectors - there.vectors) <= here.noise + there.noise), kind.name
             assert other is not asked or np.array_equal(here.vectors, there.vectors), kind.name
     assert asked.peak.force == pytest.approx(default.peak.force, rel=1e-12, abs=1e-9)
@@ -168,10 +169,12 @@ def test_cylinders_and_devices_sum_to_the_engine(name):
 @pytest.mark.parametrize("name", NAMES)
 def test_peaks_are_those_of_the_whole_curve(name):
     """No sample of the whole curve lies above the peak, and the peak lies on it; whatever orders are shown."""
-    e, theta = example(name), np.linspace(0, 2 * np.pi, 2881)
+    e = example(name)
+    theta = np.linspace(0, 2 * np.pi, 2881)
     whole = compute_spectra(e, find_relevant_orders(e), ("force", "moment"))
     for q in ("force", "moment"):
-        found, phasors = getattr(analysed(name).peak, q), getattr(whole, q)
+        found = getattr(analysed(name).peak, q)
+        phasors = getattr(whole, q)
         samples = np.abs(phasors.values(theta))
         assert samples.max() * (1 - 1e-14) <= found.value <= samples.max() * (1 + 1e-3) + 1e-300, q
         assert abs(phasors.values(found.theta)) == pytest.approx(found.value, rel=1e-13, abs=1e-300)

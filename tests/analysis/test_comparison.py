@@ -20,7 +20,8 @@ def compare_lines(*engines: Engine, **options: Any) -> dict[tuple[str, float | N
 
 
 def test_force_of_order_2_goes_with_the_square_of_the_speed() -> None:
-    slow, fast = build_text(GOOD), build_text(changed(("speed = 3000", "speed = 6000")))
+    slow = build_text(GOOD)
+    fast = build_text(changed(("speed = 3000", "speed = 6000")))
     lines = compare_lines(slow, fast, names=["slow", "fast"])
     assert lines["force", 2].ratios == pytest.approx((1, 4))
     assert lines["force", None].ratios == pytest.approx((1, 4))
@@ -56,7 +57,8 @@ def test_orders_of_every_engine_are_shown() -> None:
 
 def test_guides_with_gas_do_not_stand_beside_guides_without() -> None:
     """Unless all engines have gas, what is compared is that of inertia."""
-    bare, fired = build_text(GOOD), build_text(GOOD + WIEBE)
+    bare = build_text(GOOD)
+    fired = build_text(GOOD + WIEBE)
     lines = compare_lines(fired, bare, orders=[0.5, 1, 2], only=["guide"])
     assert lines["guide_h", 2].ratios == (1, 1)
     assert lines["guide_x", 0.5].values == (0, 0)

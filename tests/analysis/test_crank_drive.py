@@ -35,7 +35,8 @@ def test_journals_carry_the_torque_of_the_throws_before_them(name):
             )
             assert total.mean_Nm == pytest.approx(curve.mean(), abs=1e-3 * np.ptp(curve) + 1e-9)
         before = before + own
-    last, whole = found[f"main {len(by_throw) + 1}"], torque(engine)
+    last = found[f"main {len(by_throw) + 1}"]
+    whole = torque(engine)
     assert last.mean_Nm == pytest.approx(whole.mean_torque_Nm, rel=1e-9)
     assert (last.max_Nm, last.min_Nm) == pytest.approx((whole.torque.max_Nm, whole.torque.min_Nm), rel=1e-7)
     assert found["main 1"].range_Nm == 0
@@ -66,7 +67,8 @@ def test_a_bore_is_smaller_than_its_journal(tmp_path, table, message):
 
 def test_a_uniform_rod():
     """J = m L^2/12 about its middle; as a pendulum from its end it has the reduced length 2/3 L."""
-    mass, length = 0.6, 160.0
+    mass = 0.6
+    length = 160.0
     text = changed(("cg = 45", f"cg = {length / 2}\ninertia = {mass * length**2 / 12}"))
     (one,) = list_masses(build_text(text))
     assert one.cylinders == (1, 2, 3, 4)
@@ -132,7 +134,8 @@ def test_split_pins_have_a_note(name, split):
 
 @pytest.mark.parametrize("name", ["i4", "i4_wiebe"])
 def test_quantities_are_those_of_the_table(name):
-    path, names = ENGINES / f"{name}.toml", ("journal.3.range", "journal.3.max", "journal.1.min", "pin.2.range")
+    path = ENGINES / f"{name}.toml"
+    names = ("journal.3.range", "journal.3.max", "journal.1.min", "pin.2.range")
     (row,) = ask_csv("sweep", path, "--vary", "operation.speed=4000", "-q", ",".join(names))
     journals = {
         one["place"]: one for one in ask_json("analyze", path, "--speed", "4000", "--only", "journals")["journals"]

@@ -10,7 +10,10 @@ from support.engines import build_text
 from balcli.analysis.crank_drive import relate_to_power
 from balcli.analysis.speeds import find_marine_sheet
 
-RADIUS, ROD, MASS, SPACING = 0.9, 2.4, 3000.0, 0.8
+RADIUS = 0.9
+ROD = 2.4
+MASS = 3000.0
+SPACING = 0.8
 THROWS = (0.0, 240.0, 120.0, 30.0)
 MARINE = Path(__file__).parents[2] / "engines/marine/marine6.toml"
 TEXT = f"""

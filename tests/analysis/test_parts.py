@@ -145,7 +145,8 @@ WEIGHT = "[[counterweight]]\nangle = 180\nunbalance = 9000\ninertia = 5000\n"
 )
 def test_turning_parts_resist_an_uneven_speed(text, momentum, energy):
     """Couple: minus the change of moment of momentum; torque: minus that of energy, over the crank angle."""
-    plain, full = load(tables := GOOD + UNEVEN), load(tables + text)
+    plain = load(tables := GOOD + UNEVEN)
+    full = load(tables + text)
     angle = np.radians(np.arange(360))
     speed = 100 * math.pi * (1 + 0.02 * np.cos(angle - math.radians(20)))
     rate = -speed * 100 * math.pi * 0.02 * np.sin(angle - math.radians(20))
@@ -177,7 +178,8 @@ def test_all_torque_is_constant_at_the_speed_that_it_makes(tmp_path):
 # ------------------------------------------------------------------ commands
 def test_devices_of_a_scheme_as_parts(tmp_path):
     """Sectors and bearings are written, and read back as they were shown."""
-    file, out = ENGINES / "i3.toml", tmp_path / "out.toml"
+    file = ENGINES / "i3.toml"
+    out = tmp_path / "out.toml"
     options = ("--scheme", "complete", "--bearings=-130,130", "--sector", "30,90,140")
     found = ask_json("balance", file, *options, "--write", out)
     assert all(shaft["name"].startswith("balancer") for shaft in found["parts"]["shafts"])
@@ -192,7 +194,8 @@ def test_devices_of_a_scheme_as_parts(tmp_path):
 
 
 def test_new_shafts_have_names_of_their_own(tmp_path):
-    names, file = [], ENGINES / "i4.toml"
+    names = []
+    file = ENGINES / "i4.toml"
     for order in (2, 4):
         scheme = ("--scheme", "two-shaft", "--order", order, "--bearings=-90,90")
         options = (*scheme, "--write", tmp_path / f"{order}.toml")

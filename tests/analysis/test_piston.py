@@ -29,10 +29,13 @@ def place_of(radius: float, length: float, offset: float = 0.0) -> np.ndarray:
 def test_extremes_are_those_of_the_curve(ratio, offset):
     text = changed(("length = 160", f"ratio = {ratio}"), ("mass = 0.5", f"mass = 0.5\noffset = {offset}"))
     found = piston(build_text(text)).mechanisms[0]
-    omega, radius = 3000 * math.pi / 30, 0.045
+    omega = 3000 * math.pi / 30
+    radius = 0.045
     place = place_of(radius, radius / ratio, offset / 1e3)
-    speed, rate = -omega * differentiate(place), -(omega**2) * differentiate(differentiate(place))
-    top, bottom = place.argmax() * 360 / N, place.argmin() * 360 / N
+    speed = -omega * differentiate(place)
+    rate = -(omega**2) * differentiate(differentiate(place))
+    top = place.argmax() * 360 / N
+    bottom = place.argmin() * 360 / N
     assert found.stroke_m == pytest.approx(np.ptp(place), rel=1e-6)
     assert found.mean_speed_m_per_s == pytest.approx(2 * found.stroke_m * 50)
     assert abs((found.outer_dead_center_own_deg - top + 180) % 360 - 180) < 0.05
@@ -63,7 +66,8 @@ def test_the_acceleration_has_two_minima_above_the_limit(share, type_):
 def test_two_terms():
     """v = r w (sin psi + lam/2 sin 2 psi), a = r w^2 (cos psi + lam cos 2 psi), by a fine grid."""
     two = piston(load_example("i4")).mechanisms[0].two_term
-    lam, scale = 43 / 139, 0.043 * (7000 * math.pi / 30)
+    lam = 43 / 139
+    scale = 0.043 * (7000 * math.pi / 30)
     psi = np.radians(np.arange(0, 360, 0.001))
     speed = scale * (np.sin(psi) + lam / 2 * np.sin(2 * psi))
     rate = scale * (7000 * math.pi / 30) * (np.cos(psi) + lam * np.cos(2 * psi))

@@ -28,8 +28,10 @@ def rows(found, system="si"):
 def test_inner_and_guide_as_rows():
     """Every figure of the JSON, places numbered, with their positions."""
     result = analyze(inline_engine([0, 180, 180, 0]), only=["inner", "guide"], orders=[1, 2])
-    found, wanted = rows(result), result.to_dict()
-    section, bearing = wanted["inner"]["sections"][1], wanted["inner"]["bearings"][4]
+    found = rows(result)
+    wanted = result.to_dict()
+    section = wanted["inner"]["sections"][1]
+    bearing = wanted["inner"]["bearings"][4]
     assert found[0, "shear 2", None, "position"] == (section["position_mm"], "mm")
     assert found[0, "shear 2", None, "peak"] == (section["shear_N"]["peak"], "N")
     assert found[0, "bending 2", 1, "major"] == (section["bending_Nm"]["orders"][0]["major"], "N·m")

@@ -10,7 +10,8 @@ from support.paths import ENGINES
 from balcli import analyze, load
 from balcli.limits import MOST_ANALYSED_SPEEDS
 
-FIVE, DIESEL = ENGINES / "i5.toml", ENGINES / "i6_diesel.toml"
+FIVE = ENGINES / "i5.toml"
+DIESEL = ENGINES / "i6_diesel.toml"
 
 
 def test_a_range_has_its_ends_and_every_analysis_is_that_of_its_speed(balcli):

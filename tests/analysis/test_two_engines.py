@@ -45,7 +45,8 @@ def test_two_singles_behind_one_another_are_a_twin(operation):
     """Pin 2 leads by 110 degrees, so that the second engine's crank angle does."""
     orders = np.arange(0.0, 9.0) if operation else ORDERS
     twin = built("throws = [0, 110]\npositions = [0, 130]", "[frame]\nreference = [10, -20, 30]\n", operation)
-    single, plain = built(more="[frame]\nreference = [10, -20, 30]\n", operation=operation), built()
+    single = built(more="[frame]\nreference = [10, -20, 30]\n", operation=operation)
+    plain = built()
     agree(
         combine_engines(single, plain, Arrangement(110, (0, 0, 0.13)), orders).spectra,
         spectrum.compute_spectra(twin, orders),
@@ -54,14 +55,16 @@ def test_two_singles_behind_one_another_are_a_twin(operation):
 
 def test_mirrored_turned_and_placed_against_curves():
     """The second engine's curves, mirrored in y, turned by 35 degrees and moved, taken at its own crank angle."""
-    first, second = (built(), built("throws = [0, 90]\nspacing = 110", "[layout]\nbank_angle = 50\nstagger = 20\n"))
+    first = built()
+    second = built("throws = [0, 90]\nspacing = 110", "[layout]\nbank_angle = 50\nstagger = 20\n")
     how = Arrangement(75, (0.2, -0.3, 0.4), 35, True)
     orders = np.arange(1.0, 40.0)
     both = combine_engines(first, second, how, orders).spectra
     origin = spectrum.compute_spectra(replace(second, reference_m=(0.0, 0.0, 0.0)), orders)
     own = spectrum.compute_spectra(first, orders)
     theta = np.linspace(0, 2 * np.pi, 50)
-    ahead, turn = theta + np.radians(75), np.exp(1j * np.radians(35))
+    ahead = theta + np.radians(75)
+    turn = np.exp(1j * np.radians(35))
     force = np.conj(origin.force.values(ahead)) * turn
     z = 0.4 - first.reference_m[2]
     moment = -np.conj(origin.moment.values(ahead)) * turn + 1j * z * force
@@ -87,9 +90,11 @@ def together(lead: int, at: complex, reverse: bool) -> dict[str, np.ndarray]:
     ]
     back = -1 if reverse else 1
     for k, (place, spin, body) in enumerate(bodies[1]):
-        ahead, turning = np.roll(place, -lead), back * np.roll(spin, -lead)
+        ahead = np.roll(place, -lead)
+        turning = back * np.roll(spin, -lead)
         bodies[1][k] = ((ahead.conj() if reverse else ahead) + at, turning, body)
-    energies, swirl = [], 0 * momentum.THETA
+    energies = []
+    swirl = 0 * momentum.THETA
     for parts in bodies:
         energy = 0 * momentum.THETA
         for place, spin, body in parts:
@@ -171,7 +176,8 @@ def test_two_fours_that_fire_between_each_other_leave_what_an_even_eight_leaves(
 @pytest.mark.parametrize("load", ["first", "second", "both"])
 def test_gas_of_different_cycles_against_curves(load):
     """A two-stroke single that turns against a four-stroke one: both torques over two turns."""
-    first, second = with_gas(), with_gas(strokes=2)
+    first = with_gas()
+    second = with_gas(strokes=2)
     how = Arrangement(75, (0.2, 0, 0), 0, True, load)
     found = combine_engines(first, second, how, np.arange(0, 60.5, 0.5)).spectra
     theta = np.linspace(0.3, 4 * np.pi, 40)

@@ -49,7 +49,8 @@ def test_components_by_up_are_those_along_x_of_the_engine_turned_back(up):
         largest = max(order[key]["major"] for order in upright)
         for before, now in zip(upright, turned, strict=True):
             for axis, name in zip("xy", names, strict=True):
-                a, b = before[key][axis], now[key][name]
+                a = before[key][axis]
+                b = now[key][name]
                 assert b.keys() == a.keys()
                 assert _complex(b) == pytest.approx(_complex(a), abs=1e-13 * largest)
 
@@ -71,7 +72,8 @@ def test_what_is_upright_has_no_level_part(up):
 
 
 def test_curves_by_up_are_those_along_x_of_the_engine_turned_back():
-    upright, turned = curves(build_text(leaning(0)), 20), curves(build_text(leaning(25, 25)), 20)
+    upright = curves(build_text(leaning(0)), 20)
+    turned = curves(build_text(leaning(25, 25)), 20)
     for name, along in (
         ("force_vertical_N", "force_x_N"),
         ("force_horizontal_N", "force_y_N"),
@@ -134,7 +136,8 @@ def test_csv_names_components_like_json():
 def test_the_verdict_names_the_direction(kind, axis_deg, up, words):
     side = 2 * np.exp(1j * np.radians([float(axis_deg)]))
     phasors = Phasors.of(np.array([2.0]), side, side, np.zeros(1))
-    found, scales = Spectra(np.array([2.0]), up, {kind: phasors}), Scales(0.0, 0.0, 0.0)
+    found = Spectra(np.array([2.0]), up, {kind: phasors})
+    scales = Scales(0.0, 0.0, 0.0)
     (told,) = VerdictWords(found, scales, SI).write(judge(found, scales))
     assert words in told
 

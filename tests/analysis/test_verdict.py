@@ -109,7 +109,8 @@ def test_small_is_what_is_asked_for():
 
 @pytest.mark.parametrize(("couple", "told"), [(0, "force, moment and couple"), (1, "force and moment")])
 def test_the_couple_is_judged_with_force_and_moment(couple: float, told: str) -> None:
-    none, some = spectra(1, 0, 0).force, spectra(1, couple, couple).force
+    none = spectra(1, 0, 0).force
+    some = spectra(1, couple, couple).force
     found = Spectra(none.orders, kinds={"force": none, "moment": none, "couple": some})
     assert write(found) == (f"Order 1: {told} balanced.",)
 
@@ -163,7 +164,8 @@ def test_a_negligible_couple_is_not_named() -> None:
 
 
 # ------------------------------------------------------------------ the record
-COUNTERWEIGHTS, SHAFT = Cure(1, on_crank=True), Cure(-1)
+COUNTERWEIGHTS = Cure(1, on_crank=True)
+SHAFT = Cure(-1)
 
 
 @pytest.mark.parametrize(

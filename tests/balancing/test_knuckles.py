@@ -56,7 +56,8 @@ def test_a_bank_that_no_angle_makes_even():
 # ------------------------------------------------------------------ the command
 @pytest.mark.parametrize("older", ["", "knuckle_angles = [0, 50, 100, 150, 200, 250, 300]  # measured\n"])
 def test_what_is_written_reads_back_as_it_was_analysed(tmp_path, older):
-    file, out = tmp_path / "radial.toml", tmp_path / "even.toml"
+    file = tmp_path / "radial.toml"
+    out = tmp_path / "even.toml"
     file.write_text("# a comment\n" + RADIAL.replace("[articulation]\n", f"[articulation] # seven\n{older}"))
     document = ask_json("balance", file, "--scheme", "knuckles", "--write", out)
     assert document["scheme"] == "knuckles"

@@ -32,7 +32,8 @@ def test_a_grade_may_be_written_as_the_standard_writes_it():
 
 def test_what_is_missing_is_told_in_percent_of_what_may_be(tmp_path):
     """Half as much again as the grade permits is over it; the heavier crank may lack that."""
-    whole, light = tmp_path / "whole.toml", tmp_path / "light.toml"
+    whole = tmp_path / "whole.toml"
+    light = tmp_path / "light.toml"
     asked = ("--factor", "51%", "--planes=-200,200", "--grade", "G16")
     run_here("balance", V8, "--factor", "51%", "--planes=-200,200", "--write", whole)
     model = tomllib.loads(whole.read_text())
@@ -51,7 +52,8 @@ def test_what_is_missing_is_told_in_percent_of_what_may_be(tmp_path):
 
 def test_planes_that_have_their_weights_already_share_it_too(tmp_path):
     """Two planes, of which the first lacks nothing."""
-    whole, half = tmp_path / "whole.toml", tmp_path / "half.toml"
+    whole = tmp_path / "whole.toml"
+    half = tmp_path / "half.toml"
     asked = ("--factor", "51%", "--planes=-200,200", "--grade", "G16", "--mass", 31)
     run_here("balance", V8, "--factor", "51%", "--planes=-200,200", "--write", whole)
     text = whole.read_text()

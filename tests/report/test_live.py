@@ -169,7 +169,8 @@ EMPTY = [["order", "couple C", "peak, deg"], []]
 
 def print_tables(engine):
     """Tables and facts of the command, and the figures of the page."""
-    result, balanced = analyze(engine), balance(engine)
+    result = analyze(engine)
+    balanced = balance(engine)
     parts = lay_out(result, balanced, SI)
 
     def write(grid):
@@ -449,7 +450,8 @@ def test_what_holds_only_for_the_file_says_so_while_a_number_differs(show):
             page.call("Emulation.setEmulatedMedia", media=media)
             states.append((set(page.run(LINES)), set(page.run(SENTENCES))))
     page.call("Emulation.setEmulatedMedia", media="")
-    as_written, changed = ({False}, {True}), ({True}, {False})
+    as_written = ({False}, {True})
+    changed = ({True}, {False})
     assert states == [as_written, as_written, changed, changed, as_written, as_written]
 
 
@@ -589,7 +591,8 @@ def test_the_downloaded_file_gives_the_figures_of_the_page(show, tmp_path, case)
     address, text = FILES[case]
     page = show(text, address)
     assert page.read("live-wrong") == ""
-    written, kept = page.run("Live.writeFile()"), ("# long", "# the other", "\r\n")
+    written = page.run("Live.writeFile()")
+    kept = ("# long", "# the other", "\r\n")
     file = tmp_path / "new.toml"
     file.write_text(written, newline="")
     assert tomllib.loads(written) != tomllib.loads(text)

@@ -133,7 +133,8 @@ def test_threads_that_draw_leave_matplotlib_as_it_was():
     import matplotlib
 
     before = dict(matplotlib.rcParams)
-    second_is_in, first_is_out = Event(), Event()
+    second_is_in = Event()
+    first_is_out = Event()
 
     def draw_second():
         with style.open_figure(2, 2):

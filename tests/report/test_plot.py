@@ -10,8 +10,10 @@ from support.rotors import three_runs
 
 import balcli
 
-THREE, GAS = balcli.load_example("i3"), balcli.load_example("i4_wiebe")
-VEE, DIESEL = balcli.load_example("v6_60"), balcli.load_example("i6_diesel")
+THREE = balcli.load_example("i3")
+GAS = balcli.load_example("i4_wiebe")
+VEE = balcli.load_example("v6_60")
+DIESEL = balcli.load_example("i6_diesel")
 SPEEDS = [1500, 2000]
 SHOWN = {
     "engine": lambda: balcli.plot(THREE, "curves"),

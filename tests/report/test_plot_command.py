@@ -38,7 +38,9 @@ def test_a_pdf_has_them_one_after_the_other(tmp_path):
     def sizes(pdf: bytes) -> list[bytes]:
         return re.findall(rb"/MediaBox \[([^]]*)\]", pdf)
 
-    torque, polar, both = draw("torque"), draw("polar"), draw("torque,polar")
+    torque = draw("torque")
+    polar = draw("polar")
+    both = draw("torque,polar")
     assert sizes(torque) != sizes(polar)
     assert sizes(both) == sizes(torque) + sizes(polar)
     assert draw("torque,polar") == both

@@ -148,7 +148,8 @@ def test_the_keyboard_moves_the_vector(show):
     "text", [GOOD, pytest.param(RADIAL, marks=pytest.mark.stress), pytest.param(ROTARY, marks=pytest.mark.stress)]
 )
 def test_the_rods_keep_their_length_and_pistons_are_where_the_engine_has_them(show, text):
-    page, c = show(text), build_text(text).cylinders
+    page = show(text)
+    c = build_text(text).cylinders
     for theta in (0, 77, 250):
         turn(page, theta)
         ends = page.run(
@@ -157,7 +158,8 @@ def test_the_rods_keep_their_length_and_pistons_are_where_the_engine_has_them(sh
         )
         psi = np.radians(theta + np.ravel(c.angle_deg))
         if c.linkage is None:
-            lam, eps = float(c.lam.flat[0]), float(c.eps.flat[0])
+            lam = float(c.lam.flat[0])
+            eps = float(c.eps.flat[0])
             places = np.cos(psi) + np.sqrt(1 - (lam * np.sin(psi) - eps) ** 2) / lam
         else:
             last = len(c.linkage.mass) - 1
@@ -173,7 +175,8 @@ def test_the_rods_keep_their_length_and_pistons_are_where_the_engine_has_them(sh
 @live
 def test_the_fitted_engine_shakes_less(show):
     """The devices of the chosen step are drawn, and the key figures are those of its row."""
-    page, ladder = show(), balance(build_text(GOOD)).ladder
+    page = show()
+    ladder = balance(build_text(GOOD)).ladder
     page.run("document.querySelectorAll('#steps input')[2].click()")
     step = ladder.steps[2]
     unit = SI.force.fit(ladder.steps[0].peak_force_N)
@@ -229,7 +232,8 @@ def test_play_and_pause_by_keyboard(show):
 
 @live
 def test_light_and_dark_and_in_print(show):
-    paper, white = "getComputedStyle(document.body).backgroundColor", "rgb(255, 255, 255)"
+    paper = "getComputedStyle(document.body).backgroundColor"
+    white = "rgb(255, 255, 255)"
     page = show()
     assert page.run(paper) == white
     page.run("theme.click()")
@@ -271,7 +275,8 @@ def test_torque_and_pressure_run_with_the_crank():
 
 def test_the_page_has_the_steps_of_the_ladder():
     """With their devices; another scheme is one more choice."""
-    engine, ladder = build_text(GOOD), balance(build_text(GOOD)).ladder
+    engine = build_text(GOOD)
+    ladder = balance(build_text(GOOD)).ladder
     assert "What balances it, step by step" in report(GOOD)
     for scheme, more in (("auto", []), ("two-shaft", ["scheme two-shaft"])):
         text = page(Answers(analyze(engine), balance(engine, scheme)), SI)

@@ -69,7 +69,8 @@ def test_radii_of_two_shafts_over_the_bank_angle(order):
 
 
 def test_its_own_bank_angle_is_the_engine_as_it_is():
-    vee, found = build_text(VEE), compute_study(build_text(VEE), "bank")
+    vee = build_text(VEE)
+    found = compute_study(build_text(VEE), "bank")
     at = int(np.flatnonzero(found.banks.angles_deg == 75)[0])
     force = compute_study(vee, "all").now.spectra.force.select_orders([2])
     assert found.banks.force.major[0, at] == pytest.approx(float(force.major[0]), rel=1e-12)
@@ -117,7 +118,10 @@ def test_the_best_factor_of_one_cylinder_is_found_between_the_steps():
     """
     rows = compute_study(build_text(SINGLE), "factor").factors
     best = min(rows, key=lambda row: row.peak_force_N)
-    r, rod, mass, omega = 0.045, 0.160, 0.5 + 0.6 * 45 / 160, 100 * np.pi
+    r = 0.045
+    rod = 0.160
+    mass = 0.5 + 0.6 * 45 / 160
+    omega = 100 * np.pi
     turn = np.radians(np.arange(0, 360, 0.05))
     lean = np.sqrt(rod**2 - (r * np.sin(turn)) ** 2)
     along = np.cos(turn) + r * np.cos(2 * turn) / lean + r**3 * np.sin(2 * turn) ** 2 / 4 / lean**3

@@ -19,7 +19,8 @@ CHAIN = {
 def refused(ask, *given, **options):
     """What a function says against its arguments; those of `balance` are options of its scheme."""
     if ask is balcli.balance:
-        given, options = (*given, balcli.SchemeOptions(**options)), {}
+        given = (*given, balcli.SchemeOptions(**options))
+        options = {}
     with pytest.raises((balcli.BalcliError, TypeError)) as refusal:
         ask(*given, **options)
     return refusal.type, str(refusal.value)

@@ -47,7 +47,8 @@ rear = [{{ name = "flywheel", inertia = 200000, length = 300, diameter = 60 }}]
 """
 CRANK = ["layout.strokes = 4", "crank.throws = [0, 180, 180, 0] deg"]
 GAS = ["gas.compression_index = 1.32", "gas.expansion_index = 1.28", "gas.exhaust_opens = lower dead centre"]
-MODULUS, GRAVITY = "torsion.rear.shear_modulus = 79.3 GPa", "body.gravity = [-1, 0, 0]"
+MODULUS = "torsion.rear.shear_modulus = 79.3 GPa"
+GRAVITY = "body.gravity = [-1, 0, 0]"
 FACTOR = "mount.dynamic_factor = 1"
 PARTS = {"CRANK": CRANK, "GAS": GAS, "MODULUS": MODULUS, "MOUNTS": [GRAVITY, FACTOR]}
 

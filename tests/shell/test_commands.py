@@ -44,7 +44,8 @@ def test_plot_refuses_a_scheme_where_nothing_is_compared(tmp_path):
 
 @pytest.mark.parametrize("command", ["plot", "report", "mounts"])
 def test_options_of_schemes_are_judged_as_in_balance(tmp_path, command):
-    four, file = (ENGINES / "i4_mounts.toml", tmp_path / ("x.html" if command == "report" else "x.svg"))
+    four = ENGINES / "i4_mounts.toml"
+    file = tmp_path / ("x.html" if command == "report" else "x.svg")
     where = ["--plot", file] if command == "mounts" else ["-o", file]
     for options in (["--planes=nowhere"], ["--at=1,2"], ["--scheme=factor", "--factor=51"]):
         assert refusal("balance", four, *options) in refusal(command, four, *where, *options)
@@ -73,7 +74,8 @@ def test_bench_in_every_format():
 def test_bench_times_each_case_and_cold_starts_by_medians_of_pairs(monkeypatch):
     """By a clock of ours: a busy machine disturbs some of the nine pairs, not their medians."""
     case = bench.Case("task", "way", lambda: sum(range(1000)), 0.5)
-    clock, started = [0.0], []
+    clock = [0.0]
+    started = []
 
     def start(argv, **_):
         name = argv[2]
@@ -147,7 +149,8 @@ def test_workers_that_are_all_killed_are_a_message(monkeypatch, four):
 
     monkeypatch.setitem(sys.modules, "distributed", dask(KilledWorker=KilledError))
     monkeypatch.setattr("balcli.studies.sweep.CHUNK", 1)
-    sweep, client = read_sweep(str(four), ["crank.stroke=80,90"], "force.2.major"), Lost()
+    sweep = read_sweep(str(four), ["crank.stroke=80,90"], "force.2.major")
+    client = Lost()
     with pytest.raises(BalcliError, match=r"^dask: the cluster has lost its workers \(KilledError\)"):
         list(evaluate_chunks(sweep, partial(cluster.run_on_cluster, client)))
     assert [(part.variants, again) for part, again in client.given] == [(1, True), (1, True)]

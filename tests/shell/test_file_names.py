@@ -64,7 +64,8 @@ PICTURES = ".svg, .png or .pdf"
 @cases("shell/file_names", "an_ending_that_cannot_be_is_refused", PICTURES=PICTURES, SEARCH=SEARCH, VARY=VARY)
 def test_an_ending_that_cannot_be_is_refused(args, can):
     name, *rest = args
-    option, target = {"-o": "--output"}.get(rest[-2], rest[-2]), rest[-1]
+    option = {"-o": "--output"}.get(rest[-2], rest[-2])
+    target = rest[-1]
     assert refusal(name, "good.toml", *rest) == (
         f"{option} {target}: {Path(target).suffix.lower()} cannot be written here; give a name that ends in {can}"
     )

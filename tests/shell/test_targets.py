@@ -39,7 +39,8 @@ def contents() -> dict[str, str]:
     return {path.name: path.read_text() for path in Path().iterdir() if path.is_file()}
 
 
-SWEEP, SEARCH = "sweep --vary crank.stroke=80,90", "search --over throws --minimise moment.1.major"
+SWEEP = "sweep --vary crank.stroke=80,90"
+SEARCH = "search --over throws --minimise moment.1.major"
 COMMANDS = [
     *("analyze", "analyze other.toml", "balance", "balance -o x --write", "sum other.toml", "compare other.toml"),
     *("curves --step 90", "report", "scatter --samples 9", "plot"),
@@ -221,7 +222,8 @@ def test_an_interrupt_is_no_traceback():
 def test_a_signal_leaves_the_older_file_and_nothing_beside_it(good, name):
     """It comes while the new file is being written: the sweep's text never ends."""
     Path("out.csv").write_text("old")
-    before, number = contents(), getattr(signal, name)
+    before = contents()
+    number = getattr(signal, name)
     code = f"""
 import os, signal
 from collections.abc import Iterator

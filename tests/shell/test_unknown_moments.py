@@ -56,7 +56,8 @@ def test_a_table_has_dashes_and_the_verdict_judges_forces_alone(balcli, twin):
 def test_json_keeps_the_figures_of_one_plane_and_says_so(balcli, twin, tmp_path):
     said = write(tmp_path / "said.toml", twin.read_text().replace("[rod]", "spacing = 0\n[rod]"))
     for command in ("analyze", "balance"):
-        known, found = ask_json(command, said), json.loads(balcli(command, twin, "--format", "json").out)
+        known = ask_json(command, said)
+        found = json.loads(balcli(command, twin, "--format", "json").out)
         assert NO_PLACES not in known["assumed"]
         assert "moment_Nm" in known["ladder"]["scale"]
         assert "moment_Nm" not in found["ladder"]["scale"]

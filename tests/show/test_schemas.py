@@ -18,9 +18,12 @@ from balcli.file.examples import template
 from balcli.names import DOCUMENTS
 
 FILES = sorted(path for path in ENGINES.rglob("*.toml"))
-I4, V8, SINGLE = ENGINES / "i4.toml", ENGINES / "v8_wiebe.toml", ENGINES / "single.toml"
+I4 = ENGINES / "i4.toml"
+V8 = ENGINES / "v8_wiebe.toml"
+SINGLE = ENGINES / "single.toml"
 TWO_BANKS = ENGINES / "vtwin90.toml"
-DIESEL, SPEEDS = ENGINES / "i6_diesel.toml", "--speeds 1000:1100:50"
+DIESEL = ENGINES / "i6_diesel.toml"
+SPEEDS = "--speeds 1000:1100:50"
 CURVE = "angle_deg,torque_Nm\n0,0\n180,900\n360,-100\n540,300\n720,0\n"
 
 

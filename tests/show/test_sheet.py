@@ -25,7 +25,8 @@ def test_a_half_is_rounded_to_the_same_side_whatever_its_last_digits(value: floa
 
 
 # ------------------------------------------------------------------ assumed values
-INTAKE, INDEX = Assumed("gas.intake", 1.0, "bar"), Assumed("gas.compression_index", 1.32)
+INTAKE = Assumed("gas.intake", 1.0, "bar")
+INDEX = Assumed("gas.compression_index", 1.32)
 
 
 def test_assumed_values_of_single_engines_follow_their_names() -> None:

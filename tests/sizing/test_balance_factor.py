@@ -128,7 +128,8 @@ def test_what_the_file_has_is_counted_plane_by_plane():
 def test_what_is_missing_is_told_where_the_counterweights_of_the_file_stand():
     """At its ends, not at the four throws between them; whatever decimals say a place twice."""
     ends = weigh(40000, -162, '"-9 in"') + weigh(40000, -160, -228.6) + weigh(40000, 18, 228.6)
-    chosen, asked = fit(FORD + ends), fit(FORD + ends, planes=(-0.2286, 0.2286))
+    chosen = fit(FORD + ends)
+    asked = fit(FORD + ends, planes=(-0.2286, 0.2286))
     assert chosen.devices == asked.devices
     assert [need.position_mm for need in chosen.needs] == [-228.6, 228.6]
     assert chosen.note == (

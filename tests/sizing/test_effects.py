@@ -13,8 +13,10 @@ from balcli.sizing.fitting import Slot, find_effect, size_unbalances, solve_exac
 from balcli.sizing.remedy import Remedy, fit_devices
 from balcli.sizing.residual import ReferencePoint, Residual, ResidualPart, find_residual
 
-FORCE, MOMENT = ResidualPart("force", 1), ResidualPart("moment", 1)
-BACK, ROLL = ResidualPart("force", -1), ResidualPart("roll", 0)
+FORCE = ResidualPart("force", 1)
+MOMENT = ResidualPart("moment", 1)
+BACK = ResidualPart("force", -1)
+ROLL = ResidualPart("roll", 0)
 VECTOR = st.complex_numbers(min_magnitude=1e-3, max_magnitude=1e3, allow_nan=False, allow_infinity=False)
 
 
@@ -72,7 +74,8 @@ def test_effect_is_what_the_analysis_says(slot):
     table = slot.make_table(u, 0.0)
     with_it = fit_devices(engine, Remedy("", devices=(table,)))
     parts = [ResidualPart(q, s) for q in ("force", "moment") for s in (1, -1)] + [ROLL]
-    before, after = find_residual(engine, 2), find_residual(with_it, 2)
+    before = find_residual(engine, 2)
+    after = find_residual(with_it, 2)
     change = np.array([after.parts[p] - before.parts[p] for p in parts])
     assert change == pytest.approx(find_effect(slot.make_device(u), parts, reference), abs=1e-14)
 

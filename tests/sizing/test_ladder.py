@@ -191,7 +191,8 @@ def measure(engine, order: int, senses: list[str]) -> list[float]:
 @pytest.mark.parametrize("text", [*ENGINES.values(), *(random_engine(seed)[0] for seed in SEEDS)])
 def test_with_no_part_small_everything_is_listed(text):
     engine = build_text(text)
-    usual, whole = find_ladder(engine), find_ladder(engine, 0.0)
+    usual = find_ladder(engine)
+    whole = find_ladder(engine, 0.0)
     assert {out.step for out in whole.left_out} <= {WEIGHTS_AT_THROWS}
     assert all((out.main_bearing_N or 0) <= 0 for out in whole.left_out)
     listed = {step.step for step in whole.steps} | {out.step for out in whole.left_out}

@@ -76,7 +76,8 @@ def test_a_single_shaft_of_order_2_has_the_limit_of_two(part, fitted):
 def find_lambda(second: float) -> float:
     """Crank radius over rod length at which a cylinder's second order has this share of the first."""
     angles = np.linspace(0, 2 * np.pi, 1024, endpoint=False)
-    low, high = 0.0, 0.99
+    low = 0.0
+    high = 0.99
     for _ in range(60):
         lam = (low + high) / 2
         cosine = np.sqrt(1 - (lam * np.sin(angles)) ** 2)

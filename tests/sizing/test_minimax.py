@@ -23,7 +23,8 @@ def test_minimax_reaches_what_it_says_where_it_says(more):
     """
     engine = build_text(SMALL["one"] + more)
     remedy = size(engine, "minimax")
-    told, curve = figures(remedy), find_orders(fit_devices(engine, remedy))
+    told = figures(remedy)
+    curve = find_orders(fit_devices(engine, remedy))
     assert find_peak(curve).value == pytest.approx(told["peak force"], rel=1e-12)
     assert 0 <= told["relative error bound"] < 1e-14
     assert len(told["reached"]) == 3

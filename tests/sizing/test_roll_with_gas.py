@@ -11,8 +11,13 @@ from support.paths import write
 from balcli.file import examples
 
 # As of the file: crank radius, rod, bore (m), reciprocating mass (kg), crank speed (rad/s).
-R, L, BORE, MASS, OMEGA = 0.043, 0.139, 0.086, 0.5, 4000 * np.pi / 30
-COS, SIN = 2.0, 3.5  # bar, of order 2 of the mean tangential pressure of a cylinder
+R = 0.043
+L = 0.139
+BORE = 0.086
+MASS = 0.5
+OMEGA = 4000 * np.pi / 30
+COS = 2.0
+SIN = 3.5  # bar, of order 2 of the mean tangential pressure of a cylinder
 FILE = engine_text(
     crank="stroke = 86\nthrows = [0, 180, 180, 0]\nspacing = 94",
     rod="length = 139",
@@ -74,7 +79,8 @@ def test_shafts_that_cancel_the_roll_of_inertia_may_leave_more_with_gas(four):
 def test_knuckle_angles_change_the_roll_of_the_gas_in_half_orders_too(tmp_path):
     """Before and after are those of the file, and of the one that is written."""
     gas = '[gas]\ncycle = "wiebe"\ncompression_ratio = 6\nimep = 8\n'
-    radial, even = tmp_path / "radial.toml", tmp_path / "even.toml"
+    radial = tmp_path / "radial.toml"
+    even = tmp_path / "even.toml"
     radial.write_text(examples.text("radial7_articulated") + gas)
     asked = ("balance", radial, "--scheme", "knuckles", "--write", even, "-f", "json")
     found = json.loads(run_here(*asked).out)

@@ -53,7 +53,8 @@ def test_their_sizes_by_hand():
     remedy = size_scheme(built, "single-shaft", planes=(-0.05, 0.02))
     spectra = compute_spectra(fit_scheme(built, "counterweights", order=1), [1], ("force", "moment"))
     square = built.omega**2
-    force, moment = spectra.force.backward[0] / square, spectra.moment.backward[0] / 1j / square
+    force = spectra.force.backward[0] / square
+    moment = spectra.moment.backward[0] / 1j / square
     one, other = (d.backward for d in fit_devices(built, remedy).devices if d.backward)
     assert one + other == pytest.approx(-force, rel=1e-12)
     assert -0.05 * one + 0.02 * other == pytest.approx(-moment, rel=1e-12)

@@ -92,7 +92,8 @@ def test_a_single_plane_near_the_point_of_reference_takes_no_huge_weight(name, p
     """
     engine = build_text(UNEVEN if name == "uneven" else SMALL[name])
     before = compute_spectra(engine, [1], ("force", "moment"))
-    force, moment = before.force.forward[0], before.moment.forward[0] / 1j
+    force = before.force.forward[0]
+    moment = before.moment.forward[0] / 1j
     reach = max(abs(place), float(np.abs(engine.cylinders.z).max()), float(engine.cylinders.radius[0]))
     best = -(force + place * moment / reach**2) / (1 + (place / reach) ** 2)
     remedy = size_scheme(engine, "counterweights", planes=(place,))

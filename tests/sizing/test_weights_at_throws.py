@@ -32,7 +32,8 @@ def test_weights_at_every_throw_unload_the_bearings_of_an_in_line_four():
     """48.23 to 12.53 kN, by momentum of rigid bodies on a grid; free forces stay as they are."""
     engine = build_text(FOUR)
     fitted = fit_devices(engine, size(engine, "counterweights", AT_THROWS))
-    before, after = find_crank_loads(engine), find_crank_loads(fitted)
+    before = find_crank_loads(engine)
+    after = find_crank_loads(fitted)
     assert (before.main_N, before.main_mm) == pytest.approx((48227.52541877826, 0))
     assert (before.inner_moment_Nm, abs(before.inner_mm)) == pytest.approx((5433.633892708877, 47))
     assert (after.main_N, after.main_mm) == pytest.approx((12528.170661290325, 0))

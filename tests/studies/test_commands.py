@@ -111,7 +111,8 @@ def test_doubts_are_of_what_does_not_vary(tmp_path: Path) -> None:
 @pytest.mark.stress
 @pytest.mark.skipif(sys.platform == "win32", reason="signals")
 def test_ctrl_c_leaves_the_older_file_and_what_others_wrote(engine: str, tmp_path: Path) -> None:
-    target, other = write(tmp_path / "x.json", "old"), write(tmp_path / "x.json.part", "mine")
+    target = write(tmp_path / "x.json", "old")
+    other = write(tmp_path / "x.json.part", "mine")
     process = start_command(
         *("sweep", engine, "-q", "force.2.major", "-f", "json", "-o", target),
         *("--vary", "rod.ratio=0.2:0.3:0.00001", "--vary", "crank.stroke=80:90:0.001"),

@@ -22,7 +22,9 @@ NAMES = "torque.2.amplitude,torque.1.5.cos,gas.0.5.sin,roll_total.3.amplitude,to
 def analyse(text: str) -> list[float]:
     """The same figures of one engine, by its spectra."""
     found = compute_spectra(build_text(text), [0.5, 1.5, 2, 3, 4], ["gas", "torque_total", "roll_total"])
-    total, gas, roll = found["torque_total"], found["gas"], found["roll_total"]
+    total = found["torque_total"]
+    gas = found["gas"]
+    roll = found["roll_total"]
     return [
         float(total.major[2]),
         float(total.x[1].real),
@@ -130,7 +132,8 @@ def test_goals_that_contradict_each_other_are_refused(vary, told, tmp_path):
 def test_a_search_puts_one_goal_in_place_of_another(tmp_path):
     """The file says imep; a search for the heat said that it has both."""
     path = write(tmp_path / "four.toml", FOUR)
-    over, minimise = ("--over", "gas.heat=900:1000"), ("--minimise", "torque.max")
+    over = ("--over", "gas.heat=900:1000")
+    minimise = ("--minimise", "torque.max")
     done = run_here("search", path, *over, *minimise, "-f", "json")
     row = run_here("sweep", path, "--vary", "gas.heat=900", "-q", "torque.max").out.split()[1]
     assert json.loads(done.out)["results"][0]["objective"] == float(row.split(",")[1])

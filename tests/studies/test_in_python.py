@@ -15,15 +15,18 @@ from balcli.forces import curves as force_curves
 from balcli.limits import MOST_PARAMETER_VALUES, MOST_SPEEDS
 from balcli.studies import sweep
 
-V8, FOUR = balcli.load_example("v8_crossplane"), balcli.load_example("i4")
-MOUNTS, DIESEL = balcli.load_example("i4_mounts"), balcli.load_example("i6_diesel")
+V8 = balcli.load_example("v8_crossplane")
+FOUR = balcli.load_example("i4")
+MOUNTS = balcli.load_example("i4_mounts")
+DIESEL = balcli.load_example("i6_diesel")
 GAS = balcli.load_example("i4_wiebe")
 CLOSE = 1e-12
 
 
 # ------------------------------------------------------------------ sweep
 def test_a_sweep_is_the_engine_varied_point_by_point():
-    angles, ratios = np.array([60.0, 75.0, 90.0]), [0.25, 0.3]
+    angles = np.array([60.0, 75.0, 90.0])
+    ratios = [0.25, 0.3]
     found = balcli.sweep(V8, {"layout.bank_angle": angles, "rod.ratio": ratios}, ["force.2.major", "moment.1.major"])
     assert found["moment.1.major"].shape == (3, 2)
     for i, angle in enumerate(angles):

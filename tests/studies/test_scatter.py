@@ -47,7 +47,8 @@ def scatter(text: str, name: str, within: Tolerances, samples: int = 10, shape: 
 
 def test_two_pistons_alone_have_a_triangular_difference() -> None:
     """The free force of order 1 is |d1 - d2| m r w^2; with uniform d of +-t its mean is 2t/3."""
-    t, samples = 0.01, 200_000
+    t = 0.01
+    samples = 200_000
     (spread,) = scatter(TWIN, "force.1.major", Tolerances(mass=t), samples)
     deviation = t * math.sqrt(2 / 9) / math.sqrt(samples)  # of the mean of |d1 - d2|
     assert spread.mean == pytest.approx(2 * t / 3 * WHOLE, abs=6 * deviation * WHOLE)
@@ -115,7 +116,8 @@ def test_percentiles_rise_and_a_seed_repeats() -> None:
 # ------------------------------------------------------------------ the whole cycle
 def deviated(found: dict[str, float]) -> str:
     """The file with these deviations, by the names of their sources."""
-    own, throws = [], []
+    own = []
+    throws = []
     for k, throw in enumerate((0, 180, 180, 0), 1):
         throws.append(throw + found.get(f"throw angle {k}", 0.0))
         piston = 0.5 * (1 + found.get(f"piston mass {k}", 0.0))

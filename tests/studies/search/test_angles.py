@@ -143,7 +143,8 @@ def _even(second: float, throws: list[float], interval: float) -> bool:
     ],
 )
 def test_even_firing_is_required_of_a_number_too(throws, over, even) -> None:
-    file, objective = vee(throws=throws, bank=60), parse_objective("moment.1.major")
+    file = vee(throws=throws, bank=60)
+    objective = parse_objective("moment.1.major")
     if not even:
         with pytest.raises(BalcliError, match="can fire evenly"):
             search_arrangements(file, over, objective, even_firing=True)
@@ -168,7 +169,8 @@ def test_even_firing_and_a_limit() -> None:
 @pytest.mark.parametrize("cylinders", [4, 6, 10, 16, 28])
 def test_four_strokes_of_any_even_number_have_firing_orders(cylinders: int) -> None:
     """In line: each throw twice, 720/n apart; as a vee: each pin once, the banks 720/n apart."""
-    interval, half = 720 / cylinders, cylinders // 2
+    interval = 720 / cylinders
+    half = cylinders // 2
     once = [k * interval for k in range(half)]
     row = load(engine_text(crank=f"stroke = 80\nspacing = 100\nthrows = {[*once, *reversed(once)]}"))
     (found,) = search_least(row, "firing_order", "moment.1.major", count=1).results
@@ -201,9 +203,11 @@ def test_bank_angles_at_which_articulated_rods_lock_are_no_candidates() -> None:
         layout="bank_angle = 60",
         articulation="knuckle_radius = 90\nknuckle_angles = [0, 60]\nrod = { length = 115, mass = 0.62, cg = 60 }",
     )
-    file, wanted = load(text), parse_objective("force.6.major")
+    file = load(text)
+    wanted = parse_objective("force.6.major")
     found = search_arrangements(file, "bank_angle", wanted)
-    low, high = 4.8, 93.8
+    low = 4.8
+    high = 93.8
     assert found.refused.startswith("layout.bank_angle = 0: ")
     for locked in (low, high):
         with pytest.raises(BalcliError, match="the crank cannot turn"):

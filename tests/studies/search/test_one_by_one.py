@@ -106,7 +106,8 @@ def test_the_firing_order_decides_where_gas_fires_in_two_turns(tmp_path):
 def test_a_number_in_a_range(tmp_path):
     """The best is at least as good as all of a fine sweep, and a limit is kept."""
     path = ENGINES / "i4_mounts.toml"
-    key, quantity = "mount.left.stiffness.2", "mode.roll.share"
+    key = "mount.left.stiffness.2"
+    quantity = "mode.roll.share"
     found = search(path, "--over", f"{key}=60:400", "--minimise", quantity)
     swept = ask_csv("sweep", path, "--vary", f"{key}=60:400:10", "-q", quantity)
     values = [float(row[quantity]) for row in swept]
@@ -194,7 +195,8 @@ def test_maximise():
 
 
 def test_designs_one_by_one_are_limited_and_may_end_early(monkeypatch):
-    model, goal = parse(SIX), parse_objective("torque.3.amplitude", with_gas=True)
+    model = parse(SIX)
+    goal = parse_objective("torque.3.amplitude", with_gas=True)
     designs = [{"rod.length": 200.0 + k} for k in range(4)]
     assert len(list(evaluate.rank_one_by_one(model, designs, goal, lambda share: share >= 0.5))) == 2
     monkeypatch.setattr(evaluate, "MOST_DESIGNS_ONE_BY_ONE", 3)
@@ -264,7 +266,8 @@ def test_where_no_round_number_is_as_good_the_place_is_as_exact_as_the_function(
 
 @pytest.mark.slow
 def test_numbers_are_shown_as_they_are_typed_and_not_written(tmp_path):
-    path, out = ENGINES / "i4_wiebe.toml", tmp_path / "new.toml"
+    path = ENGINES / "i4_wiebe.toml"
+    out = tmp_path / "new.toml"
     args = ("--over", "gas.imep=8:12", "--minimise", "fluctuation")
     done = run_here("search", path, *args, "--write", out)
     told = "balcli: --write takes throws, firing orders and angles; edit the file: gas.imep = 12\n"
@@ -282,10 +285,12 @@ def test_on_a_line_on_which_limits_are_kept_only_its_optima_are_results():
     its line, by engines at every 5 deg of the bank angle; so is each least value there a result.
     """
     engine = balcli.load_example("v6_90_split")
-    over, goal = ["bank_angle", "splay"], "moment.1.major"
+    over = ["bank_angle", "splay"]
+    goal = "moment.1.major"
     found = balcli.search(engine, over, goal, require="even-firing")
     reached = sorted(one.objective for one in found.results)
-    banks, least = np.arange(0, 181, 5.0), []
+    banks = np.arange(0, 181, 5.0)
+    least = []
     for turn in (0, 120, 240):
         splays = (banks - turn + 180) % 360 - 180
         changed = [

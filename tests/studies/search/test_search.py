@@ -47,7 +47,8 @@ def test_in_line_four() -> None:
 )
 def test_branch_and_bound_finds_what_trying_all_finds(throws: list[float], layout: str) -> None:
     """Without a limit, and with one that two fifths of the cranks keep."""
-    file, goal = engine(throws, layout), "moment.1.major=1,moment.2.backward=2,force.1.major=0.5"
+    file = engine(throws, layout)
+    goal = "moment.1.major=1,moment.2.backward=2,force.1.major=0.5"
     every = sorted(set(permutations(throws))) if len(throws) < 8 else [(0, *p) for p in permutations(throws[1:])]
     chosen = np.random.default_rng(1).permutation(len(every))[:1000]
     whole = build(file, {f"crank.throws.{t + 1}": column for t, column in enumerate(np.array(every)[chosen].T)})
@@ -78,14 +79,16 @@ def test_the_best_of_nine_distinct_throws_by_a_plain_sum() -> None:
     every = [np.roll(NINE, -first)[np.insert(others, 0, 0, axis=1)] for first in range(9)]
     sizes = [np.abs(np.exp(1j * np.deg2rad(rows)) @ (np.arange(9) - 4.0)) for rows in every]
     best = np.concatenate(every)[np.concatenate(sizes).argmin()]
-    file, wanted = engine(NINE), parse_objective("moment.1.major")
+    file = engine(NINE)
+    wanted = parse_objective("moment.1.major")
     (found,) = search_arrangements(file, "throws", wanted, 1).results
     assert found.objective == pytest.approx(evaluate_alone(file, best), rel=1e-9)
 
 
 def test_who_is_told_hears_of_all_arrangements_and_may_stop() -> None:
     """It changes nothing; who has seen enough gets the best so far."""
-    file, wanted = engine(NINE), parse_objective("moment.1.major")
+    file = engine(NINE)
+    wanted = parse_objective("moment.1.major")
     shares: list[float] = []
     told = find_best_throws(file, wanted, 3, tell=lambda share: bool(shares.append(share)))
     first, *_ = every = find_best_throws(file, wanted, 3)
@@ -131,7 +134,8 @@ def test_v8_firing_orders_fit_their_crank() -> None:
     found = search_least(file, "firing_order", "moment.1.major", count=100).results
     orders = {tuple(r.design["firing_order"]) for r in found}
     assert len(orders) == len(found) == 4  # 16, but for mirror images
-    common, from_the_other_end = (1, 5, 4, 2, 6, 3, 7, 8), (1, 3, 7, 2, 6, 5, 4, 8)
+    common = (1, 5, 4, 2, 6, 3, 7, 8)
+    from_the_other_end = (1, 3, 7, 2, 6, 5, 4, 8)
     assert common in orders or from_the_other_end in orders
 
 
@@ -247,7 +251,8 @@ ARTICULATED = engine_text(
 
 def test_articulated_rods_count_once_for_their_throw() -> None:
     """The shares of all throws add up to the whole."""
-    file, quantities = load(ARTICULATED), parse_quantities("force.1.major,moment.2.major")
+    file = load(ARTICULATED)
+    quantities = parse_quantities("force.1.major,moment.2.major")
     angles = np.array([0.0, 100, 190, 250])
     found = tabulate_contributions(file, angles, 0, quantities)
     for q, whole in zip(quantities, evaluate_quantities(build(file), quantities), strict=True):
