@@ -10,6 +10,7 @@ from support.paths import ROOT, write
 from balcli import load
 from balcli.analysis.answer import analyze
 from balcli.balancing.answer import balance, insert_remedy
+from balcli.errors import BalcliError
 from balcli.forces.crankshaft import find_crank_loads
 from balcli.forces.spectrum import compute_spectra
 from balcli.sizing.fitting import Fitting
@@ -369,6 +370,27 @@ def test_which_engines_have_crossheads(changes, is_crosshead):
     engine = build_text(text)
     assert is_crosshead_two_stroke(engine) == is_crosshead
     assert any("compensators" in step.step for step in find_ladder(engine).steps) == is_crosshead
+
+
+WITHOUT_MASS = FIVE.format(power=11_900).replace("mass = 4600", "mass = 0").replace("mass = 2300", "mass = 0")
+WITHOUT_MASS = WITHOUT_MASS.replace("mass = 2500", "mass = 0")
+SHAFTS_ALONE = "".join(
+    f"[[shaft]]\nratio = 2\nunbalance = 10000\nangle = {angle}\nposition = {z}\n"
+    for angle, z in ((0, 500), (180, -500))
+)
+
+
+def test_a_left_out_step_is_explained_without_a_share_of_pistons_without_mass():
+    ladder = find_ladder(build_text(WITHOUT_MASS))
+    assert ladder.scale.force_N == 0
+    assert WEIGHTS_AT_THROWS in [out.step for out in ladder.left_out]
+    with pytest.raises(BalcliError, match="gas governs the bearings"):
+        ladder.fit(WEIGHTS_AT_THROWS)
+
+
+def test_no_moment_is_small_beside_pistons_without_mass():
+    step = find_ladder(build_text(WITHOUT_MASS + SHAFTS_ALONE)).find_step(name_compensators(2))
+    assert step.share == np.inf
 
 
 def test_trunk_piston_two_strokes_are_as_all_others():

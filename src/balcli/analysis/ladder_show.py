@@ -154,13 +154,13 @@ def _tell_left_out(out: LeftOut, ladder: Ladder, system: System) -> str:
     change of the main bearing load. Empty if its effect would be printed as 0, or if the engine has
     no room for it.
     """
-    size = abs(ladder.measure(out))
+    percent = abs(ladder.measure_percent(out))
     fall = out.main_bearing_N
-    if size < _HARDLY or not out.buildable:
+    if percent < _HARDLY or not out.buildable:
         return ""
     share = ""
-    if not math.isnan(size):
-        share = f" ({_percent_below(size, 100 * ladder.small)} of one cylinder's first order)"
+    if not math.isnan(percent):
+        share = f" ({_percent_below(percent, 100 * ladder.small)} of one cylinder's first order)"
     name = f"a {out.step}" if out.step in SINGLE_SHAFTS else out.step
     why = "left out"
     if fall is None:

@@ -58,6 +58,7 @@ from .residual import (
     Residual,
     ResidualPart,
     Scales,
+    compare_with_scale,
     find_scales,
     find_size,
     hold_steady,
@@ -311,17 +312,17 @@ class Ladder:
         """Return in words the effect of an omitted step and the way to get it, if there is one."""
         if not out.buildable:
             return NO_SHAFTS
-        share = self.measure(out)
         fall = out.main_bearing_N
-        size = f"{abs(share):.2g} % of one cylinder's first order"
-        lists_it = Message("{small} {percent}% lists it", percent=math.floor(share))
-        if fall is None:
-            return Message("it would cancel {size}; {lists_it}", size=size, lists_it=lists_it)
-        if self.by_power:
+        if fall is not None and self.by_power:
             return Message(
                 "gas governs the bearings of a two-stroke engine with crossheads; {scheme} "
                 "counterweights {planes} throws fits them"
             )
+        percent = self.measure_percent(out)
+        size = f"{abs(percent):.2g} % of one cylinder's first order"
+        lists_it = Message("{small} {percent}% lists it", percent=math.floor(percent))
+        if fall is None:
+            return Message("it would cancel {size}; {lists_it}", size=size, lists_it=lists_it)
         if fall > 0:
             return Message(
                 "it would lower the largest main bearing load by {size}; {lists_it}",
@@ -330,7 +331,7 @@ class Ladder:
             )
         return f"it would raise the largest main bearing load by {size}"
 
-    def measure(self, out: LeftOut) -> float:
+    def measure_percent(self, out: LeftOut) -> float:
         """Return the force or moment that an omitted step would cancel, or its reduction of the
         main bearing load, in % of one cylinder's first order; nan if one cylinder has no force of
         first order.
@@ -365,17 +366,17 @@ class _Drawn(NamedTuple):
     by_power: bool
     power: Power | None
 
-    def relate(self, order: int, moment: float) -> float | None:
+    def find_pru(self, order: int, moment_kg_m2: float) -> float | None:
         """Return the power related unbalance of a moment, N m/kW; None if no power is known.
 
         Args:
             order: Order n of the moment.
-            moment: Moment divided by `n^2 omega^2` (omega: crank speed), kg m2.
+            moment_kg_m2: Moment divided by `n^2 omega^2` (omega: crank speed).
         """
         if self.power is None:
             return None
-        turning = order * float(at_rated_speed(self.engine).omega)
-        return self.power.relate(turning**2 * moment)
+        speed = order * float(at_rated_speed(self.engine).omega)
+        return self.power.relate(speed**2 * moment_kg_m2)
 
 
 def _draw(engine: Engine, small: float) -> _Drawn:
@@ -442,7 +443,7 @@ class _Offer(NamedTuple):
         limit: Share from which it is fitted by default; None if it is not judged by a share.
         worth_it: Whether it is worth its devices.
         takes_back: Whether its counterweights work against those of the file.
-        related: Power related unbalance of the moment that it faces, N m/kW; None if not known.
+        pru_Nm_per_kW: Power related unbalance of the moment that it faces; None if not known.
         fall: Reduction of the largest main bearing load, N; only for counterweights at every throw.
         buildable: Whether the engine has room for its devices.
     """
@@ -455,7 +456,7 @@ class _Offer(NamedTuple):
     limit: float | None = None
     worth_it: bool = True
     takes_back: bool = False
-    related: float | None = None
+    pru_Nm_per_kW: float | None = None
     fall: float | None = None
     buildable: bool = True
 
@@ -496,9 +497,8 @@ def find_ladder(engine: Engine, small: float = SMALL) -> Ladder:
         consider(offer)
     for offer in _offer_compensators(drawn, listed) if drawn.by_power else _offer_shafts(drawn):
         consider(offer)
-    names = [step.step for step in steps]
-    hidden = {WEIGHTS} if WEIGHTS_AT_THROWS in names else set()
-    omitted = [offer for offer in left_out if offer.fits_something and offer.name not in hidden]
+    replaced = _list_replaced(steps)
+    omitted = [offer for offer in left_out if offer.fits_something and offer.name not in replaced]
     return Ladder(
         scale=_describe_scale(engine, drawn.scales),
         auto=_choose_usual(steps),
@@ -520,13 +520,20 @@ def _choose_usual(steps: Sequence[Step]) -> tuple[str, ...]:
     way, and no step of order 1 is fitted.
     """
     settled = any(step.takes_back for step in steps)
-    names = [step.step for step in steps]
-    replaced = {WEIGHTS} if WEIGHTS_AT_THROWS in names else set()
+    replaced = _list_replaced(steps)
     return tuple(
         step.step
         for step in steps
         if step.worth_it and step.step not in replaced and not (settled and step.order == 1)
     )
+
+
+def _list_replaced(steps: Sequence[Step]) -> set[str]:
+    """Return the names of the steps that a later step replaces: counterweights at every throw
+    replace those in the end planes.
+    """
+    names = [step.step for step in steps]
+    return {WEIGHTS} if WEIGHTS_AT_THROWS in names else set()
 
 
 def _offer_weights(drawn: _Drawn) -> _Offer:
@@ -548,9 +555,9 @@ def _offer_weights(drawn: _Drawn) -> _Offer:
     )
     if not drawn.by_power:
         return offer
-    related = drawn.relate(1, sum(abs(first.parts[part]) for part in MOMENT))
-    worth_it = related is not None and needs_compensator(related)
-    return offer._replace(related=related, worth_it=worth_it)
+    pru = drawn.find_pru(1, sum(abs(first.parts[part]) for part in MOMENT))
+    worth_it = pru is not None and needs_compensator(pru)
+    return offer._replace(pru_Nm_per_kW=pru, worth_it=worth_it)
 
 
 def _offer_weights_at_throws(
@@ -622,22 +629,22 @@ def _offer_compensators(drawn: _Drawn, listed: Sequence[_Offer]) -> Iterator[_Of
         return
     weighted = drawn.start._replace(remedy=join_remedies("", [offer.own for offer in listed]))
     for residual in (weighted.find_residual(1), drawn.second):
-        turning = abs(find_moment_about_y(residual))
-        moment = turning * residual.newtons_per_kg_m
-        share = moment / drawn.scales.moment if moment else 0.0
+        moment_kg_m2 = abs(find_moment_about_y(residual))
+        moment = moment_kg_m2 * residual.newtons_per_kg_m
+        share = compare_with_scale(moment, drawn.scales.moment)
         due = not is_small(share, drawn.small)
         fitting = drawn.start
         if due:
             fitting = add_compensators(fitting, residual, find_ends(drawn.engine))
-        related = drawn.relate(residual.order, turning)
+        pru = drawn.find_pru(residual.order, moment_kg_m2)
         yield _Offer(
             name_compensators(residual.order),
             residual.order,
             listed=due,
             own=fitting.remedy,
             cancels=_Cancelled(moment=moment, share=share),
-            worth_it=related is not None and needs_compensator(related),
-            related=related,
+            worth_it=pru is not None and needs_compensator(pru),
+            pru_Nm_per_kW=pru,
         )
 
 
@@ -770,7 +777,7 @@ def _make_step(engine: Engine, name: str, offers: Sequence[_Offer]) -> Step:
     return replace(
         step,
         takes_back=offer.takes_back or None,
-        pru_Nm_per_kW=offer.related,
+        pru_Nm_per_kW=offer.pru_Nm_per_kW,
         order=offer.order,
         share=offer.cancels.share,
         limit=offer.limit,

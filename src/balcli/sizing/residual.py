@@ -152,10 +152,16 @@ def find_size(residual: Residual, parts: Iterable[ResidualPart], scales: Scales)
 
 def find_share(residual: Residual, part: ResidualPart, scales: Scales) -> float:
     """Return the size of a force or moment as a share of one cylinder's first order."""
-    size = residual.size(part)
+    scale = scales.moment if part.kind == "moment" else scales.force
+    return compare_with_scale(residual.size(part), scale)
+
+
+def compare_with_scale(size: float, scale: float) -> float:
+    """Return a force or moment as a share of that of one cylinder; inf if this is 0, as with
+    pistons without mass.
+    """
     if not size:
         return 0.0
-    scale = scales.moment if part.kind == "moment" else scales.force
     return size / scale if scale else math.inf
 
 
