@@ -28,7 +28,7 @@ from .couple import Couple, find_couple
 
 VectorKind = Literal["force", "moment"]  # names in `forces.kinds`
 BalancedKind = Literal["force", "moment", "couple"]
-Vectors = Mapping[VectorKind, Phasors]
+PhasorsByKind = Mapping[VectorKind, Phasors]
 
 WITH_CRANK = 1
 AGAINST_CRANK = -1
@@ -67,8 +67,9 @@ class Finding(NamedTuple):
         order: Order.
         large: Which of force and moment are not small.
         cures: Devices that would cancel their large vectors; none if each of their vectors is
-            small; left out at half orders and at uneven speed, and where only a shaft would cancel
-            them but the engine is that of a locomotive, which has no room for one.
+            small; left out at half orders and at uneven speed, where compensators take the place
+            of shafts, and where only a shaft would cancel them but the engine is that of a
+            locomotive, which has no room for one.
     """
 
     order: float
@@ -167,13 +168,13 @@ def judge(
             if its largest value is below this share.
         engine: Engine with these spectra; None: one crank without devices at steady speed.
     """
-    vectors = list_vectors(spectra)
-    if not vectors:
+    by_kind = select_phasors(spectra)
+    if not by_kind:
         return Verdict()
     devices = () if engine is None else engine.every_device
-    compensators = [device for device in devices if device.compensates]
-    large = _find_large(vectors, scales, small)
-    needs = find_needs(vectors.get("moment"), scales, small, engine)
+    every_compensator = [device for device in devices if device.compensates]
+    large = _find_large(by_kind, scales, small)
+    needs = find_needs(by_kind.get("moment"), scales, small, engine)
     matter: list[Finding] = []
     compensated: list[Compensated] = []
     balanced: list[float] = []
@@ -181,24 +182,24 @@ def judge(
     for row, order in enumerate(map(order_number, spectra.orders)):
         if order <= 0:
             continue
-        pairs = [device for device in compensators if device.order == order]
-        if engine is not None and pairs:
-            compensated.append(_describe_compensated(vectors, row, pairs, engine, scales))
+        compensators = [device for device in every_compensator if device.order == order]
+        if engine is not None and compensators:
+            compensated.append(_describe_compensated(by_kind, row, compensators, engine, scales))
             continue
-        kinds = tuple(kind for kind in vectors if Part(order, kind) in large)
+        kinds = tuple(kind for kind in by_kind if Part(order, kind) in large)
         if kinds:
             due = {sense for kind in kinds for sense in large[Part(order, kind)]}
             cures = _find_cures(order, due, engine)
             if cures and engine is not None:
-                cures = _mark_taken_back(cures, vectors, row, engine)
+                cures = _mark_taken_back(cures, by_kind, row, engine)
             if needs is not None and order <= 2:  # compensators take the place of shafts
                 cures = None
             matter.append(Finding(order, kinds, cures))
-        elif all(phasors.balanced[row] for phasors in vectors.values()):
+        elif all(phasors.balanced[row] for phasors in by_kind.values()):
             balanced.append(order)
-        small_parts += [Part(order, kind) for kind in vectors if kind not in kinds]
-    largest_small = select_largest(small_parts, vectors)
-    compensated_orders = [order.order for order in compensated]
+        small_parts += [Part(order, kind) for kind in by_kind if kind not in kinds]
+    largest_small = select_largest(small_parts, by_kind)
+    compensated_orders = [part.order for part in compensated]
     if needs is not None:
         needs = tuple(need for need in needs if need.order not in compensated_orders)
     named = bool(matter or compensated)
@@ -208,7 +209,7 @@ def judge(
         compensated=tuple(compensated),
         balanced=listed,
         balanced_kinds=_list_balanced_kinds(spectra, listed),
-        small=_drop_negligible(largest_small, vectors, scales),
+        small=_drop_negligible(largest_small, by_kind, scales),
         uneven=engine is not None and bool(engine.ripple),
         couple=None if engine is None else find_couple(spectra.couple, scales, engine),
         rocking=_find_rocking(spectra, scales, engine),
@@ -216,18 +217,20 @@ def judge(
     )
 
 
-def list_vectors(spectra: Spectra) -> dict[VectorKind, Phasors]:
+def select_phasors(spectra: Spectra) -> dict[VectorKind, Phasors]:
     """Return force and moment by name, whichever the spectra have."""
-    vectors: dict[VectorKind, Phasors] = {}
+    by_kind: dict[VectorKind, Phasors] = {}
     if spectra.force is not None:
-        vectors["force"] = spectra.force
+        by_kind["force"] = spectra.force
     if spectra.moment is not None:
-        vectors["moment"] = spectra.moment
-    return vectors
+        by_kind["moment"] = spectra.moment
+    return by_kind
 
 
 # ------------------------------------------------------------------ what is large
-def _find_large(vectors: Vectors, scales: Scales, small: float) -> dict[Part, tuple[int, ...]]:
+def _find_large(
+    by_kind: PhasorsByKind, scales: Scales, small: float
+) -> dict[Part, tuple[int, ...]]:
     """Return the forces and moments of orders that are not small, and for each the directions in
     which its large vectors turn.
 
@@ -237,7 +240,7 @@ def _find_large(vectors: Vectors, scales: Scales, small: float) -> dict[Part, tu
     """
     of_one = scales._asdict()
     large: dict[Part, tuple[int, ...]] = {}
-    for kind, phasors in vectors.items():
+    for kind, phasors in by_kind.items():
         least = small * of_one[kind]
         for row, order in enumerate(phasors.orders.tolist()):
             if not is_small(float(phasors.major[row]), least):
@@ -251,24 +254,26 @@ def _find_senses(phasors: Phasors, row: int, least: float) -> tuple[int, ...]:
     return tuple(sense for sense, size in sizes.items() if not is_small(float(abs(size)), least))
 
 
-def select_largest(parts: Iterable[Part], vectors: Vectors) -> tuple[Part, ...]:
+def select_largest(parts: Iterable[Part], by_kind: PhasorsByKind) -> tuple[Part, ...]:
     """Return the largest force and the largest moment among some parts, if they are not balanced.
 
     Args:
         parts: Forces and moments of orders.
-        vectors: Force and moment of all orders by name.
+        by_kind: Force and moment of all orders by name.
     """
     largest: dict[VectorKind, Part] = {}
     sizes: dict[VectorKind, float] = {}
     for part in parts:
-        size = _find_size(part, vectors)
+        size = _find_size(part, by_kind)
         if size > sizes.get(part.kind, 0.0):
             largest[part.kind] = part
             sizes[part.kind] = size
     return tuple(largest.values())
 
 
-def _drop_negligible(parts: Iterable[Part], vectors: Vectors, scales: Scales) -> tuple[Part, ...]:
+def _drop_negligible(
+    parts: Iterable[Part], by_kind: PhasorsByKind, scales: Scales
+) -> tuple[Part, ...]:
     """Return the parts that are not negligible compared with one cylinder; arguments as for
     `select_largest`.
     """
@@ -276,13 +281,13 @@ def _drop_negligible(parts: Iterable[Part], vectors: Vectors, scales: Scales) ->
     return tuple(
         part
         for part in parts
-        if not is_small(_find_size(part, vectors), NEGLIGIBLE * of_one[part.kind])
+        if not is_small(_find_size(part, by_kind), NEGLIGIBLE * of_one[part.kind])
     )
 
 
-def _find_size(part: Part, vectors: Vectors) -> float:
+def _find_size(part: Part, by_kind: PhasorsByKind) -> float:
     """Return the largest value of a force or moment."""
-    phasors = vectors[part.kind]
+    phasors = by_kind[part.kind]
     row = int(np.searchsorted(phasors.orders, part.order))
     return float(phasors.major[row])
 
@@ -301,31 +306,31 @@ def _find_cures(
     """
     if order % 1 or (engine is not None and engine.ripple):
         return None
-    turning = {1}
+    crank_ratios = {1}
     devices: tuple[Device, ...] = ()
     if engine is not None:
-        turning = {crank.ratio for crank in engine.cranks}
+        crank_ratios = {crank.ratio for crank in engine.cranks}
         devices = engine.every_device
     cures = []
     for sense in SENSES:
         if sense in due:
             ratio = int(order) * sense
             further = any(_turns(device, ratio) for device in devices)
-            cures.append(Cure(ratio, on_crank=ratio in turning, further=further))
+            cures.append(Cure(ratio, on_crank=ratio in crank_ratios, further=further))
     if engine is not None and engine.of_locomotive:
         return tuple(cure for cure in cures if cure.on_crank) or None
     return tuple(cures)
 
 
 def _mark_taken_back(
-    cures: tuple[Cure, ...], vectors: Vectors, row: int, engine: Engine
+    cures: tuple[Cure, ...], by_kind: PhasorsByKind, row: int, engine: Engine
 ) -> tuple[Cure, ...]:
     """Return the cures of an order; counterweights that would take back those of the file are
     marked.
 
     Args:
         cures: Devices that would cancel the order.
-        vectors: Force and moment of all orders by name.
+        by_kind: Force and moment of all orders by name.
         row: Index of the order.
         engine: Engine with its counterweights.
     """
@@ -333,9 +338,9 @@ def _mark_taken_back(
     for cure in cures:
         if not cure.on_crank:
             continue
-        for kind, phasors in vectors.items():
-            turning = phasors.forward if cure.sense == WITH_CRANK else phasors.backward
-            cancelled[ResidualPart(kind, cure.sense)] = complex(turning[row])
+        for kind, phasors in by_kind.items():
+            vectors_of_sense = phasors.forward if cure.sense == WITH_CRANK else phasors.backward
+            cancelled[ResidualPart(kind, cure.sense)] = complex(vectors_of_sense[row])
     if not would_take_back(engine, cancelled):
         return cures
     return tuple(cure._replace(takes_back=cure.on_crank or None) for cure in cures)
@@ -371,7 +376,7 @@ def _list_balanced_kinds(spectra: Spectra, orders: Collection[float]) -> tuple[B
     """Return the kinds that are balanced at these orders, all of which have balanced vectors."""
     if not orders:
         return ()
-    kinds: list[BalancedKind] = [*list_vectors(spectra)]
+    kinds: list[BalancedKind] = [*select_phasors(spectra)]
     couple = spectra.couple
     if couple is not None and couple.balanced[np.isin(couple.orders, [*orders])].all():
         kinds.append("couple")
@@ -380,31 +385,32 @@ def _list_balanced_kinds(spectra: Spectra, orders: Collection[float]) -> tuple[B
 
 # ------------------------------------------------------------------ compensators and roll
 def _describe_compensated(
-    vectors: Vectors, row: int, pairs: Sequence[Device], engine: Engine, scales: Scales
+    by_kind: PhasorsByKind, row: int, compensators: Sequence[Device], engine: Engine, scales: Scales
 ) -> Compensated:
     """Return what the moment compensators of an order leave, and the force that they introduce.
 
     Args:
-        vectors: Force and moment of all orders by name.
+        by_kind: Force and moment of all orders by name.
         row: Index of the order.
-        pairs: Compensators of the order.
+        compensators: Compensators of the order.
         engine: Engine with the compensators.
         scales: Force, moment and roll of one cylinder.
     """
-    order = pairs[0].order
+    order = compensators[0].order
     square = (order * float(engine.omega)) ** 2
-    forward = square * sum(complex(device.forward) for device in pairs)
-    backward = square * sum(complex(device.backward) for device in pairs)
+    forward = square * sum(complex(device.forward) for device in compensators)
+    backward = square * sum(complex(device.backward) for device in compensators)
     introduced = abs(forward + backward.conjugate())
-    if introduced <= _ROUNDING * square * sum(abs(complex(device.forward)) for device in pairs):
+    all_forward = square * sum(abs(complex(device.forward)) for device in compensators)
+    if introduced <= _ROUNDING * all_forward:
         introduced = 0.0
     compensated = Compensated(
         order=order,
-        at_m=tuple(sorted({float(device.z) for device in pairs})),
+        at_m=tuple(sorted({float(device.z) for device in compensators})),
         introduced_N=introduced,
     )
-    if "moment" in vectors:
-        moment = vectors["moment"]
+    if "moment" in by_kind:
+        moment = by_kind["moment"]
         vertical = float(abs(moment.y[row]))  # forces along x
         noise = float(np.broadcast_to(moment.noise, moment.y.shape)[row])
         if vertical <= max(noise, _ROUNDING * scales.moment):
@@ -412,8 +418,8 @@ def _describe_compensated(
         compensated = compensated._replace(
             vertical_Nm=vertical, across_Nm=float(abs(moment.x[row]))
         )
-    if "force" in vectors:
-        force = vectors["force"]
+    if "force" in by_kind:
+        force = by_kind["force"]
         ahead = abs(force.forward[row] - forward)
         against = abs(force.backward[row] - backward)
         compensated = compensated._replace(force_N=float(ahead + against))

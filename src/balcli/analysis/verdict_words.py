@@ -14,7 +14,15 @@ from ..file.fields import join_words, ordinal
 from ..forces.kinds import EVERY_KIND, GAS, ROLL, ROLL_TOTAL, Kind
 from ..forces.spectrum import Spectra
 from ..show.engine_facts import tell_pivot
-from ..show.sheet import NEGLIGIBLE, degrees, number, order_name, sentence, size_text
+from ..show.sheet import (
+    NEGLIGIBLE,
+    degrees,
+    number,
+    order_name,
+    round_degrees,
+    sentence,
+    size_text,
+)
 from ..show.units import ShownUnit, System
 from ..sizing.residual import Scales
 from .compensator_need import CompensatorNeed
@@ -28,8 +36,8 @@ from .verdict import (
     Part,
     Rocking,
     Verdict,
-    list_vectors,
     select_largest,
+    select_phasors,
 )
 
 _NEARLY_ROUND = 0.9  # smallest / largest value from which a vector has no axis, but turns
@@ -37,7 +45,7 @@ _MOST_WORDS = 25  # largest number of words in a sentence on a force or a moment
 _MOST_WORDS_OF_BOTH = 35  # the same for a sentence on a force and a moment
 _MOST_NAMED = 5  # largest number of orders that a sentence names
 _ORDERS = ("First", "Second", "Third", "Fourth", "Fifth", "Sixth", "Seventh", "Eighth")
-_AXES = {"0.0": "x", "90.0": "y"}
+_AXES = {0.0: "x", 90.0: "y"}  # by angle, deg
 _NAMED = {"moment": "longitudinal moment"}  # distinguishes it from the couple, another moment
 _SENSES = {WITH_CRANK: "with", AGAINST_CRANK: "against"}
 _WEIGHTS = {WITH_CRANK: "counterweights", AGAINST_CRANK: "weights on the opposite crank"}
@@ -75,8 +83,10 @@ _CRANK = _Rotor("the crank", "crank speed")
 _CYLINDERS = _Rotor("the cylinders", "the speed of the cylinders")
 
 
-class _Vector(NamedTuple):
-    """The force or moment of an order, with what its words need."""
+class _PartInWords(NamedTuple):
+    """The force or moment of an order (`Part`) with what its words need. It consists of two vectors
+    that turn in opposite directions.
+    """
 
     kind: Kind
     phasors: Phasors  # of this order alone
@@ -84,18 +94,35 @@ class _Vector(NamedTuple):
     up_deg: float | None
     rotor: _Rotor
 
-    def find_part(self, sense: int) -> float:
+    def find_vector(self, sense: int) -> float:
         """Return the size of the vector that turns in one direction."""
         turning = self.phasors.forward if sense == WITH_CRANK else self.phasors.backward
         return float(abs(turning[0]))
 
     def is_whole(self, sense: int) -> bool:
         """Return whether all but a negligible part turns in one direction."""
-        return self.find_part(-sense) <= NEGLIGIBLE * self.find_part(sense)
+        return self.find_vector(-sense) <= NEGLIGIBLE * self.find_vector(sense)
 
-    def tell_part(self, sense: int) -> str:
+    @property
+    def has_axis(self) -> bool:
+        """Whether the force or moment has a direction; if its size hardly changes, it turns."""
+        return bool(self.phasors.minor[0] < _NEARLY_ROUND * self.phasors.major[0])
+
+    @property
+    def has_comma(self) -> bool:
+        """Whether the description with the direction has a comma: that of a force or moment which
+        turns at a multiple of crank speed.
+        """
+        return not self.has_axis and self.order != 1
+
+    @property
+    def order(self) -> float:
+        """Order of the force or moment."""
+        return float(self.phasors.orders[0])
+
+    def tell_vector(self, sense: int) -> str:
         """Return in words the size of the vector that turns in one direction."""
-        return size_text(self.find_part(sense), self.unit)
+        return size_text(self.find_vector(sense), self.unit)
 
     def describe(self) -> str:
         """Return kind and largest value in words: `force of 4 N`."""
@@ -106,14 +133,13 @@ class _Vector(NamedTuple):
         """Return kind, largest value and direction in words: `force of 4 N along x`, or `turning
         with the crank` if the size hardly changes.
         """
-        if self.phasors.minor[0] < _NEARLY_ROUND * self.phasors.major[0]:
+        if self.has_axis:
             return f"{self.describe()} {self._tell_axis()}"
-        ahead = self.find_part(WITH_CRANK) > self.find_part(AGAINST_CRANK)
+        ahead = self.find_vector(WITH_CRANK) > self.find_vector(AGAINST_CRANK)
         sense = f"{_SENSES[WITH_CRANK if ahead else AGAINST_CRANK]} {self.rotor.name}"
-        order = float(self.phasors.orders[0])
-        if order == 1:
+        if self.order == 1:
             return f"{self.describe()} turning {sense}"
-        times = "twice" if order == 2 else f"{order:g} times"
+        times = "twice" if self.order == 2 else f"{self.order:g} times"
         return f"{self.describe()} turning at {times} {self.rotor.speed}, {sense}"
 
     def _tell_axis(self) -> str:
@@ -121,11 +147,11 @@ class _Vector(NamedTuple):
         axis is also called vertical or horizontal.
         """
         axis_deg = float(self.phasors.axis_deg[0])
-        angle = degrees(axis_deg, 180)
-        axis = self.kind.tell_axis(_AXES.get(angle, f"an axis at {angle} deg"))
+        other = f"an axis at {degrees(axis_deg, 180)} deg"
+        axis = self.kind.tell_axis(_AXES.get(round_degrees(axis_deg, 180), other))
         if self.up_deg is None:
             return axis
-        from_up = degrees(float(wrap_degrees(axis_deg - self.up_deg, 180)), 180)
+        from_up = round_degrees(float(wrap_degrees(axis_deg - self.up_deg, 180)), 180)
         names = dict(zip(_AXES, self.kind.upright, strict=True))
         if from_up not in names:
             return axis
@@ -184,24 +210,26 @@ class VerdictWords(NamedTuple):
         if any(need.need is None for need in needs.values()):
             yield _GIVE_POWER
 
-    def _find_vector(self, part: Part) -> _Vector:
+    def _prepare(self, part: Part) -> _PartInWords:
+        """Return a force or moment with what its words need."""
         kind = EVERY_KIND[part.kind]
         phasors = self.spectra[part.kind].select_orders([part.order])
         rotary = self.engine is not None and self.engine.rotary
         rotor = _CYLINDERS if rotary else _CRANK
-        return _Vector(kind, phasors, self.system.unit(kind), self.spectra.up_deg, rotor)
+        return _PartInWords(kind, phasors, self.system.unit(kind), self.spectra.up_deg, rotor)
 
     # -------------------------------------------------------------- orders
     def write_order(self, finding: Finding) -> str:
         """Return the sentence on an order: the most detailed one that is not too long."""
-        vectors = [self._find_vector(Part(finding.order, kind)) for kind in finding.large]
-        directed = _join_vectors([vector.describe_with_direction() for vector in vectors])
-        plain = _join_vectors([vector.describe() for vector in vectors])
-        shares = tell_cures(finding, vectors, with_shares=True)
-        cures = tell_cures(finding, vectors)
+        parts = [self._prepare(Part(finding.order, kind)) for kind in finding.large]
+        joint = ", and " if any(part.has_comma for part in parts) else " and "
+        directed = joint.join(part.describe_with_direction() for part in parts)
+        plain = " and ".join(part.describe() for part in parts)
+        shares = tell_cures(finding, parts, with_shares=True)
+        cures = tell_cures(finding, parts)
         choices = [(directed, shares), (directed, cures), (plain, cures)]
         most = _MOST_WORDS
-        if len(vectors) > 1:  # shares are worth more than directions
+        if len(parts) > 1:  # shares are worth more than directions
             choices.insert(1, (plain, shares))
             most = _MOST_WORDS_OF_BOTH
         sentences = [_join_order(finding.order, size, cure) for size, cure in choices]
@@ -212,11 +240,11 @@ class VerdictWords(NamedTuple):
 
     def write_need(self, finding: Finding, need: CompensatorNeed) -> str:
         """Return the sentence on an order that compensators may have to cancel."""
-        moment = self._find_vector(Part(finding.order, "moment"))
+        moment = self._prepare(Part(finding.order, "moment"))
         vertical = size_text(float(abs(moment.phasors.y[0])), moment.unit)
         written = f"{name_order(finding.order)}: "
         if "force" in finding.large:
-            force = self._find_vector(Part(finding.order, "force"))
+            force = self._prepare(Part(finding.order, "force"))
             written += f"{force.describe_with_direction()} and "
         written += f"vertical moment of {vertical}"
         if need.need is None or need.Nm_per_kW is None:
@@ -230,7 +258,7 @@ class VerdictWords(NamedTuple):
     def _write_higher(self, high: Sequence[Finding]) -> str:
         """Return one sentence on several orders above 2."""
         parts = [Part(finding.order, kind) for finding in high for kind in finding.large]
-        largest = select_largest(parts, list_vectors(self.spectra))
+        largest = select_largest(parts, select_phasors(self.spectra))
         orders = name_orders([finding.order for finding in high])
         written = f"{orders}: {self._describe_parts(largest)}"
         if any(finding.cures is not None for finding in high):
@@ -247,8 +275,7 @@ class VerdictWords(NamedTuple):
     def _describe_parts(self, parts: Sequence[Part]) -> str:
         """Return sizes and orders in words: `force of 4 N (order 2)`."""
         written = [
-            f"{self._find_vector(part).describe()} (order {order_name(part.order)})"
-            for part in parts
+            f"{self._prepare(part).describe()} (order {order_name(part.order)})" for part in parts
         ]
         return ", ".join(written)
 
@@ -335,89 +362,84 @@ def _join_order(order: float, size: str, cure: str) -> str:
     return f"{name_order(order)}: {size}; {cure}."
 
 
-def _join_vectors(described: Sequence[str]) -> str:
-    """Return force and moment in words; a comma sets off a description that has a comma."""
-    if any("," in words for words in described):
-        return ", and ".join(described)
-    return " and ".join(described)
-
-
 # ------------------------------------------------------------------ devices
-def tell_cures(finding: Finding, vectors: Sequence[_Vector], *, with_shares: bool = False) -> str:
+def tell_cures(
+    finding: Finding, parts: Sequence[_PartInWords], *, with_shares: bool = False
+) -> str:
     """Return in words what the devices of a finding cancel; empty if no devices are named.
 
     Args:
         finding: Order with its devices.
-        vectors: Large force and moment of the order.
+        parts: Large force and moment of the order.
         with_shares: Whether to state how much of force and moment each of two devices cancels.
     """
     if finding.cures is None:
         return ""
     if finding.order > 2:
-        speed = vectors[0].rotor.speed
+        speed = parts[0].rotor.speed
         return f"usually left: its shafts would turn at {finding.order:g} times {speed}"
     if not finding.cures:
         return "none of its parts is worth a shaft"
     if any(cure.takes_back for cure in finding.cures):
-        against = "it" if len(vectors) == 1 else "them"
+        against = "it" if len(parts) == 1 else "them"
         return f"counterweights against {against} would take back those of the file"
     if len(finding.cures) == 1:
-        return _tell_shares(finding.cures, vectors)
-    everything = "it" if len(vectors) == 1 else "both"
+        return _tell_shares(finding.cures, parts)
+    everything = "it" if len(parts) == 1 else "both"
     if finding.order == 2:
         further = "further " if any(cure.further for cure in finding.cures) else ""
         return f"{further}shafts at +2 and -2 cancel {everything}"
     if with_shares:
-        return _tell_shares(finding.cures, vectors)
+        return _tell_shares(finding.cures, parts)
     first, second = finding.cures
     return f"{name_cure(first)} and {name_cure(second)} cancel {everything}"
 
 
-def _tell_shares(cures: Sequence[Cure], vectors: Sequence[_Vector]) -> str:
+def _tell_shares(cures: Sequence[Cure], parts: Sequence[_PartInWords]) -> str:
     """Return in words how much each device cancels: `counterweights cancel the force and 40 N·m of
     the moment, a shaft at -1 the other 10 N·m`.
     """
     first = cures[0]
     verb = "cancel" if first.on_crank else "cancels"
-    share = _tell_share(first, vectors)
+    share = _tell_share(first, parts)
     if len(cures) == 1:
         return f"{name_cure(first)} {verb} {share}"
     second = cures[1]
-    divided = not any(vector.is_whole(cure.sense) for vector in vectors for cure in cures)
-    if len(vectors) > 1 and divided:  # units distinguish force and moment
-        share = " and ".join(vector.tell_part(first.sense) for vector in vectors)
-    rest = _tell_rest(second, vectors)
+    divided = not any(part.is_whole(cure.sense) for part in parts for cure in cures)
+    if len(parts) > 1 and divided:  # units distinguish force and moment
+        share = " and ".join(part.tell_vector(first.sense) for part in parts)
+    rest = _tell_rest(second, parts)
     return f"{name_cure(first)} {verb} {share}, {name_cure(second)} {rest}"
 
 
-def _tell_share(cure: Cure, vectors: Sequence[_Vector]) -> str:
+def _tell_share(cure: Cure, parts: Sequence[_PartInWords]) -> str:
     """Return in words what the first device cancels."""
-    turning = _list_turning(cure, vectors)
-    if len(turning) == len(vectors) and all(vector.is_whole(cure.sense) for vector in turning):
-        return "it" if len(vectors) == 1 else "both"
+    turning = _list_turning(cure, parts)
+    if len(turning) == len(parts) and all(part.is_whole(cure.sense) for part in turning):
+        return "it" if len(parts) == 1 else "both"
     shares = []
-    for vector in turning:
-        named = "it" if len(vectors) == 1 else f"the {vector.kind.name}"
-        if not vector.is_whole(cure.sense):
-            named = f"{vector.tell_part(cure.sense)} of {named}"
+    for part in turning:
+        named = "it" if len(parts) == 1 else f"the {part.kind.name}"
+        if not part.is_whole(cure.sense):
+            named = f"{part.tell_vector(cure.sense)} of {named}"
         shares.append(named)
     return " and ".join(shares)
 
 
-def _tell_rest(cure: Cure, vectors: Sequence[_Vector]) -> str:
+def _tell_rest(cure: Cure, parts: Sequence[_PartInWords]) -> str:
     """Return in words what the second device cancels: what the first one does not."""
-    turning = _list_turning(cure, vectors)
-    whole = [f"the {vector.kind.name}" for vector in turning if vector.is_whole(cure.sense)]
-    rest = [vector.tell_part(cure.sense) for vector in turning if not vector.is_whole(cure.sense)]
+    turning = _list_turning(cure, parts)
+    whole = [f"the {part.kind.name}" for part in turning if part.is_whole(cure.sense)]
+    rest = [part.tell_vector(cure.sense) for part in turning if not part.is_whole(cure.sense)]
     if rest:
         whole.append(f"the other {' and '.join(rest)}")
     return " and ".join(whole)
 
 
-def _list_turning(cure: Cure, vectors: Sequence[_Vector]) -> list[_Vector]:
+def _list_turning(cure: Cure, parts: Sequence[_PartInWords]) -> list[_PartInWords]:
     """Return the force and moment of which a part worth naming turns as the device does."""
-    turning = [vector for vector in vectors if not vector.is_whole(-cure.sense)]
-    return turning or [vector for vector in vectors if vector.find_part(cure.sense)]
+    turning = [part for part in parts if not part.is_whole(-cure.sense)]
+    return turning or [part for part in parts if part.find_vector(cure.sense)]
 
 
 def name_cure(cure: Cure) -> str:

@@ -210,10 +210,7 @@ def size_cell(
 
 
 def degrees(value: float, turn: float = 360) -> str:
-    """Return an angle rounded to a tenth of a degree, or a dash for nan.
-
-    Minus half a period is shown as plus half a period, and 360 as 0. Otherwise rounding errors
-    would decide which of two equal angles is shown.
+    """Return an angle as text, rounded by `round_degrees`, or a dash for nan.
 
     Args:
         value: Angle, deg.
@@ -221,10 +218,23 @@ def degrees(value: float, turn: float = 360) -> str:
     """
     if math.isnan(value):
         return UNKNOWN
+    return f"{round_degrees(value, turn):.1f}"
+
+
+def round_degrees(value: float, turn: float = 360) -> float:
+    """Return an angle rounded to a tenth of a degree.
+
+    Minus half a period becomes plus half a period, and 360 becomes 0. Otherwise rounding errors
+    would decide which of two equal angles is shown.
+
+    Args:
+        value: Angle, deg.
+        turn: Period of the angle, deg: 360, or 180 for undirected lines.
+    """
     tenths = round(round(value, 6), 1) + 0.0
     if tenths == -turn / 2:
-        tenths = turn / 2
-    return "0.0" if tenths == 360 else f"{tenths:.1f}"
+        return turn / 2
+    return 0.0 if tenths == 360 else tenths
 
 
 VISIBLE = 1e-3  # amplitudes below this share of the largest one are invisible in pictures
