@@ -140,13 +140,13 @@ class Candidate:
         force of order 1. The force and the moment (divided by the engine length) have such a
         vector, and the larger counts; if the positions are not known, only that of the force.
         """
-        force, moment = (float(abs(p.backward[0])) for p in self.balance)
+        force, moment = (float(abs(phasors.backward[0])) for phasors in self.balance)
         cylinders = self.parts.cylinders
         mass = max(float(each.reciprocating) for each in self.parts.weighed.values())
         radius = float(np.max(cylinders.radius))
         of_cylinder = mass * radius * (self.model.operation.speed * RPM) ** 2
         length = max(float(np.ptp(cylinders.z)), 2 * radius)
-        largest = max(force, self._places_known * moment / length)
+        largest = max(force, moment / length) if self._places_known else force
         return largest / (of_cylinder or np.inf)
 
     @property
@@ -159,11 +159,14 @@ class Candidate:
         place of the numbering. With one rod on each throw, numbering along the crank comes before
         numbering bank by bank.
         """
-        place = self.place
+        place = self.place  # 0: bank by bank, 1: along the crank
         if self.parts.plan.rods_on_throw == 1:
             place = {0: 1, 1: 0}.get(place, place)
-        left = (float(abs(p.backward[0]) + p.major[1]) for p in self.balance)
-        return *(float(f"{size:.6g}") for size in left), abs(self.model.crank.splay), place
+        left = []
+        for phasors in self.balance:
+            size = float(abs(phasors.backward[0]) + phasors.major[1])
+            left.append(float(f"{size:.6g}"))  # rounding errors must not decide
+        return *left, abs(self.model.crank.splay), place
 
     # -------------------------------------------------------------- in words
     def describe(self) -> str:

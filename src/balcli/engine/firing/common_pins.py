@@ -29,16 +29,16 @@ def find_angle_between_banks(parts: Parts) -> float:
 
 def list_common_pin_intervals(parts: Parts) -> list[Intervals]:
     """Return the possible firing intervals of a vee with two rods on each pin, deg, without
-    duplicates: those of evenly spaced cranks, and two alternating ones.
+    duplicates: two alternating ones, then those of evenly spaced cranks.
 
     Args:
         parts: Stages of an engine whose cylinders have their numbers.
     """
     two_stroke = parts.model.layout.strokes == 2
-    found = list(_list_alternating(parts))
+    intervals = list(_list_alternating(parts))
     if two_stroke or parts.plan.throws <= MOST_PINS:
-        found += list_evenly_spaced(parts)
-    return list(dict.fromkeys(found))
+        intervals += list_evenly_spaced(parts)
+    return list(dict.fromkeys(intervals))
 
 
 def _list_alternating(parts: Parts) -> Iterator[Intervals]:

@@ -23,7 +23,8 @@ MOST_INTERVALS = 3  # largest number of lists of firing intervals in a hint
 def describe_changes(
     parts: Parts, usual: Sequence[Candidate] = (), with_numbering: Rows | None = None
 ) -> str:
-    """Return a sentence that proposes changes; empty if none helps.
+    """Return a sentence that proposes changes, to be added to a message: it begins with the full
+    stop of the message. Return an empty text if no change helps.
 
     The first kind of change that helps is proposed: intervals that begin one firing later and a
     usual numbering, cylinders that fire together, other throws, and common pins or split pins.
@@ -82,8 +83,9 @@ def _describe_throws(parts: Parts) -> list[str]:
     if given is None:
         return []
     opposite = tuple(-throw % TURN for throw in given)
-    for setting in _keep_fitting(parts, "crank.throws", [opposite]):
-        return [f"{setting} (angles count in the direction of rotation)"]
+    turned = _keep_fitting(parts, "crank.throws", [opposite])
+    if turned:
+        return [f"{turned[0]} (angles count in the direction of rotation)"]
     free = Parts(parts.model.with_table("crank", throws=None))
     whole_order = len(parts.order or ()) == len(parts.plan.cells)
     if len(given) == 1 or not whole_order or is_flat_two_stroke(free):
@@ -101,8 +103,8 @@ def _describe_pins(parts: Parts) -> list[str]:
     engine = Candidate(parts.model)
     common = list_with_common_pins([engine])[:1]
     split = list_with_split_pins([engine])
-    found = [str(setting) for each in (*common, *split) for setting in each.settings]
+    changes = [str(setting) for other in (*common, *split) for setting in other.settings]
     if split and not common and may_fire_unevenly(parts):
         angle = describe_pin_angle(parts)
-        found.insert(0, f"the layout.firing_intervals of common pins ({angle})")
-    return found
+        changes.insert(0, f"the layout.firing_intervals of common pins ({angle})")
+    return changes

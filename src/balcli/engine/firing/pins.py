@@ -39,7 +39,9 @@ def list_with_common_pins(candidates: Iterable[Candidate]) -> list[Candidate]:
 
 
 def _measure_unevenness(engine: Candidate) -> float:
-    """Return a number that is lower the larger the smallest firing interval is."""
+    """Return minus the smallest firing interval, deg: the larger this interval is, the more even is
+    the firing. It is rounded, so that rounding errors do not decide.
+    """
     return -round(min(engine.model.layout.firing_intervals or (0.0,)), 3)
 
 

@@ -204,15 +204,16 @@ def _list_engines(parts: Parts, engines: Sequence[Candidate]) -> Problem:
     count = f"one of {len(engines)} engines" if len(engines) > 1 else "this engine"
     if has_open_letters(parts) and not is_flat_two_stroke(parts):
         path = "layout.firing_order"
-        told = f"{order} may mean {count}, for either bank may have either letter"
+        message = f"{order} may mean {count}, for either bank may have either letter"
     else:
         path = "layout.firing_intervals" if is_flat_two_stroke(parts) else "layout.numbering"
-        told = f"is missing, and with the firing order {order} the file may mean {count}"
-    return _list_lines(path, told, _describe_engines(engines))
+        message = f"is missing, and with the firing order {order} the file may mean {count}"
+    return _join_lines(path, message, _describe_engines(engines))
 
 
-def _list_lines(path: str, told: str, lines: Sequence[str]) -> Problem:
-    return Problem(path, "\n    ".join([f"{told}:", *lines, FREE_END]))
+def _join_lines(path: str, message: str, lines: Sequence[str]) -> Problem:
+    """Return a mistake whose message is followed by a list, a line for each engine."""
+    return Problem(path, "\n    ".join([f"{message}:", *lines, FREE_END]))
 
 
 def _describe_engines(engines: Sequence[Candidate]) -> list[str]:
@@ -244,10 +245,10 @@ def _list_remedies(parts: Parts) -> Problem:
         lines.insert(0, f"common pins: give layout.firing_intervals ({describe_pin_angle(parts)})")
     order = write_order(parts.order or ())
     if has_open_letters(parts):
-        told = f"{order} fits no way to give the letters to the banks; it may mean"
-        return _list_lines("layout.firing_order", told, lines)
-    told = f"is missing, and the firing order {order} fits no usual numbering; it may mean"
-    return _list_lines("layout.numbering", told, lines)
+        message = f"{order} fits no way to give the letters to the banks; it may mean"
+        return _join_lines("layout.firing_order", message, lines)
+    message = f"is missing, and the firing order {order} fits no usual numbering; it may mean"
+    return _join_lines("layout.numbering", message, lines)
 
 
 def _describe_unfit(parts: Parts, first_tier: Sequence[Candidate]) -> Problem:
@@ -260,9 +261,9 @@ def _describe_unfit(parts: Parts, first_tier: Sequence[Candidate]) -> Problem:
     order = first_tier[0].parts.order
     if not has_open_letters(parts) or not isinstance(order, NamedOrder):
         return missed._replace(message=f"{missed.message}, or give layout.numbering{hint}")
-    told = f"{order.text} fits no way to give the letters to the banks. If "
-    told += f"{describe_letters(order)}, {missed.message}{hint}"
-    return Problem("layout.firing_order", told)
+    message = f"{order.text} fits no way to give the letters to the banks. If "
+    message += f"{describe_letters(order)}, {missed.message}{hint}"
+    return Problem("layout.firing_order", message)
 
 
 def _describe_changes_of(candidate: Candidate) -> str:

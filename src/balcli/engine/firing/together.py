@@ -57,7 +57,7 @@ def list_flat_intervals(cylinders: int) -> list[Intervals]:
 def list_intervals_of_crank(parts: Parts) -> list[Intervals]:
     """Return the firing intervals with which a four-stroke fits its crank if some cylinders fire
     together, deg. Dead centres at one crank angle are 0 or 360 deg apart. Intervals that begin with
-    0 come first, and those with the fewest cylinders that fire together.
+    0 come first; then those with the fewest cylinders one after the other that fire together.
 
     Args:
         parts: Stages of an engine; its file gives throws and a firing order.
@@ -75,8 +75,8 @@ def list_intervals_of_crank(parts: Parts) -> list[Intervals]:
     if not 0 <= turns < len(coincident):
         return []
     ways = islice(combinations(reversed(coincident), turns), MOST_WAYS_TRIED)
-    found = [_set_turns(intervals, apart) for apart in ways]
-    return sorted(found, key=lambda each: (each[0] > 0, _count_most_together(each)))
+    fitting = [_set_turns(intervals, apart) for apart in ways]
+    return sorted(fitting, key=lambda listed: (listed[0] > 0, _count_most_together(listed)))
 
 
 def _is_whole_turn(angle: float) -> bool:
