@@ -5,14 +5,22 @@ import os
 import shutil
 import sys
 
+import numpy as np
 import pytest
 from support.engines import GOOD, changed
 from support.paths import ENGINES, write
 
 from balcli.regression.recording import find_record
+from balcli.regression.records import Difference
+from balcli.regression.show import describe_difference
 from balcli.version import __version__
 
 ADVICE = "; check --update records what is wanted"
+
+
+def test_two_numbers_that_differ_in_the_last_digit_are_shown_with_it():
+    difference = Difference("force", "order 2 force major", 1.0, float(np.nextafter(1.0, 2.0)), unit="N")
+    assert describe_difference(difference) == "order 2 force major: 1 -> 1.0000000000000002 N"
 
 
 def test_a_changed_input_is_named_before_what_follows_from_it(check, file):

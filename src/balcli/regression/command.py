@@ -82,10 +82,10 @@ def check(
         raise ArgumentError("{update} records, {tolerance} is for comparing: give one of them")
     files = find_engine_files(paths)
     expected = find_expected(paths)
-    found = {*files} - {*paths}
+    in_folders = {*files} - {*paths}
     work = partial(_check_file, update=update, tolerance=tolerance)
     with reporting_until_stopped("engines", len(files)) as progress:
-        results, others = try_each(each_until_stopped(files, progress), work, found)
+        results, others = try_each(each_until_stopped(files, progress), work, in_folders)
     checked = [*results, *find_abandoned(expected)]
     emit(_render(checked, form or Format.TABLE, updated=update))
     exit_on_errors([*(each.error for each in results if each.error), *others])
@@ -123,8 +123,8 @@ def _check_file(path: Path, *, update: bool, tolerance: float | None) -> Checked
 
 
 def _record(engine: Engine, path: Path, rules: Rules, lines: LineFinder) -> CheckedEngine:
-    """Write the record of an engine, unless its record holds without any tolerance and has the
-    present inputs.
+    """Write the record of an engine, unless its record has the present inputs and holds within the
+    default tolerance; tolerances of the file do not count.
     """
     from .comparison import check_engine
     from .recording import check_target, record_result
@@ -152,8 +152,8 @@ def _refuse(path: Path, error: InputError) -> CheckedEngine:
     ]
     mistakes.sort(key=lambda mistake: mistake.line or 0)
     engine = spell_path(path)
-    told = describe_mistakes(engine, mistakes, error.more)
-    return CheckedEngine(engine=engine, mistakes=tuple(mistakes), error=told)
+    message = describe_mistakes(engine, mistakes, error.more)
+    return CheckedEngine(engine=engine, mistakes=tuple(mistakes), error=message)
 
 
 def _render(checked: Sequence[CheckedEngine], form: Format, *, updated: bool) -> str:

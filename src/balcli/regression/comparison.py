@@ -18,7 +18,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
-from pathlib import Path as FilePath
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -26,6 +26,7 @@ import numpy as np
 from ..core.records import Node
 from ..engine.engine import Engine, take_model
 from ..errors import BalcliError
+from ..file.fields import order_number
 from ..file.lines import LineFinder
 from ..forces.spectrum import Spectra, compute_spectra, find_relevant_orders
 from .inputs import find_changed
@@ -49,7 +50,7 @@ from .recording import (
     list_abandoned,
     read_record,
 )
-from .records import CheckedEngine, Difference, Fault, Path, spell_path
+from .records import CheckedEngine, Difference, Fault, FigurePath, spell_path
 from .rules import Rules, Tolerances, find_broken_limits
 
 PEAK_ANGLE_DEG = 1e-3  # allowed change of a peak's angle; rounding changes it more than the value
@@ -58,17 +59,17 @@ DIRECTION_DEG = 1e-9  # allowed change of a direction; rounding of its computati
 ALWAYS_RECORDED = (1, 2)  # orders that every record shows
 _UNCOMPARED = ("version", INPUTS)  # parts of a record that are no result
 _DIRECTIONS = {"axis_deg": 180.0, "phase_deg": 360.0, "peak_deg": 360.0}  # with their periods
-_PEAKS: Mapping[Path, str] = {
+_PEAKS: Mapping[FigurePath, str] = {
     ("peak", "force_deg"): "force",
     ("peak", "moment_deg"): "moment",
 }
 
 
-Figures = Mapping[Path, Any]
+Figures = Mapping[FigurePath, Any]
 
 
 # ------------------------------------------------------------------ engines and records
-def check_engine(engine: Engine, file: FilePath, rules: Rules, lines: LineFinder) -> CheckedEngine:
+def check_engine(engine: Engine, file: Path, rules: Rules, lines: LineFinder) -> CheckedEngine:
     """Compare an engine with its record, and its quantities with their limits.
 
     Args:
@@ -84,7 +85,7 @@ def check_engine(engine: Engine, file: FilePath, rules: Rules, lines: LineFinder
     return replace(compared, broken_limits=find_broken_limits(engine, rules.limited, lines))
 
 
-def find_abandoned(files: Iterable[FilePath]) -> Iterator[CheckedEngine]:
+def find_abandoned(files: Iterable[Path]) -> Iterator[CheckedEngine]:
     """Yield a difference for each record among `files` whose engine file is missing."""
     for engine_file, record in list_abandoned(files):
         reason = (
@@ -94,14 +95,14 @@ def find_abandoned(files: Iterable[FilePath]) -> Iterator[CheckedEngine]:
         yield _refuse(engine_file, Fault.ABANDONED, reason)
 
 
-def _refuse(file: FilePath, fault: Fault, reason: str) -> CheckedEngine:
+def _refuse(file: Path, fault: Fault, reason: str) -> CheckedEngine:
     """Return the result for an engine that cannot be compared, with the reason as a difference."""
     difference = Difference(cause=None, figure=reason)
     return CheckedEngine(engine=spell_path(file), differences=(difference,), fault=fault)
 
 
 def _compare_with_record(
-    engine: Engine, file: FilePath, tolerances: Tolerances, lines: LineFinder
+    engine: Engine, file: Path, tolerances: Tolerances, lines: LineFinder
 ) -> CheckedEngine:
     record = find_record(file)
     where = f"{record.parent.name}/{spell_path(record.name)}"
@@ -176,16 +177,16 @@ def _leave_out_new(figures: Figures) -> Figures:
     return {path: v for path, v in figures.items() if path[0] != TRAVEL and ASSUMED not in path}
 
 
-def _find_roundings(spectra: Spectra) -> dict[Path, float]:
+def _find_roundings(spectra: Spectra) -> dict[FigurePath, float]:
     """Return the largest change of a figure that rounding can cause, by key and order of the
     quantity; by key alone for peaks. The same bound decides whether an order is balanced. Where
     large forces cancel, the bound may exceed the tolerated share of the remaining force.
     """
-    roundings: dict[Path, float] = {}
+    roundings: dict[FigurePath, float] = {}
     for kind, phasors in spectra.items():
         noise = 2 * np.broadcast_to(phasors.noise, phasors.forward.shape)
         for order, error in zip(phasors.orders, noise, strict=True):
-            roundings[kind.key, f"{order:g}"] = float(error)
+            roundings[kind.key, str(order_number(order))] = float(error)
         roundings[(kind.key,)] = float(noise.sum())
     return roundings
 
@@ -201,19 +202,23 @@ class _Comparison:
     """
 
     def __init__(
-        self, old: Figures, new: Figures, tolerances: Tolerances, roundings: Mapping[Path, float]
+        self,
+        old: Figures,
+        new: Figures,
+        tolerances: Tolerances,
+        roundings: Mapping[FigurePath, float],
     ) -> None:
         self._old = old
         self._new = new
         self._tolerances = tolerances
         self._roundings = roundings
-        self._largest: dict[Path, float] = {}
+        self._largest: dict[FigurePath, float] = {}
         for path, value in (*old.items(), *new.items()):
             if isinstance(value, float) and not path[-1].endswith("_deg"):
                 group = find_group(path)
                 self._largest[group] = max(self._largest.get(group, 0.0), abs(value))
 
-    def is_same(self, path: Path) -> bool:
+    def is_same(self, path: FigurePath) -> bool:
         """Return whether recorded and present figure agree."""
         key = path[-1]
         if path in self._old and path in self._new and self._old[path] == self._new[path]:
@@ -228,47 +233,52 @@ class _Comparison:
             return self._is_same_angle(path)
         return self._is_same_size(path)
 
-    def is_equal_peak(self, engine: Engine, path: Path) -> bool:
+    def is_equal_peak(self, engine: Engine, path: FigurePath) -> bool:
         """Return whether a difference is only that between the angles of two equally high peaks."""
         kind = _PEAKS.get(path)
+        if kind is None:
+            return False
         angles = self._get_both(path)
-        if kind is None or None in angles:
-            return kind is not None  # no angle: a peak of 0, whose value is compared
+        if None in angles:  # a peak of 0 has no angle; its value is compared
+            return True
         curve = compute_spectra(engine, find_relevant_orders(engine), [kind])[kind]
         then, now = np.abs(curve.values(np.radians(np.array(angles, float)))).tolist()
         return bool(then >= now * (1 - self._find_share(path)))
 
-    def describe(self, path: Path) -> Difference:
+    def describe(self, path: FigurePath) -> Difference:
         """Return the record of a difference."""
         before, after = self._get_both(path)
         largest = self._largest.get(find_group(path), 0.0)
         share = None
-        if _is_number(before) and _is_number(after) and largest and not path[-1].endswith("_deg"):
+        are_numbers = _counts_as_number(before) and _counts_as_number(after)
+        if are_numbers and largest and not path[-1].endswith("_deg"):
             share = self._find_change(path) / largest
         is_number = isinstance(after if before is None else before, float)
         unit = find_unit_of(path) if is_number else ""
         return Difference(name_cause(path), describe_figure(path), before, after, share, unit, path)
 
-    def _get_both(self, path: Path) -> tuple[Any, Any]:
+    def _get_both(self, path: FigurePath) -> tuple[Any, Any]:
         """Return recorded and present value; None for one that is missing."""
         return self._old.get(path), self._new.get(path)
 
     # -------------------------------------------------------------- kinds of figures
-    def _is_same_size(self, path: Path) -> bool:
+    def _is_same_size(self, path: FigurePath) -> bool:
         before, after = self._get_both(path)
-        is_null = path in self._old and path in self._new and None in (before, after)
-        if is_null or not (_is_number(before) and _is_number(after)):
+        are_recorded = path in self._old and path in self._new
+        if are_recorded and None in (before, after):  # null is no number; a missing figure is 0
+            return False
+        if not (_counts_as_number(before) and _counts_as_number(after)):
             return False
         return self._find_change(path) <= self._find_allowed(path)
 
-    def _is_same_order(self, path: Path) -> bool:
+    def _is_same_order(self, path: FigurePath) -> bool:
         """Return whether an order may be shown by only one of the two: its figures are compared
         with 0.
         """
         order = self._old.get(path, self._new.get(path))
         return order not in ALWAYS_RECORDED
 
-    def _is_same_angle(self, path: Path) -> bool:
+    def _is_same_angle(self, path: FigurePath) -> bool:
         before, after = self._get_both(path)
         if before is None or after is None:
             return False
@@ -276,12 +286,12 @@ class _Comparison:
         allowed = max(least, 360 * self._find_share(path))
         return _find_turn(before, after, self._find_cycle(path)) <= allowed
 
-    def _find_cycle(self, path: Path) -> float:
+    def _find_cycle(self, path: FigurePath) -> float:
         """Return the period of an angle, deg: a cycle for angles of torque, else a revolution."""
         cycle = self._new.get((path[0], "cycle_deg"), 360)
         return float(cycle)
 
-    def _is_same_direction(self, path: Path) -> bool:
+    def _is_same_direction(self, path: FigurePath) -> bool:
         """Compare the axis of a vector, its phase along an axis, or the peak of a scalar."""
         sizes = (*_find_sizes(self._old, path), *_find_sizes(self._new, path))
         allowed = self._find_allowed(path)
@@ -298,7 +308,7 @@ class _Comparison:
             period /= order
         return _find_turn(before, after, period) <= turn + DIRECTION_DEG
 
-    def _is_same_balance(self, path: Path) -> bool:
+    def _is_same_balance(self, path: FigurePath) -> bool:
         """Return whether rounding or a tolerated change explains that only one is balanced."""
         then = _find_sizes(self._old, path)
         now = _find_sizes(self._new, path)
@@ -307,11 +317,11 @@ class _Comparison:
         return then != now and max(*then, *now) <= self._find_allowed(path)
 
     # -------------------------------------------------------------- allowed changes
-    def _find_change(self, path: Path) -> float:
+    def _find_change(self, path: FigurePath) -> float:
         """Return the change of a number; a missing one counts as 0."""
         return abs((self._new.get(path) or 0.0) - (self._old.get(path) or 0.0))
 
-    def _find_allowed(self, path: Path) -> float:
+    def _find_allowed(self, path: FigurePath) -> float:
         """Return the allowed change of a size, or of the size to which a direction belongs."""
         group = find_group(path)
         tolerance = self._tolerances.find(name_quantities(path))
@@ -322,14 +332,14 @@ class _Comparison:
             rounding = self._roundings.get((group[-1],), 0.0)
         return tolerance.find_change(self._largest.get(group, 0.0)) + rounding
 
-    def _find_share(self, path: Path) -> float:
+    def _find_share(self, path: FigurePath) -> float:
         """Return the allowed change as a share of the largest figure of the group."""
         tolerance = self._tolerances.find(name_quantities(path))
         return tolerance.find_share(self._largest.get(find_group(path), 0.0))
 
 
-def _is_number(value: object) -> bool:
-    """Return whether a value is a number, or missing and so counts as 0."""
+def _counts_as_number(value: object) -> bool:
+    """Return whether a value is a number, or missing, which counts as 0."""
     return value is None or (isinstance(value, (int, float)) and not isinstance(value, bool))
 
 
@@ -338,7 +348,7 @@ def _find_turn(one: float, other: float, period: float) -> float:
     return abs((other - one + period / 2) % period - period / 2)
 
 
-def _find_sizes(figures: Figures, path: Path) -> tuple[float, ...]:
+def _find_sizes(figures: Figures, path: FigurePath) -> tuple[float, ...]:
     """Return the sizes of the vectors to which a direction or `balanced` belongs: the two rotating
     vectors of a force or moment, or the amplitude of a component or scalar. Return () if the
     figures do not have them.

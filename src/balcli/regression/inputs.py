@@ -46,7 +46,7 @@ def list_inputs(model: EngineFile) -> Node:
     """Return the inputs of an engine file by their keys, with those of the engines in [[engine]].
     Name and source of the engine are no inputs, because no figure depends on them.
     """
-    return {each.key: each.value for each in _walk(model)}
+    return {given.key: given.value for given in _walk(model)}
 
 
 def find_changed(
@@ -60,7 +60,7 @@ def find_changed(
         recorded: Inputs of a record, by their keys.
         lines: Finder of the lines in the engine file.
     """
-    present = {each.key: each for each in _walk(model)}
+    present = {given.key: given for given in _walk(model)}
     changed = []
     for key in dict.fromkeys((*present, *recorded)):
         if key in present:
@@ -96,8 +96,8 @@ def _walk(model: EngineFile) -> Iterator[_Input]:
     yield from _walk_file(model, _WITHOUT_EFFECT)
     files = {table.file: crank for table, crank in zip(model.engine, model.cranks, strict=False)}
     for name, crank in files.items():
-        for each in _walk_file(crank, _OF_WHOLE):
-            yield each._replace(key=f"{name}: {each.key}")
+        for given in _walk_file(crank, _OF_WHOLE):
+            yield given._replace(key=f"{name}: {given.key}")
 
 
 def _walk_file(model: EngineFile, without: tuple[str, ...]) -> Iterator[_Input]:

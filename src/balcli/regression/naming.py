@@ -12,7 +12,7 @@ from typing import Any
 
 from ..core.records import find_unit, remove_unit
 from ..forces.kinds import EVERY_KIND, TORQUE, TORQUE_TOTAL
-from .records import Path
+from .records import FigurePath
 
 _KINDS = {kind.key: kind.name for kind in EVERY_KIND.values()}
 _NOUNS = {"orders": "order", "modes": "mode", "travel": "cylinder"}  # of the members of lists
@@ -31,7 +31,7 @@ RECORDED_QUANTITIES = (
 )
 
 
-def list_figures(value: object, path: Path = ()) -> Iterator[tuple[Path, Any]]:
+def list_figures(value: object, path: FigurePath = ()) -> Iterator[tuple[FigurePath, Any]]:
     """Yield all figures and texts of a record, or of a part of it, with their paths."""
     if isinstance(value, dict):
         for key, part in value.items():
@@ -64,7 +64,7 @@ def _label(member: object, number: int, key: str) -> str:
     return str(label)
 
 
-def find_group(path: Path) -> Path:
+def find_group(path: FigurePath) -> FigurePath:
     """Return the group of a figure: the part of the record, and the first key with a unit of size.
     An assumed value is a group by itself. The tolerance of a figure is a share of the largest
     figure of its group.
@@ -80,12 +80,12 @@ def is_size(key: str) -> bool:
     return find_unit(key) not in ("", "deg")
 
 
-def find_unit_of(path: Path) -> str:
+def find_unit_of(path: FigurePath) -> str:
     """Return the unit of a figure; empty if it has none."""
     return find_unit(path[-1]) or find_unit(find_group(path)[1])
 
 
-def name_quantities(path: Path) -> tuple[str, ...]:  # noqa: PLR0911 (one return for each form)
+def name_quantities(path: FigurePath) -> tuple[str, ...]:  # noqa: PLR0911 (one return for each form)
     """Return the names in [check.tolerance] that stand for a figure, from special to general: the
     name of an order (`force.2`), then that of all orders (`force`).
     """
@@ -96,7 +96,7 @@ def name_quantities(path: Path) -> tuple[str, ...]:  # noqa: PLR0911 (one return
                 kinds.append(TORQUE.name)
             return (*(f"{kind}.{order}" for kind in kinds), *kinds)
         case ("peak", key):
-            kind = key.partition("_")[0]
+            kind = remove_unit(key)
             return f"peak.{kind}", "peak", kind
         case ("torque", *_, key):
             return _OF_TORQUE.get(key, "torque"), "torque"
@@ -113,14 +113,14 @@ def name_quantities(path: Path) -> tuple[str, ...]:  # noqa: PLR0911 (one return
     return ()
 
 
-def name_cause(path: Path) -> str:
+def name_cause(path: FigurePath) -> str:
     """Return the quantity of a figure, or the part of the record that has it, for summaries."""
     if path[0] == "engine":  # name, number of cylinders, displacement
         return remove_unit(path[1])
     return next((_KINDS[key] for key in path if key in _KINDS), path[0])
 
 
-def describe_figure(path: Path) -> str:
+def describe_figure(path: FigurePath) -> str:
     """Return the name of a figure in words, such as `order 2 force major`."""
     if ASSUMED in path:
         return " ".join(path[:-1])

@@ -12,7 +12,7 @@ from typing import Annotated, Any, Literal, NamedTuple
 
 from ..core.records import HIDDEN
 
-Path = tuple[str, ...]  # keys from the top of a record, and labels such as `order 2`
+FigurePath = tuple[str, ...]  # keys from the top of a record, and labels: `2` for order 2
 
 
 def spell_path(path: object) -> str:
@@ -69,7 +69,7 @@ class Difference(NamedTuple):
     now: float | bool | str | None = None
     share: float | None = None
     unit: str = ""
-    path: Annotated[Path, HIDDEN] = ()
+    path: Annotated[FigurePath, HIDDEN] = ()
 
 
 class BrokenLimit(NamedTuple):

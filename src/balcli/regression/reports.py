@@ -15,10 +15,10 @@ from .records import CheckedEngine
 from .show import (
     count_engines,
     describe_cause,
+    describe_differences,
     describe_limit,
     find_cause,
     find_line,
-    list_figures,
     summarize,
 )
 
@@ -87,7 +87,7 @@ def _list_failures(checked: CheckedEngine) -> list[str]:
     lines: list[str] = []
     if checked.differences:
         lines.append(describe_cause(find_cause(checked)))
-        lines += list_figures(checked)
+        lines += describe_differences(checked)
     return lines + [describe_limit(broken) for broken in checked.broken_limits]
 
 

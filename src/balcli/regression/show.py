@@ -17,7 +17,7 @@ from .records import BrokenLimit, ChangedInput, CheckedEngine, Difference, Fault
 
 _MOST_NAMED = 3  # number of inputs, or of engines with one cause, that a line names
 _LEAST_DIGITS = 4  # significant digits of a changed figure
-_MOST_DIGITS = 17
+_MOST_DIGITS = 17  # with these, any two different numbers differ
 _COMPONENTS = ("x", "y", "cos", "sin")  # last keys of figures that are parts of a vector's size
 _MOST_PERCENT = 1000  # larger changes are not written in percent
 
@@ -68,7 +68,7 @@ def describe_difference(difference: Difference) -> str:
 
 def _write_numbers(before: float, after: float) -> str:
     """Return two different numbers, with enough digits to tell them apart."""
-    for digits in range(_LEAST_DIGITS, _MOST_DIGITS):
+    for digits in range(_LEAST_DIGITS, _MOST_DIGITS + 1):
         texts = given(before, digits), given(after, digits)
         if texts[0] != texts[1]:
             break
@@ -194,7 +194,7 @@ def list_lines(checked: Sequence[CheckedEngine], *, every_figure: bool = False) 
     if every_figure:
         for each in different:
             yield f"{_locate(each)}: {describe_cause(find_cause(each))}"
-            yield from (f"  {figure}" for figure in list_figures(each))
+            yield from (f"  {line}" for line in describe_differences(each))
     else:
         for cause, engines in _group(different):
             yield from _list_cause(cause, engines)
@@ -203,7 +203,7 @@ def list_lines(checked: Sequence[CheckedEngine], *, every_figure: bool = False) 
             yield f"{_place(each.engine, broken.line)}: {describe_limit(broken)}"
 
 
-def list_figures(checked: CheckedEngine) -> list[str]:
+def describe_differences(checked: CheckedEngine) -> list[str]:
     """Return a line for each changed figure of an engine that was compared."""
     return [describe_difference(each) for each in checked.differences if checked.fault is None]
 
@@ -278,34 +278,34 @@ def _rank(difference: Difference) -> tuple[bool, float]:
 
 def count_engines(checked: Sequence[CheckedEngine]) -> str:
     """Return the last line of a check: how many engines are as recorded, and how many are not."""
-    compared = _list_compared(checked)
-    changed = [each for each in compared if each.differences]
+    engines = _list_read(checked)
+    changed = [each for each in engines if each.differences]
     missing = sum(each.fault is Fault.MISSING for each in changed)
-    total = counted(len(compared), "engine")
+    total = counted(len(engines), "engine")
     others = {
         "changed": len(changed) - missing,
         "without a record": missing,
         **_count_troubles(checked),
     }
     if not any(others.values()):
-        return f"{total}, all as recorded" if len(compared) > 1 else f"{total}, as recorded"
-    counts = {"as recorded": len(compared) - len(changed)} | others
+        return f"{total}, all as recorded" if len(engines) > 1 else f"{total}, as recorded"
+    counts = {"as recorded": len(engines) - len(changed)} | others
     advice = "; check --update records what is wanted" if others["changed"] else ""
     return f"{total}: {_join_counts(counts)}{advice}"
 
 
 def count_recorded(checked: Sequence[CheckedEngine]) -> str:
     """Return the last line of `check --update`: how many records were written."""
-    compared = _list_compared(checked)
-    written = sum(each.written for each in compared)
-    others = {"as recorded before": len(compared) - written, **_count_troubles(checked)}
+    engines = _list_read(checked)
+    written = sum(each.written for each in engines)
+    others = {"as recorded before": len(engines) - written, **_count_troubles(checked)}
     listed = _join_counts(others)
     first = f"{counted(written, 'engine')} recorded"
     return f"{first}, {listed}" if listed else first
 
 
-def _list_compared(checked: Sequence[CheckedEngine]) -> list[CheckedEngine]:
-    """Return the engines whose files could be read."""
+def _list_read(checked: Sequence[CheckedEngine]) -> list[CheckedEngine]:
+    """Return the engines whose files could be read, with or without a record."""
     return [each for each in checked if each.error is None and each.fault != Fault.ABANDONED]
 
 
