@@ -103,3 +103,10 @@ def test_places_that_are_not_known_leave_the_moment_out():
     tables = SINGLE | {"crank": {"stroke": 80, "throws": [0, 120], "throw_mass": 0.1}}
     comparison = compare_schemes(engine(**tables))
     assert {row.peak_moment_Nm for row in comparison.schemes} == {None}
+
+
+def test_every_scheme_that_is_left_out_has_a_reason():
+    """Of balanced cranks that are geared together, where most schemes have nothing to do."""
+    comparison = compare_schemes(load_example("brm_h16"))
+    assert [unfit.scheme for unfit in comparison.left_out if not unfit.reason] == []
+    assert {"auto", "complete"} <= {unfit.scheme for unfit in comparison.left_out}

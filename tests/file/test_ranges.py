@@ -203,3 +203,14 @@ def test_positions_that_do_not_rise_are_doubted():
     for positions, doubted in (([-90, 0, 90], False), ([-90, 90, 0], True), ([90, 0, -90], True)):
         tables = strip(make(crank={"positions": positions, "spacing": None}))
         assert ("crank.positions" in list_doubted(tables)) == doubted
+
+
+@pytest.mark.parametrize("size", [25.4, 1000.0])
+def test_the_unit_that_is_proposed_is_read_as_such(size):
+    """Spacing in inches or metres: what the doubt proposes gives the right spacing, and no doubt."""
+    bare = 90 / size
+    (doubt,) = find_suspicious(parse(tomli_w.dumps(make(crank={"spacing": bare}))))
+    proposed = doubt.message.rpartition('write it: "')[2].rstrip('"')
+    model = parse(tomli_w.dumps(make(crank={"spacing": proposed})))
+    assert model.crank.spacing == pytest.approx(90, rel=1e-4)
+    assert find_suspicious(model) == []

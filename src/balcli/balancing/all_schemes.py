@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Annotated, Literal, NamedTuple
 
-from ..analysis.answer import Analysis
+from ..analysis.answer import Analysis, analyze
 from ..core.records import HIDDEN
 from ..engine.engine import Engine, check_engine
 from ..errors import ArgumentError, BalcliError, name_option, tell
@@ -32,12 +32,15 @@ from ..show.sheet import (
 from ..show.units import System
 from ..sizing.ladder import find_ladder
 from ..sizing.options import DESIGNS, LADDER, SCHEMES, SchemeOptions
-from .answer import Balance, balance
+from ..sizing.remedy import Remedy, fit_devices
+from ..sizing.sizing import size
+from ..sizing.workshop import Tools, find_practical
 
 AS_DRAWN = "as drawn"
 # Schemes whose devices no engine file can describe
 _ECCENTRIC_SLIDER = "eccentric-slider"
 _OLDHAM = "oldham"
+_NO_DEVICE = "it fits no device to this engine"
 
 
 class SchemeResult(NamedTuple):
@@ -115,23 +118,27 @@ def compare_schemes(engine: Engine) -> SchemeComparison:
         >>> compare_schemes(load_example("single")).schemes[1].force_share
     """
     check_engine("compare_schemes", engine)
-    scale = find_ladder(engine, SMALL).scale.force_N
-    rows: list[SchemeResult] = []
+    ladder = find_ladder(engine, SMALL)
+    scale = ladder.scale.force_N
+    rows = [_measure(AS_DRAWN, None, analyze(engine), scale, 0, 0.0)]
     left_out: list[Unfit] = []
     for scheme, design in _list_schemes():
         try:
-            balanced = balance(engine, scheme, SchemeOptions(design=design))
+            if scheme in LADDER:
+                remedy = ladder.fit(None)
+            else:
+                remedy = size(engine, scheme, SchemeOptions(design=design))
         except BalcliError as error:
             reason = error.message if isinstance(error, ArgumentError) else str(error)
             left_out.append(Unfit(scheme, reason))
             continue
-        if not rows:
-            rows.append(_measure(AS_DRAWN, None, balanced.before, scale, 0, 0.0))
-        if not balanced.remedy.devices and not balanced.remedy.beyond:
-            left_out.append(Unfit(scheme, balanced.remedy.note))
+        if not remedy.devices and not remedy.beyond:
+            left_out.append(Unfit(scheme, remedy.note or _NO_DEVICE))
             continue
-        parts, mass = _count_parts(balanced)
-        rows.append(_measure(scheme, design, balanced.after, scale, parts, mass))
+        start = engine if remedy.start is None else remedy.start
+        parts, mass = _count_parts(start, remedy)
+        left = analyze(fit_devices(start, remedy))
+        rows.append(_measure(scheme, design, left, scale, parts, mass))
     unique = {unfit.scheme: unfit for unfit in left_out}
     return SchemeComparison(
         scale_N=scale, schemes=tuple(rows), left_out=tuple(unique.values()), engine=engine
@@ -139,7 +146,9 @@ def compare_schemes(engine: Engine) -> SchemeComparison:
 
 
 def _list_schemes() -> Iterator[tuple[str, str | None]]:
-    """Yield each scheme that can do without options, with its designs."""
+    """Yield each scheme but the rows of the ladder, with its designs. A scheme that needs an option
+    is left out by its error.
+    """
     for scheme in SCHEMES:
         if scheme == _ECCENTRIC_SLIDER:
             yield from ((scheme, design) for design in DESIGNS)
@@ -167,13 +176,12 @@ def _measure(
     )
 
 
-def _count_parts(balanced: Balance) -> tuple[int, float]:
+def _count_parts(engine: Engine, remedy: Remedy) -> tuple[int, float]:
     """Return number and mass of a scheme's parts. An eccentric slider is a pair of equal shafts.
     Two Oldham couplings are two weights and two blocks, each of one mass.
     """
-    remedy = balanced.remedy
     parts = len(remedy.devices)
-    mass = sum(device.mass_kg for device in balanced.practical)
+    mass = sum(device.mass_kg for device in find_practical(engine, remedy, Tools()))
     if remedy.scheme == _ECCENTRIC_SLIDER:
         return parts + 2, mass + 2 * remedy.details["fitted"]["mass_kg"]
     if remedy.scheme == _OLDHAM:
@@ -227,9 +235,9 @@ def _tell_order(row: SchemeResult) -> str:
     return UNKNOWN if row.roll_order is None else order_name(row.roll_order)
 
 
-def list_rows(found: SchemeComparison, _system: System) -> Rows:
+def list_rows(comparison: SchemeComparison, _system: System) -> Rows:
     """Return CSV with a line for each scheme, in SI units."""
-    return Rows(SchemeResult._fields, found.schemes)
+    return Rows(SchemeResult._fields, comparison.schemes)
 
 
 RENDERER = Renderer(sheet=sheet, rows=list_rows)

@@ -13,9 +13,17 @@ import numpy as np
 
 from .doubt import Doubt, Figure, doubt_figures, walk_figures
 from .fields import count_lambda_digits
-from .model import PISTON_PARTS, EngineFile
+from .model import EngineFile
 from .plain_tables import list_tables
-from .ranges import find_radians, find_unusual, list_ranges
+from .ranges import (
+    ABSOLUTE_PRESSURE,
+    MASSES_OF_PISTON,
+    find_radians,
+    find_unusual,
+    list_ranges,
+    weigh_piston,
+    weigh_rod,
+)
 from .units import ask_unit
 
 # The mass of similar pistons grows with the cube of the bore. With pin and rings, aluminium pistons
@@ -42,11 +50,10 @@ SLOW_SPEED = 250.0  # rpm
 SLOW_BORES = 2.0  # largest usual stroke of a slow four-stroke engine, bores
 OFFSET = 0.2  # largest offset / stroke: up to 0.05 is usual, in narrow-angle vees up to 0.15
 MAX_PRESSURE = 500.0  # largest cylinder pressure, bar; engines have 50 to 250
-# Absolute pressures: 0.26 bar at an altitude of 10 km, 10 bar after two stages of charging; figures
-# in psi or MPa lie outside. Mean pressures: 8 to 30 bar is usual, racing engines had 50; 7 bar
-# are 100 psi, and 100 lies outside.
+# Mean pressures: 8 to 30 bar is usual, racing engines had 50; 7 bar are 100 psi, and 100 lies
+# outside.
 PRESSURES = {
-    **dict.fromkeys(("intake", "exhaust", "crankcase"), (0.15, 12.0, " bar absolute")),
+    **dict.fromkeys(("intake", "exhaust", "crankcase"), (*ABSOLUTE_PRESSURE, " bar absolute")),
     **dict.fromkeys(("imep", "bmep"), (0.0, 60.0, " bar")),
     "max_pressure": (0.0, MAX_PRESSURE, " bar"),
 }
@@ -74,8 +81,6 @@ DEGREES = (
 RADIANS = 'bare numbers are degrees; give radians as in "1.3 rad"'
 OFF_AXIS = "is it in kg? It is the unbalanced mass of one throw, not the mass of the crankshaft"
 GRAMS = 'is it in kg? Give grams as in "47 g"'
-# Keys on which the mass of a piston depends
-_MASSES_OF_PISTON = (*(f"piston.{key}" for key in ("mass", *PISTON_PARTS)), "crosshead.mass")
 
 
 def find_suspicious(model: EngineFile) -> list[Doubt]:
@@ -124,7 +129,7 @@ def doubt_losses(path: str, tables: object) -> Iterator[Doubt]:
 
 def _find_missing(model: EngineFile) -> Iterator[Doubt]:
     """Yield warnings for keys that were probably forgotten, and for keys that contradict others."""
-    if _weigh_piston(model) == 0:
+    if weigh_piston(model) == 0:
         yield Doubt("piston.mass", "0 kg; give the mass of piston, pin, rings and locks")
     if model.rod.mass and model.rod.cg is None:
         yield Doubt("rod.cg", "is not given, and 0 is taken; measure it from the big-end centre")
@@ -174,7 +179,7 @@ def _list_pistons(model: EngineFile) -> Iterator[Figure]:
     bore = model.piston.bore
     speed = model.operation.speed
     stroke = max(strokes)
-    if mass := _weigh_piston(model):
+    if mass := weigh_piston(model):
         yield _describe_piston(model, mass)
     if bore is not None:
         for each in dict.fromkeys(strokes):
@@ -227,14 +232,14 @@ def _describe_piston(model: EngineFile, mass: float) -> Figure:
         unit=unit,
         hint="are the units right? Bare numbers are kg and mm",
         subject=subject,
-        also=_MASSES_OF_PISTON,
+        also=MASSES_OF_PISTON,
     )
 
 
 def _list_rods(model: EngineFile) -> Iterator[Figure]:
     rod = model.rod
-    mass = _weigh_rod(model)
-    piston = _weigh_piston(model)
+    mass = weigh_rod(model)
+    piston = weigh_piston(model)
     length = rod.length or (max(model.crank.strokes) / 2 / rod.ratio if rod.ratio else math.inf)
     for stroke in dict.fromkeys(model.crank.strokes) if rod.motion == "exact" else ():
         yield _describe_ratio(model, rod.ratio or stroke / 2 / length)
@@ -247,7 +252,7 @@ def _list_rods(model: EngineFile) -> Iterator[Figure]:
             unit=" times the piston",
             hint=SAME_UNIT,
             subject=f"the rod weighs {mass:.4g} kg,",
-            also=("rod.big_end", *_MASSES_OF_PISTON),
+            also=("rod.big_end", *MASSES_OF_PISTON),
         )
     if rod.small_end is not None and rod.big_end is not None:
         exchanged = "are small_end and big_end exchanged?"
@@ -296,7 +301,7 @@ def _list_cranks(model: EngineFile) -> Iterator[Figure]:
     if bank := model.layout.bank_angle:
         yield Figure("layout.bank_angle", bank, BANK, math.inf, " deg", RADIANS)
     throws, rods = _count_throws_and_rods(model)
-    one = _weigh_piston(model) + _weigh_rod(model)
+    one = weigh_piston(model) + weigh_rod(model)
     radius = max(crank.strokes) / 2
     throw_mass = max(crank.throw_masses)
     if one:
@@ -354,18 +359,6 @@ def _has_crosshead(model: EngineFile) -> bool:
     return model.crosshead.mass > 0 or (
         bore is not None and max(model.crank.strokes) > LONG_STROKE * bore
     )
-
-
-def _weigh_piston(model: EngineFile) -> float:
-    """Return the mass of a whole piston with its crosshead, kg."""
-    parts = sum(getattr(model.piston, key) or 0.0 for key in ("mass", *PISTON_PARTS))
-    return parts + model.crosshead.mass
-
-
-def _weigh_rod(model: EngineFile) -> float:
-    """Return the mass of a rod, kg; 0 if the file gives none."""
-    rod = model.rod
-    return rod.mass or (rod.small_end or 0.0) + (rod.big_end or 0.0)
 
 
 def _count_throws_and_rods(model: EngineFile) -> tuple[int, int]:

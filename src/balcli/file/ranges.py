@@ -11,12 +11,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import pairwise
-from typing import NamedTuple, TypeGuard
+from typing import NamedTuple
 
 from .doubt import Figure, walk_figures
 from .fields import WrittenFigure
 from .model import PISTON_PARTS, Counterweight, EngineFile, Shaft, Slider
 from .plain_tables import list_tables
+from .units import INERTIA, LENGTH, PRESSURE, UNBALANCE, Dimension, convert
 
 
 class Sizes(NamedTuple):
@@ -47,6 +48,18 @@ class Sizes(NamedTuple):
         return max(self.stroke, self.bore)
 
 
+def weigh_piston(model: EngineFile) -> float:
+    """Return the mass of a whole piston with its crosshead, kg."""
+    parts = sum(getattr(model.piston, key) or 0.0 for key in ("mass", *PISTON_PARTS))
+    return parts + model.crosshead.mass
+
+
+def weigh_rod(model: EngineFile) -> float:
+    """Return the mass of a rod, kg; 0 if the file gives none."""
+    rod = model.rod
+    return rod.mass or (rod.small_end or 0.0) + (rod.big_end or 0.0)
+
+
 def measure(model: EngineFile) -> Sizes:
     """Return the figures of a file with which others are compared."""
     stroke = max(model.crank.strokes)
@@ -55,14 +68,12 @@ def measure(model: EngineFile) -> Sizes:
     length = rod.length or 0.0
     if rod.ratio:
         length = stroke / 2 / rod.ratio
-    of_rod = rod.mass or (rod.small_end or 0.0) + (rod.big_end or 0.0)
-    of_piston = sum(getattr(piston, key) or 0.0 for key in ("mass", *PISTON_PARTS))
     return Sizes(
         stroke=stroke,
         bore=piston.bore or stroke,
         bore_known=piston.bore is not None,
         rod=length,
-        mass=of_rod + of_piston + model.crosshead.mass,
+        mass=weigh_piston(model) + weigh_rod(model),
     )
 
 
@@ -73,8 +84,8 @@ class Range(NamedTuple):
         figures: Figures with their dotted names.
         least: Lower end.
         most: Upper end.
-        unit: Unit of bare numbers.
-        others: Other units that may be meant, each with its size in bare numbers.
+        dimension: Dimension of the figures, with the unit of bare numbers.
+        others: Other units that may be meant.
         basis: Figure on which the range depends, in words.
         subject: Name of the figure with a verb, if it is not the value of the key itself.
         hint: Remedy; empty: that the figure has another unit.
@@ -84,30 +95,29 @@ class Range(NamedTuple):
     figures: Sequence[tuple[str, float]]
     least: float
     most: float
-    unit: str
-    others: tuple[tuple[str, float], ...]
+    dimension: Dimension
+    others: tuple[str, ...]
     basis: str
     subject: str = ""
     hint: str = ""
     also: tuple[str, ...] = ()
 
 
-# Units that may be meant, with their sizes in the unit of bare numbers
-_LENGTHS = (("in", 25.4), ("m", 1000.0))
-_PRESSURES = (("MPa", 10.0), ("psi", 0.0689476), ("kPa", 0.01))
-_INERTIAS = (("kg m^2", 1e6), ("kg cm^2", 100.0), ("g m^2", 1e3))
-_UNBALANCES = (("kg mm", 1e3), ("g cm", 10.0), ("oz in", 720.0), ("kg m", 1e6))
-_INTAKES = 0.15, 12.0  # usual pressures of the intake, bar
+# Units that may be meant, the likeliest first
+_LENGTHS = ("in", "m")
+_PRESSURES = ("MPa", "psi", "kPa")
+_INERTIAS = ("kg m^2", "kg cm^2", "g m^2")
+_UNBALANCES = ("kg mm", "g cm", "oz in", "kg m")
+# Absolute pressures: 0.26 bar at an altitude of 10 km, 10 bar after two stages of charging; figures
+# in psi or MPa lie outside.
+ABSOLUTE_PRESSURE = 0.15, 12.0  # bar
 # Keys on which ranges depend
 _STROKE = ("crank.stroke",)
 _BORE = ("piston.bore", *_STROKE)
 _ROD = ("rod.length", "rod.ratio")
-_MASSES = (
-    *_STROKE,
-    *(f"piston.{key}" for key in ("mass", *PISTON_PARTS)),
-    *("crosshead.mass", "rod.mass", "rod.small_end", "rod.big_end"),
-)
-_SPECIFIC = 1e3  # g in a kg: unbalances are in g mm
+MASSES_OF_PISTON = (*(f"piston.{key}" for key in ("mass", *PISTON_PARTS)), "crosshead.mass")
+_MASSES = (*_STROKE, *MASSES_OF_PISTON, "rod.mass", "rod.small_end", "rod.big_end")
+_GRAMS = 1e3  # in a kg: unbalances are in g mm
 
 
 def list_ranges(model: EngineFile) -> Iterator[Range]:
@@ -120,7 +130,7 @@ def list_ranges(model: EngineFile) -> Iterator[Range]:
         figures=[("layout.stagger", model.layout.stagger)],
         least=0.02 * size.bore,
         most=size.wide,
-        unit="mm",
+        dimension=LENGTH,
         others=_LENGTHS,
         basis=bore,
         also=_BORE,
@@ -132,7 +142,7 @@ def list_ranges(model: EngineFile) -> Iterator[Range]:
             figures=[("rod.cg", cg)],
             least=0.1 * size.rod,
             most=math.inf,
-            unit="mm",
+            dimension=LENGTH,
             others=_LENGTHS,
             basis=f"a rod of {size.rod:g} mm",
             hint=share,
@@ -142,7 +152,7 @@ def list_ranges(model: EngineFile) -> Iterator[Range]:
         figures=[("piston.offset", model.piston.offset)],
         least=0.001 * size.stroke,
         most=math.inf,
-        unit="mm",
+        dimension=LENGTH,
         others=_LENGTHS,
         basis=stroke,
         also=_STROKE,
@@ -152,7 +162,7 @@ def list_ranges(model: EngineFile) -> Iterator[Range]:
             figures=[("articulation.knuckle_radius", model.articulation.knuckle_radius)],
             least=0.2 * size.radius,
             most=1.5 * size.radius,
-            unit="mm",
+            dimension=LENGTH,
             others=_LENGTHS,
             basis=f"a crank radius of {size.radius:g} mm",
             also=_STROKE,
@@ -177,7 +187,7 @@ def _list_places_of_throws(model: EngineFile, size: Sizes, bore: str) -> Iterato
         figures=gaps,
         least=least,
         most=10 * size.wide,
-        unit="mm",
+        dimension=LENGTH,
         others=_LENGTHS,
         basis=bore,
         subject="" if crank.positions is None else "the distance of two neighbours is",
@@ -186,26 +196,27 @@ def _list_places_of_throws(model: EngineFile, size: Sizes, bore: str) -> Iterato
 
 
 def _list_devices(model: EngineFile, size: Sizes, stroke: str) -> Iterator[Range]:
-    unbalance = size.mass * _SPECIFIC * size.radius
+    unbalance = size.mass * _GRAMS * size.radius
     for kind in (Counterweight, Shaft, Slider):
-        tables = [(path, table) for path, table in model.tables() if isinstance(table, kind)]
-        places = [(f"{path}.position", table.position) for path, table in tables]
-        yield Range(places, 0.005 * size.stroke, math.inf, "mm", _LENGTHS, stroke, also=_STROKE)
-        radii = [(f"{path}.radius", getattr(table, "radius", None)) for path, table in tables]
-        known = [(path, radius) for path, radius in radii if radius is not None]
-        yield Range(known, 0.1 * size.stroke, 5 * size.stroke, "mm", _LENGTHS, stroke, also=_STROKE)
-        sizes = [(f"{path}.unbalance", table.unbalance) for path, table in tables]
-        given = [(path, abs(size)) for path, size in sizes if _is_number(size)]
+        places = []
+        radii = []
+        given = []
+        for path, table in model.tables():
+            if not isinstance(table, kind):
+                continue
+            places.append((f"{path}.position", table.position))
+            radii.append((f"{path}.radius", table.radius or 0.0))
+            if table.unbalance is not None and not table.to_fit:
+                given.append((f"{path}.unbalance", abs(table.unbalance)))
+        yield Range(places, 0.005 * size.stroke, math.inf, LENGTH, _LENGTHS, stroke, also=_STROKE)
+        yield Range(
+            radii, 0.1 * size.stroke, 5 * size.stroke, LENGTH, _LENGTHS, stroke, also=_STROKE
+        )
         if unbalance:
             basis = f"rods and pistons of {size.mass:.4g} kg"
             yield Range(
-                given, 0.001 * unbalance, math.inf, "g mm", _UNBALANCES, basis, also=_MASSES
+                given, 0.001 * unbalance, math.inf, UNBALANCE, _UNBALANCES, basis, also=_MASSES
             )
-
-
-def _is_number(unbalance: float | None) -> TypeGuard[float]:
-    """Return whether an unbalance is given, and not to be fitted."""
-    return unbalance is not None and not math.isnan(unbalance)
 
 
 def _list_points(model: EngineFile, size: Sizes, stroke: str) -> Iterator[Range]:
@@ -215,7 +226,7 @@ def _list_points(model: EngineFile, size: Sizes, stroke: str) -> Iterator[Range]
         for number, table in enumerate(getattr(model, kind, ()), 1):
             place = max(map(abs, table.at))
             places.append((f"{kind}.{number}.at", place))
-        yield Range(places, 0.05 * size.stroke, math.inf, "mm", _LENGTHS, stroke, also=_STROKE)
+        yield Range(places, 0.05 * size.stroke, math.inf, LENGTH, _LENGTHS, stroke, also=_STROKE)
 
 
 def _list_pressures(model: EngineFile) -> Iterator[Range]:
@@ -223,7 +234,8 @@ def _list_pressures(model: EngineFile) -> Iterator[Range]:
     if gas is None:
         return
     intake = getattr(gas, "intake", None) or 1.0
-    if not _INTAKES[0] <= intake <= _INTAKES[1]:
+    least, most = ABSOLUTE_PRESSURE
+    if not least <= intake <= most:
         return  # the intake is doubted itself
     for path, key, value in walk_figures("gas", list_tables(gas)):
         if key in ("imep", "bmep"):
@@ -232,7 +244,7 @@ def _list_pressures(model: EngineFile) -> Iterator[Range]:
                 [(path, value)],
                 1.3 * intake,
                 math.inf,
-                "bar",
+                PRESSURE,
                 _PRESSURES,
                 basis,
                 also=("gas.intake",),
@@ -246,7 +258,7 @@ def _list_inertias(model: EngineFile, size: Sizes) -> Iterator[Range]:
     swung = size.mass * size.radius**2
     inertias = [("torsion.throw_inertia", inertia) for inertia in torsion.throw_inertia]
     basis = f"rods and pistons of {size.mass:.4g} kg"
-    yield Range(inertias, 0.02 * swung, 1000 * swung, "kg mm^2", _INERTIAS, basis, also=_MASSES)
+    yield Range(inertias, 0.02 * swung, 1000 * swung, INERTIA, _INERTIAS, basis, also=_MASSES)
 
 
 def find_unusual(ranges: Iterable[Range]) -> Iterator[Figure]:
@@ -260,7 +272,7 @@ def find_unusual(ranges: Iterable[Range]) -> Iterator[Figure]:
                 value=value,
                 least=usual.least if value > 0 else -usual.most,
                 most=usual.most if value > 0 else -usual.least,
-                unit=f" {usual.unit}",
+                unit=f" {usual.dimension.unit}",
                 hint=usual.hint or _guess_unit(value, usual),
                 subject=usual.subject,
                 also=usual.also,
@@ -279,10 +291,11 @@ def _find_distance(value: float, usual: Range) -> float:
 
 def _guess_unit(value: float, usual: Range) -> str:
     """Return the remedy: the first unit with which the figure lies in its range."""
-    for unit, size in usual.others:
-        if usual.least <= abs(value) * size <= usual.most:
+    for unit in usual.others:
+        meant = abs(value) * convert(f"1 {unit}", usual.dimension)
+        if usual.least <= meant <= usual.most:
             return f'with another unit, write it: "{value:g} {unit}"'
-    return f"bare numbers are in {usual.unit}"
+    return f"bare numbers are in {usual.dimension.unit}"
 
 
 # ------------------------------------------------------------------ angles in radians
