@@ -304,7 +304,9 @@ def _textbook_table(kind: Kind, book: Textbook, note: str, every: bool) -> Grid:
     alone = book.reciprocating[kind.name]
     built = book.built[kind.name]
 
-    columns = (alone.major, abs(alone.forward), abs(alone.backward), built.major)
+    turning = (abs(alone.forward), abs(alone.backward))
+    components = (abs(alone.x), abs(alone.y))
+    columns = (alone.major, *turning, *components, built.major)
 
     def cells(k: int) -> Iterator[str]:
         size = book.units.size(kind, order_number(built.orders[k]))
@@ -312,7 +314,8 @@ def _textbook_table(kind: Kind, book: Textbook, note: str, every: bool) -> Grid:
             value = float(column[k])
             yield number(value / size) if value else NOTHING
 
-    heads = (f"largest, {book.units.name(kind)}", "with crank", "against", "as built")
+    largest = f"largest, {book.units.name(kind)}"
+    heads = (largest, "with crank", "against", "along x", "along y", "as built")
     title = f"{capitalized(kind.label)} in textbook units"
     return _table(title, heads, [alone, built], cells, every, note)
 
