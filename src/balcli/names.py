@@ -78,6 +78,7 @@ DOCUMENTS = {
     "mounts": "mounting.records:MountReport",
     "numbers": "studies.quantities:NamedNumbers",
     "piston": "analysis.piston:Pistons",
+    "record": "crank_torque.recorded_curve:RecordedCurve",
     "scatter": "studies.scatter:Scatter",
     "schemes": "balancing.all_schemes:SchemeComparison",
     "search": "studies.search.answer:Search",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -52,7 +53,8 @@ LoadsOption = Annotated[
     str | None, optional("pin,main", "Also show loads of pins and main bearings.", "--loads")
 ]
 Curve = Annotated[
-    Path | None, optional("CSV", "Torque curve, not an engine: angle_deg,torque_Nm for a period.")
+    Path | None,
+    optional("CSV", "A curve, not an engine: angle_deg,torque_Nm; or another quantity."),
 ]
 Load = Annotated[
     Path | None, optional("CSV", "With --curve: torque of the load; default: the mean torque.")
@@ -105,14 +107,20 @@ def torque(
         misplaced = {"--misfire": misfire, "--write": write, "--loads": loads}
         misplaced["--cylinder"] = cylinder
         needed = "an engine file"
-    for option, value in misplaced.items():
-        if value:
-            raise BalcliError(f"{option} needs {needed}")
-    from . import answer, given_curve, show as pages
+    _refuse_all(misplaced, needed)
+    from . import answer, given_curve, recorded_curve, recorded_show, show as pages
 
     rpm = parse_speed(speed)
     asked = parse_orders(orders)
     allowed = None if fluctuation is None else read_share("fluctuation", fluctuation, FLUCTUATION)
+    if curve is not None and (quantity := recorded_curve.find_quantity(curve)):
+        own_options = {"--load": load, "--inertia": inertia, "--fluctuation": fluctuation}
+        _refuse_all({**own_options, "--speed": speed}, f"a torque; {curve} has {quantity}")
+        record = recorded_curve.read_record(curve, quantity)
+        warn_each(given_curve.doubt_period(record), str(curve))
+        split = recorded_curve.analyze_record(curve.stem, quantity, record, asked)
+        show([split], recorded_show.RENDERER, form, output, units)
+        return
     if curve is not None:
         own = None if inertia is None else read_inertia("inertia", inertia, units)
         given = given_curve.read_curve(curve)
@@ -140,6 +148,13 @@ def torque(
     show([found], pages.RENDERER, form, output, units)
     if hasattr(found, "flywheel") and found.flywheel.stall and fluctuation is None:
         exit_on_errors([f"{name_file(path or str(curve))}: {found.flywheel.stall}"])
+
+
+def _refuse_all(options: Mapping[str, object], needed: str) -> None:
+    """Raise BalcliError if one of these options is given, which need something else."""
+    for option, value in options.items():
+        if value:
+            raise BalcliError(f"{option} needs {needed}")
 
 
 def write_uneven(path: str, source: bytes, result: TorqueAnalysis, target: Path) -> None:

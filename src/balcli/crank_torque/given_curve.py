@@ -23,7 +23,7 @@ from ..limits import (
     HIGHEST_HARMONIC,
     MOST_HARMONICS_UNASKED,
 )
-from ..show.figures import list_coefficients
+from ..show.figures import Harmonic, list_coefficients
 from .flywheel import find_flywheel
 from .records import (
     TorqueAnalysis,
@@ -37,6 +37,8 @@ from .records import (
 SAME_MEAN = 1e-6  # means closer than this share of the largest torque count as equal
 _NOISE = 1e-14  # rounding error of a harmonic, as a share of the largest torque
 _SAME = 1e-9  # periods (rad) or orders times turns that differ by less count as equal
+ANGLE_HEAD = Head("angle_deg", ANGLE, symbols=ANGLE_SYMBOLS)
+TORQUE_HEAD = Head("torque_Nm", TORQUE, symbols="moment|m|tq|t")
 _WHOLE = 1e-4  # relative rounding of a period in a file, such as 102.86 deg for 720/7
 
 
@@ -47,10 +49,14 @@ def read_curve(path: Path) -> PiecewiseCurve:
     Raises:
         BalcliError: The file does not have these columns, or the angles fall or are too large.
     """
-    angles = Head("angle_deg", ANGLE, symbols=ANGLE_SYMBOLS)
-    columns = read_columns(path, (angles, Head("torque_Nm", TORQUE, symbols="moment|m|tq|t")))
+    return read_column(path, TORQUE_HEAD)
+
+
+def read_column(path: Path, head: Head) -> PiecewiseCurve:
+    """Return the curve of one column of a CSV file over the angle, as `read_curve`."""
+    columns = read_columns(path, (ANGLE_HEAD, head))
     angle = np.array(columns.column(0))
-    torque = np.array(columns.column(1))
+    value = np.array(columns.column(1))
     if len(angle) < 2 or not angle[-1] > angle[0]:
         raise BalcliError(f"{path}: needs two rising angles; the last row is the end of the period")
     if not np.abs(angle).max() <= FARTHEST_DEG:
@@ -59,7 +65,7 @@ def read_curve(path: Path) -> PiecewiseCurve:
         before, here = (columns.as_written(row, 0) for row in (falling[0], falling[0] + 1))
         text = f"the angle {here} is below the angle {before} of the row before"
         raise BalcliError(f"{path}: line {columns.lines[falling[0] + 1]}: {text}")
-    return polyline(np.radians(angle), torque)
+    return polyline(np.radians(angle), value)
 
 
 def doubt_period(curve: PiecewiseCurve) -> Iterator[Doubt]:
@@ -102,12 +108,8 @@ def analyze_curve(
             of the period.
     """
     net = torque if load is None else _subtract(torque, load)
-    turns = torque.period / (2 * np.pi)
     speed = None if speed_rpm is None else speed_rpm * RPM
-    every = _choose_harmonics(turns, orders)
-    found = torque.harmonics(every)
-    found = np.where(np.abs(found) > _NOISE * np.abs(torque.series).max(), found, 0)
-    shown = list_coefficients(every / turns, found, found == 0)
+    harmonics = list_harmonics(torque, orders)
     above = surplus(net)
     extremes = measure_curve(torque)
     shares = None
@@ -123,8 +125,8 @@ def analyze_curve(
         power_W=None if speed is None else torque.mean * speed,
         torque=extremes,
         orders=tuple(
-            TorqueOrder(order=write_whole(n), torques=Torques(torque_Nm=harmonic))
-            for n, harmonic in zip(every / turns, shown, strict=True)
+            TorqueOrder(order=order, torques=Torques(torque_Nm=harmonic))
+            for order, harmonic in harmonics
         ),
         energy=measure_energy(above, torque.period, torque.integral),
         flywheel=find_flywheel(net, above.energy, speed, inertia, None, fluctuation),
@@ -132,6 +134,30 @@ def analyze_curve(
         curve=torque,
         load_Nm=shares,
     )
+
+
+def list_harmonics(
+    curve: PiecewiseCurve, orders: list[float] | None = None
+) -> list[tuple[float | int, Harmonic]]:
+    """Return orders of a curve and their harmonics.
+
+    Args:
+        curve: Curve over the angle.
+        orders: Wanted orders; None: those that are shown by default.
+
+    Raises:
+        BalcliError: A requested order is not a harmonic of the period.
+    """
+    turns = curve.period / (2 * np.pi)
+    numbers = _choose_harmonics(turns, orders)
+    coefficients = curve.harmonics(numbers)
+    noise = _NOISE * np.abs(curve.series).max()
+    cos = np.where(np.abs(coefficients.real) > noise, coefficients.real, 0)
+    sin = np.where(np.abs(coefficients.imag) > noise, coefficients.imag, 0)
+    kept = cos + 1j * sin
+    harmonics = list_coefficients(numbers / turns, kept, kept == 0)
+    written = [write_whole(order) for order in numbers / turns]
+    return list(zip(written, harmonics, strict=True))
 
 
 def _choose_harmonics(turns: float, orders: list[float] | None) -> NDArray[np.intp]:

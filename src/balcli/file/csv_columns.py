@@ -118,6 +118,31 @@ def locate_beside(folder: Path, name: str) -> Path:
     return folder / name
 
 
+class _Table(NamedTuple):
+    """A CSV file as cells.
+
+    Attributes:
+        heading: Heads of the columns, joined with the units in the row below, if there is one.
+        rows: Cells of the other lines.
+        numbers: Line of each of these rows in the file, from 1.
+        mark: Separator of the columns.
+    """
+
+    heading: list[str]
+    rows: list[list[str]]
+    numbers: list[int]
+    mark: str
+
+
+def list_heads(path: Path) -> list[str]:
+    """Return the heads of the columns of a CSV file, each with its unit.
+
+    Raises:
+        BalcliError: The file cannot be read.
+    """
+    return _read_table(path).heading
+
+
 def read_columns(path: Path, wanted: Sequence[Head]) -> NumberColumns:
     """Return the wanted columns of a CSV file.
 
@@ -132,11 +157,19 @@ def read_columns(path: Path, wanted: Sequence[Head]) -> NumberColumns:
     Raises:
         BalcliError: The file cannot be read, a column is missing, or a line lacks a number.
     """
+    table = _read_table(path)
+    try:
+        return _take_columns(table, wanted)
+    except ValueError as error:
+        raise BalcliError(f"{path}: {error}") from None
+
+
+def _read_table(path: Path) -> _Table:
     content = read_bytes(path)
     if len(content) > LARGEST_FILE_BYTES:
         raise BalcliError(f"{path}: has more than {LARGEST_FILE_BYTES // 1_000_000} MB")
     try:
-        return _parse(content.decode("utf-8-sig"), wanted)
+        return _split(content.decode("utf-8-sig"))
     except UnicodeDecodeError:
         raise BalcliError(f"{path}: is not UTF-8 text; save it as CSV in UTF-8") from None
     except (ValueError, csv.Error) as error:
@@ -157,7 +190,7 @@ def _list_lines(text: str) -> dict[int, str]:
     return lines
 
 
-def _parse(text: str, wanted: Sequence[Head]) -> NumberColumns:
+def _split(text: str) -> _Table:
     lines = _list_lines(text)
     first = next(iter(lines.values()), "")
     # The separator is the mark that is most frequent in the heading; a comma if there is no mark.
@@ -180,6 +213,11 @@ def _parse(text: str, wanted: Sequence[Head]) -> NumberColumns:
         heading = joined
         rows = rows[1:]
         numbers = numbers[1:]
+    return _Table(heading, rows, numbers, mark)
+
+
+def _take_columns(table: _Table, wanted: Sequence[Head]) -> NumberColumns:
+    heading, rows, numbers, mark = table
     found = [_find_head(head, heading, wanted, mark) for head in wanted]
     places = [place for place, _, _ in found]
     width = len(heading) if mark in ", " else None
