@@ -33,6 +33,7 @@ SHOWN = {  # by renderer
     "numbers": ("numbers", V8),
     "printed_table": ("tables", "liu-1"),
     "published": ("tables", "published"),
+    "record": ("torque", "--curve", ENGINES.parent / "benchmark" / "25-gas-of-a-single" / "pressure.csv", "--quiet"),
     "search": ("search", V8, "--over", "throws", "--minimise", "moment.1.major"),
     "speeds": ("analyze", V6, V8, "--speed", "60:124:8", "--only", "force,peak,inner"),
     "table_list": ("tables",),
