@@ -317,6 +317,9 @@ class Frame(FileTable):
     up: Angle | None = None
     """Upward direction on the test bed, as an angle from the x axis in the direction of rotation;
     left out: results name x and y instead of vertical and horizontal. Example: 0"""
+    crankcase: Size | None = None
+    """Radius of the free room around the crank axis, which limits new counterweights; left out:
+    only the pistons limit them. Example: 85"""
 
 
 class Override(FileTable):

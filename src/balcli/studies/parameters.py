@@ -62,7 +62,13 @@ class Place(NamedTuple):
 
 
 # Keys without effect on any quantity: directions, and keys that only `--only parts` uses.
-_SHOWN_ALONE = {(Frame, "up"), (Piston, "skirt"), (Shaft, "bearings"), (Shaft, "drag")}
+_SHOWN_ALONE = {
+    (Frame, "up"),
+    (Frame, "crankcase"),
+    (Piston, "skirt"),
+    (Shaft, "bearings"),
+    (Shaft, "drag"),
+}
 _SHOWN_ALONE |= {(Gear, key) for key in Gear.model_fields}
 
 
@@ -103,7 +109,7 @@ def _find_places_of_several(model: EngineFile) -> dict[str, Place]:
     for path, table in model.tables():
         if path.partition(".")[0] in BESIDE_ENGINES:
             numbers |= _numbers_of(path, table)
-    for path in ("frame.up", "engine.1.phase"):  # phases are relative to engine 1
+    for path in ("frame.up", "frame.crankcase", "engine.1.phase"):  # phases: relative to engine 1
         numbers.pop(path, None)
     of_whole = set(BESIDE_ENGINES).difference(DEVICES, ("flywheel",))
     for k, crank in enumerate(model.cranks, 1):
