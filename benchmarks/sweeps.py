@@ -13,8 +13,9 @@ from functools import partial
 import numpy as np
 
 from balcli.analysis.answer import analyze
-from balcli.bench import V8, WAYS, time_run
+from balcli.bench.tasks import V8, find_force, time_run
 from balcli.engine.build import build
+from balcli.engine.engine import Engine
 from balcli.engine.parse import parse
 from balcli.forces.kinds import DEFAULT_QUANTITIES, KINDS
 from balcli.forces.spectrum import compute_spectra
@@ -71,11 +72,14 @@ def compare_questions() -> None:
     ) -> Callable[[], object]:
         return partial(compute_spectra, subject, np.arange(1.0, most + 1), kinds)
 
-    plain = partial(WAYS["FFT, 64 points"], engine, list(range(1, 9)))
+    plain = partial(transform_forces, engine, 64)
     without = partial(analyze, engine, [1, 2], {"force"})
     with_peak = partial(analyze, engine, [1, 2], {"force", "peak"})
     ratios = {
-        "force and moment of a V8, orders 1-8, to numpy (64 angles, FFT)": (spectra(), plain),
+        "force and moment of a V8, orders 1-8, to an FFT of its force": (
+            spectra(),
+            plain,
+        ),
         "all quantities of it to the same": (spectra(kinds=tuple(KINDS)), plain),
         "orders 1-32 to 1 and 2": (spectra(most=32), spectra(most=2)),
         "force and moment to force": (spectra(), spectra(kinds=("force",))),
@@ -84,6 +88,12 @@ def compare_questions() -> None:
     }
     for what, (one, other) in ratios.items():
         print(f"{compare(one, other):10.3g}  {what}")
+
+
+def transform_forces(engine: Engine, points: int) -> np.ndarray:
+    """Return the force of an engine by order, from samples of all forces and an FFT."""
+    angles = 2 * np.pi * np.arange(points) / points
+    return np.fft.fft(find_force(engine, angles)) / points
 
 
 def sweep_over(
@@ -112,7 +122,7 @@ def compare_sweeps() -> None:
         "one throw of a V8": (V8, "crank.throws.2", one(40, 140, 100_000)),
     }
     for what, (text, path, values, *quantities) in cases.items():
-        seconds = time_run(partial(run_sweep, sweep_over(text, {path: values}, *quantities)))
+        seconds = time_run(partial(run_sweep, sweep_over(text, {path: values}, *quantities))).median
         print(f"{seconds / len(values) * 1e6:10.3g}  µs a variant: {what}")
     grid = {"layout.bank_angle": one(40, 240, 1024), "rod.ratio": one(0.2, 0.7, 512)}
     outer, share = outer_product(64, 512), 64 / 1024

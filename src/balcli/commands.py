@@ -16,7 +16,7 @@ from .file import examples
 from .file.examples import template
 from .file.fields import suggest_nearest
 from .names import DOCUMENTS, import_name
-from .shell.file_names import parse_output, require_ending, text_format
+from .shell.file_names import PICTURES, parse_output, require_ending, text_format
 from .shell.options import FormatOption, Output
 from .shell.output import emit, refuse_existing, show, write_file
 from .shell.values import argument, optional
@@ -172,12 +172,25 @@ def describe_document(name: str) -> Node:
 
 
 def bench(form: FormatOption = None, output: Output = None) -> None:
-    """Measure run time and error of several methods that compute the same forces, on this machine.
+    """Measure error against run time of several methods, on this machine: orders of a cylinder,
+    peaks, gas torque, torsion, and a cold start. An output that ends in .svg, .png or .pdf is a
+    picture, in addition to the tables.
 
     \b
-    Example:
-      balcli bench --format json
+    Examples:
+      balcli bench
+      balcli bench -o bench.svg
     """
-    from .bench import RENDERER, measure
+    picture = None if output is None else PICTURES.get(output.suffix.lower())
+    text_output = output if picture is None else None
+    written = text_format(text_output, form)
+    from .bench.show import RENDERER
+    from .bench.tasks import measure
 
-    show([measure()], RENDERER, text_format(output, form), output)
+    result = measure()
+    if output is not None and picture is not None:
+        from .bench.plot import make_picture
+        from .show.plot_style import save_figure
+
+        write_file(save_figure(make_picture(result), picture), output)
+    show([result], RENDERER, written, text_output)

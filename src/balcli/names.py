@@ -68,7 +68,7 @@ RENDERERS = {
 DOCUMENTS = {
     "analysis": "analysis.answer:Analysis",
     "balance": "balancing.answer:Balance",
-    "bench": "bench:Bench",
+    "bench": "bench.records:Bench",
     "check": "regression.records:Check",
     "compare": "analysis.comparison:Comparison",
     "curves": "analysis.curves:Curves",

@@ -13,19 +13,15 @@ from support.commands import ask, ask_csv, ask_json, refusal
 from support.engines import GOOD
 from support.paths import ENGINES, write
 
-from balcli import bench
-from balcli.bench import Bench, Ratio, Row
+from balcli.bench import starts, tasks
+from balcli.bench.records import Bench, Block, Measured, OrderError, Ratio, Times
 from balcli.errors import BalcliError
 
-MEASURED = Bench(
-    rows=(
-        Row(task="A_2", method="closed form", seconds=2e-6, error=0.0),
-        Row(task="A_2", method="two-term formula", seconds=1e-6, error=3.2e-2),
-        Row(task="sweep", method="closed form", seconds=1e-7, error=1e-16),
-        Row(task="sweep", method="FFT", seconds=1e-5, error=1e-15),
-    ),
-    ratios=(Ratio(what="one to other", value=1.25),),
+METHODS = (
+    Measured("closed form", Times(1e-6, 2e-6, 3e-6), (OrderError(2, 0.0), OrderError(8, 1e-16))),
+    Measured("series of two terms", Times(1e-6, 1e-6, 1e-6), (OrderError(2, 3.2e-2), OrderError(8, 1.0))),
 )
+MEASURED = Bench.of([Block("orders of one cylinder", METHODS, 1, 0.25)], [Ratio(what="one to other", value=1.25)])
 
 
 @pytest.fixture
@@ -55,41 +51,49 @@ def test_options_of_schemes_are_judged_as_in_balance(tmp_path, command):
 # ------------------------------------------------------------------ bench
 @pytest.fixture
 def measured(monkeypatch):
-    monkeypatch.setattr(bench, "measure", lambda: MEASURED)
+    monkeypatch.setattr(tasks, "measure", lambda: MEASURED)
 
 
 @pytest.mark.usefixtures("measured")
 def test_bench_in_every_format():
     table = ask("bench")
-    assert "two-term formula" in table
-    assert "3.2e-02" in table
-    assert table.count("rounding") == 3
-    assert "e-1" not in table
+    assert "Orders of one cylinder, λ = 0.25, one variant" in table
+    assert re.search(r"series of two terms +1 +1–1 +3e-02 +not found", table)
+    assert re.search(r"closed form +2 +1–3 +rounding +rounding", table)
+    assert "No other method is both as quick and as exact as closed form and series of two\nterms." in table
     lines = ask_csv("bench")
-    assert lines[1] == {"task": "A_2", "method": "two-term formula", "seconds": "1e-06", "error": "0.032", "ratio": ""}
+    assert [line["error"] for line in lines] == ["0.0", "1e-16", "0.032", "1.0", ""]
+    assert lines[2]["seconds"] == "1e-06"
     assert lines[-1]["ratio"] == "1.25"
-    assert ask_json("bench")["ratios"] == [{"what": "one to other", "value": 1.25}]
+    document = ask_json("bench")
+    assert document["ratios"] == [{"what": "one to other", "value": 1.25}]
+    assert document["unbeaten"][0]["methods"] == ["closed form", "series of two terms"]
 
 
-def test_bench_times_each_case_and_cold_starts_by_medians_of_pairs(monkeypatch):
-    """By a clock of ours: a busy machine disturbs some of the nine pairs, not their medians."""
-    case = bench.Case("task", "way", lambda: sum(range(1000)), 0.5)
+@pytest.mark.usefixtures("measured")
+def test_bench_draws_a_picture_in_addition_to_its_tables(tmp_path):
+    assert "Orders of one cylinder" in ask("bench", "-o", tmp_path / "bench.svg")
+    picture = (tmp_path / "bench.svg").read_text(encoding="utf-8")
+    for text in ("λ = 0.25, one variant", "µs per variant", "closed form", "order 8"):
+        assert text in picture
+
+
+def test_cold_starts_are_compared_by_medians(monkeypatch):
+    """By a clock of ours: a busy machine disturbs some of the five rounds, not their medians."""
     clock = [0.0]
     started = []
 
     def start(argv, **_):
         name = argv[2]
         started.append(name)
-        clock[0] += {"balcli": 1.0, bench.LIBRARIES: 0.2}.get(name, 0.5) * (50 if len(started) in (4, 9, 12) else 1)
+        disturbed = 50 if len(started) in (4, 9, 12) else 1
+        clock[0] += {"balcli": 1.0, starts.LIBRARIES: 0.2}.get(name, 0.5) * disturbed
 
-    monkeypatch.setattr(bench, "list_cases", lambda: [case])
-    monkeypatch.setattr(bench, "time_run", lambda run: 8.0)
-    monkeypatch.setattr(bench.time, "perf_counter", lambda: clock[0])
-    monkeypatch.setattr(bench.subprocess, "run", start)
-    found = bench.measure()
-    assert found.rows == (Row(task="task", method="way", seconds=8.0, error=0.5),)
-    assert [ratio.value for ratio in found.ratios] == pytest.approx([5, 2])
-    assert started == ["balcli", bench.LIBRARIES] * 9 + ["balcli", bench.SMALLEST] * 9
+    monkeypatch.setattr(starts.time, "perf_counter", lambda: clock[0])
+    monkeypatch.setattr(starts.subprocess, "run", start)
+    ratios = list(starts.compare_starts("engine"))
+    assert [ratio.value for ratio in ratios] == pytest.approx([5, 2])
+    assert started == ["balcli", starts.LIBRARIES, starts.SMALLEST] * 5
 
 
 # ------------------------------------------------------------------ sweeps: cluster and files

@@ -10,7 +10,8 @@ from support.commands import ask
 from support.paths import ENGINES, PACKAGE
 from support.rotors import three_runs
 
-from balcli import bench
+from balcli.bench import tasks
+from balcli.bench.records import Bench, Block, Measured, OrderError, Ratio, Times
 from balcli.shell import output
 from balcli.show.formats import Format, render
 from balcli.show.units import SI
@@ -57,9 +58,9 @@ def test_every_result_in_every_format(name, monkeypatch):
     """Text has no blanks at the ends of lines, tables of Markdown and rows of CSV are as wide as their heads, and JSON
     has one document a line; the command computes once.
     """
-    rows = (bench.Row(task="task", method="way", seconds=1e-6, error=1e-3),)
-    measured = bench.Bench(rows=rows, ratios=(bench.Ratio(what="one to other", value=2.0),))
-    monkeypatch.setattr(bench, "measure", lambda: measured)
+    method = Measured("way", Times(1e-6, 1e-6, 2e-6), (OrderError(2, 1e-3),))
+    measured = Bench.of([Block("task", (method,))], [Ratio(what="one to other", value=2.0)])
+    monkeypatch.setattr(tasks, "measure", lambda: measured)
     calls = []
     monkeypatch.setattr(output, "render", lambda *call, **_: calls.append(call) or "text")
     ask(*SHOWN[name], stdin=RUNS)

@@ -13,7 +13,9 @@ from support.gas_engines import WIEBE
 from support.paths import ENGINES, GEARED_FILES
 
 from balcli import __version__
+from balcli.bench.records import Bench, Block, Measured, OrderError, Ratio, Times
 from balcli.commands import describe_document
+from balcli.core.records import to_document
 from balcli.file.examples import template
 from balcli.names import DOCUMENTS
 
@@ -144,9 +146,10 @@ def test_field_and_a_chain_of_shafts() -> None:
 
 def test_a_bench() -> None:
     """Of a document as `bench` prints it: running it takes seconds."""
-    row = {"task": "a", "method": "b", "seconds": 1e-3, "error": 0.1}
-    ratios = [{"what": "a / b", "value": 2.0}]
-    check(json.dumps({"format": "balcli.bench/1", "version": __version__, "rows": [row], "ratios": ratios}))
+    method = Measured("way", Times(1e-6, 1e-6, 2e-6), (OrderError(2, 1e-3), OrderError(None, 1e-3)))
+    blocks = [Block("task", (method,)), Block("task", (method,), 100, 0.25)]
+    found = Bench.of(blocks, [Ratio(what="a / b", value=2.0)])
+    check(json.dumps({"format": "", "version": __version__} | to_document(found)))
 
 
 @pytest.mark.parametrize("name", DOCUMENTS)
