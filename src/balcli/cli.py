@@ -175,7 +175,7 @@ def _loudness_option(loudness: Loudness, text: str, *names: str) -> object:
         if wanted:
             set_loudness(loudness)
 
-    return typer.Option(*names, callback=apply, expose_value=False, help=text)
+    return typer.Option(*names, callback=apply, is_eager=True, expose_value=False, help=text)
 
 
 def _digits(wanted: int | None) -> int | None:

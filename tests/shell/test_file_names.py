@@ -204,3 +204,46 @@ def test_a_page_is_opened_in_the_browser(monkeypatch):
     assert opened == [Path("X.html").resolve().as_uri()]
     assert run_here("report", "good.toml", "X.html", "--open") == (0, "", "warning: no browser was found for X.html\n")
     assert refusal("report", "good.toml", "-o", "-", "--open") == "--open needs a file"
+
+
+# ------------------------------------------------------------------ names of examples
+@pytest.mark.parametrize(
+    ("typed", "there", "title"),
+    [
+        ("i3", False, "in-line three"),
+        ("i3", True, "mine"),  # a file of this name has precedence
+        ("./i3", True, "mine"),
+        ("./i3", False, None),
+    ],
+)
+def test_the_name_of_an_example_stands_for_its_file(typed, there, title):
+    if there:
+        Path("i3").write_text(changed(("in-line four", "mine")))
+    status, out, err = run_here("analyze", typed, "--only", "force")
+    assert (out.partition("\n")[0] if status == 0 else None) == title
+    assert (err == "i3: the example engine\n") == (title == "in-line three")
+
+
+def test_a_file_that_the_name_may_mean_is_told():
+    Path("i3.toml").write_text(GOOD)
+    assert run_here("numbers", "i3").err == "i3: the example engine, not i3.toml\n"
+    assert run_here("numbers", "i3", "-q").err == ""
+
+
+@pytest.mark.parametrize(
+    "command", ["numbers i3", "compare i3 i4 --only force", "torque i4_wiebe", "torsion i6_diesel"]
+)
+def test_commands_of_one_engine_take_the_name_of_an_example(command):
+    status, _, err = run_here(*command.split())
+    name = command.split()[1]
+    assert status == 0
+    assert err.startswith(f"{name}: the example engine\n")
+
+
+def test_messages_call_an_example_by_its_name():
+    assert "balcli: i3: has no [gas]" in run_here("torque", "i3").err
+
+
+def test_a_page_of_an_example_has_its_name():
+    assert run_here("plot", "i3").err == "i3: the example engine\nwritten: i3.svg\n"
+    assert Path("i3.svg").is_file()

@@ -10,7 +10,7 @@ from ..errors import BalcliError, warn
 from ..file.edit import set_keys, set_speed
 from ..file.toml import name_file
 from ..limits import FLUCTUATION
-from ..shell.file_names import require_ending, text_format
+from ..shell.file_names import engine_argument, require_ending, text_format
 from ..shell.inputs import (
     exit_on_errors,
     named_by_file,
@@ -30,7 +30,7 @@ from ..shell.options import (
     parse_speed,
 )
 from ..shell.output import refuse_leaving_files, refuse_overwriting, show, write_file
-from ..shell.values import argument, optional, parse_cylinder, read_inertia, read_share
+from ..shell.values import optional, parse_cylinder, read_inertia, read_share
 from ..show.formats import Units
 
 if TYPE_CHECKING:
@@ -40,7 +40,11 @@ if TYPE_CHECKING:
 _NOTE = "by balcli torque"
 EngineFile = Annotated[
     str | None,
-    argument("FILE", "Engine file with [gas] (TOML); - reads standard input. Not with --curve."),
+    engine_argument(
+        "FILE",
+        "Engine file with [gas] (TOML), or the name of an example; - reads standard input. "
+        "Not with --curve.",
+    ),
 ]
 Fluctuation = Annotated[
     str | None, optional("1/200", "Also compute the inertia for this speed fluctuation (or 0.5%).")

@@ -8,18 +8,29 @@ engine, for runs of a rotor, and for a chain of shafts.
 
 from __future__ import annotations
 
+import os
 import re
 import tomllib
 from pathlib import Path
 from typing import NamedTuple
 
 from ..errors import BalcliError
-from .fields import suggest_nearest
+from .fields import nearest, suggest_nearest
 
 # Folder of the examples in the installed package, and in a checkout of the repository.
 _PLACES = (Path(__file__).parents[1] / "engines", Path(__file__).parents[3] / "engines")
 _USUAL_TABLES = {"crank", "rod", "piston", "layout", "operation", "cylinder"}
 LAYOUT = "layout"  # class of the files that are in the folder of examples itself
+
+
+class ExamplePath(str):
+    """Path of an example's file, as a command got it by the name of the example.
+
+    Attributes:
+        name: Name of the example, by which messages call the file.
+    """
+
+    name: str
 
 
 class Example(NamedTuple):
@@ -71,7 +82,16 @@ def is_example(name: str) -> bool:
     """Return whether there is an example with this short name; false if the installation has no
     folder of examples.
     """
-    return any(path.stem == name for place in _PLACES for path in place.rglob("*.toml"))
+    return name in _list_installed()
+
+
+def find_similar(name: str) -> str:
+    """Return the example that was probably meant; empty if none is similar."""
+    return nearest(name, _list_installed(), cutoff=0.8)
+
+
+def _list_installed() -> list[str]:
+    return [path.stem for place in _PLACES for path in sorted(place.rglob("*.toml"))]
 
 
 def text(name: str) -> str:
@@ -90,6 +110,18 @@ def locate(name: str) -> Path:
         return known[name]
     hint = suggest_nearest(name, known, "balcli engines lists all examples")
     raise BalcliError(f'there is no example "{name[:60]}": {hint}')
+
+
+def find_by_name(typed: str) -> str:
+    """Return the path of the example that was typed in place of a file, otherwise the typed text. A
+    file of this name has precedence; a text with a folder or an ending is always a file.
+    """
+    is_name = typed == Path(typed).stem and not os.path.lexists(typed)
+    if not is_name or not is_example(typed):
+        return typed
+    path = ExamplePath(locate(typed))
+    path.name = typed
+    return path
 
 
 def list_engine_files(name: str) -> dict[str, str]:

@@ -10,7 +10,7 @@ from pathlib import Path
 from ..core.records import Node
 from ..errors import BalcliError, InputError, Problem
 from ..limits import DEEPEST_KEY, LARGEST_FILE_BYTES, MOST_TOML_MARKS
-from .examples import is_example
+from .examples import ExamplePath, find_similar, is_example
 from .fields import nearest
 
 ENGINE_FILE = (
@@ -79,11 +79,14 @@ def find_near_file(source: str | Path) -> str:
     near = nearest(asked.name, there, cutoff=0.8)
     if near and nearest(asked.suffix, [".toml"]):  # not a .csv next to an engine file
         return f"; {asked.with_name(near)} is there: did you mean it?"
-    return ""
+    similar = find_similar(str(source))
+    return f"; did you mean the example {similar}?" if similar else ""
 
 
 def name_file(source: str | Path) -> str:
     """Return the name of a file in messages; "-" is standard input."""
+    if isinstance(source, ExamplePath):
+        return source.name
     return "standard input" if str(source) == "-" else str(source)
 
 

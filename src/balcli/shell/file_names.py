@@ -9,15 +9,17 @@ from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 import typer
 
-from ..errors import BalcliError
+from ..errors import BalcliError, is_quiet, say
+from ..file.examples import ExamplePath, find_by_name
 from ..show.formats import Format
-from .values import optional
+from .values import argument, optional
 
 if TYPE_CHECKING:
     from ..show.plot_style import Form
 
 
 F = TypeVar("F", bound=str)
+T = TypeVar("T")
 
 _SHORT = {"md": "markdown", "txt": "table", "text": "table"}
 TEXTS = {
@@ -72,6 +74,36 @@ def choose_target(second: Path | None, output: Path | None, source: str, ending:
     if source == "-" or not Path(source).stem:
         raise BalcliError(f"name the file to write, such as -o X{ending}")
     return Path(f"{Path(source).stem}{ending}")
+
+
+def engine_argument(metavar: str, text: str) -> object:
+    """Declare an argument that names an engine file, or several. The name of an example stands for
+    its file; standard error says so.
+
+    Args:
+        metavar: Placeholder in help.
+        text: Help of the argument.
+    """
+    return argument(metavar, text, callback=_find_engine)
+
+
+def _find_engine(context: typer.Context, given: T) -> T | str | list[str]:
+    """Return the file that each given text names."""
+    if context.resilient_parsing:  # completion
+        return given
+    if isinstance(given, str):
+        return _find_file(given)
+    if isinstance(given, list):
+        return [_find_file(text) for text in given]
+    return given
+
+
+def _find_file(typed: str) -> str:
+    found = find_by_name(typed)
+    if isinstance(found, ExamplePath) and not is_quiet():
+        file = Path(f"{typed}.toml")
+        say(f"{typed}: the example engine" + (f", not {file}" if file.exists() else ""))
+    return found
 
 
 def format_option(formats: Iterable[Format], text: str) -> object:

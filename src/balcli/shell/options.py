@@ -20,7 +20,7 @@ from ..limits import (
 )
 from ..show.formats import Format, Units
 from ..sizing.options import check_small
-from .file_names import TEXTS, format_option, parse_output
+from .file_names import TEXTS, engine_argument, format_option, parse_output
 from .values import argument, optional, read_figure, read_length, read_share
 
 # Words of `analyze --only` for views of force and moment, which need no further computation.
@@ -31,10 +31,9 @@ OF_ONE = (*PARTS, *CLOSER[2:])  # words for tables that describe one engine at o
 WORDS_OF_ONLY = (*KINDS, "peak", "sizing", "ladder", *GAS_KINDS, *CLOSER, *PARTS)
 
 
-EnginePath = Annotated[str, argument("FILE", "Engine file (TOML); - reads standard input.")]
-EnginePaths = Annotated[
-    list[str], argument("FILE...", "Engine files (TOML); - reads standard input.")
-]
+_ENGINE = "(TOML), or the name of an example such as i3; - reads standard input."
+EnginePath = Annotated[str, engine_argument("FILE", f"Engine file {_ENGINE}")]
+EnginePaths = Annotated[list[str], engine_argument("FILE...", f"Engine files {_ENGINE}")]
 FormatOption = Annotated[
     Format | None,
     format_option(

@@ -9,12 +9,12 @@ import typer
 
 from ..errors import BalcliError, warn
 from ..file.toml import name_file
-from ..shell.file_names import picture_form, require_ending, text_format
+from ..shell.file_names import engine_argument, picture_form, require_ending, text_format
 from ..shell.inputs import warn_each
 from ..shell.options import FormatOption, Misfire, Output, UnitsOption
 from ..shell.output import refuse_leaving_files, refuse_overwriting, show, write_figure, write_file
 from ..shell.progress import reporting
-from ..shell.values import argument, optional
+from ..shell.values import optional
 from ..show.formats import Units
 from ..show.units import SYSTEMS
 
@@ -22,7 +22,11 @@ from ..show.units import SYSTEMS
 def torsion(
     path: Annotated[
         str,
-        argument("FILE", "Engine file with [torsion], or a chain file; - reads standard input."),
+        engine_argument(
+            "FILE",
+            "Engine file with [torsion], or a chain file, or the name of an example; - reads "
+            "standard input.",
+        ),
     ],
     speeds: Annotated[
         str | None,
