@@ -111,6 +111,16 @@ def test_rods_of_every_form(page, rod):
     check(page, changed((ROD, rod)))
 
 
+@live
+@pytest.mark.parametrize(
+    "keys",
+    ["[piston]\nskirt = 24", "[frame]\ncrankcase = 50\n[piston]", "[frame]\ncrankcase = 500\n[piston]\nskirt = 130"],
+)
+def test_the_room_around_the_crank(page, keys):
+    """Steel of the steps, by skirt, crankcase, or neither; pistons without room leave it out."""
+    check(page, changed(("[piston]", keys)))
+
+
 VEE = changed(("[0, 180, 180, 0]", "[0, 90]"), ("firing_order = [1, 3, 4, 2]", "banks = [-30, 60]"))
 
 

@@ -158,7 +158,9 @@ def test_geared_engines_have_theirs_after_their_names(tmp_path: Path) -> None:
     pair = write(tmp_path / "pair.toml", f'name = "pair"\n[operation]\nspeed = 1000\n{engines}')
     alone = write(tmp_path / "alone.toml", 'name = "alone"\n' + single.format("") + "[operation]\nspeed = 1000\n")
     own = "crank.throw_mass = 0 kg"
-    assert list_assumed("analyze", pair) == ["rod.inertia = 2835 kg mm^2", f"open: {own}"]
+    assumed = list_assumed("analyze", pair)
+    assert [one for one in assumed if one != "piston.skirt = 31.5 mm"] == ["rod.inertia = 2835 kg mm^2", f"open: {own}"]
+    assert len(assumed) == 3
     both = list_assumed("compare", str(pair), str(alone))
     assert both == ["rod.inertia = 2835 kg mm^2", f"pair, open: {own}", f"alone: {own}"]
 

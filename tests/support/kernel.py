@@ -71,7 +71,8 @@ def differences_of_ladder(wanted, found):
 def differing(own, step, scale):
     """Names of figures of a step that differ."""
     for name in {*step, *own} - UNTOLD:
-        limit = 1e-9 * scale.get("moment_Nm" if name.endswith("Nm") else "force_N", 1)
+        largest = scale.get("moment_Nm" if name.endswith("Nm") else "force_N", 1)
+        limit = 1e-9 * (own.get(name, 0) if name.endswith("kg") else largest)
         if name not in own or name not in step or abs(own[name] - step[name]) > limit:
             yield name
 

@@ -44,6 +44,7 @@ from ..sizing.ladder import Ladder, find_ladder
 from ..sizing.options import check_small
 from ..sizing.remedy import Remedy, fit_devices
 from ..sizing.residual import Scales, find_scales
+from ..sizing.room import assume_skirt
 from .crank_drive import find_journals, list_masses, relate_to_power
 from .parts import find_parts
 from .records import (
@@ -269,7 +270,7 @@ def analyze(
         engine=engine,
         state=describe_state(engine),
         spectra=visible,
-        assumed=engine.list_assumed("gas", without=list_idle_defaults(engine, wanted)),
+        assumed=_list_assumed(engine, wanted, ladder),
         verdict=_judge(engine, visible, small) if visible.vectors() else None,
         peak=find_peaks(everything) if peaked else None,
         sizing=_size(engine, ladder, asked, wanted) if ladder and "sizing" in wanted else None,
@@ -287,6 +288,15 @@ def analyze(
         masses=list_masses(engine) if "masses" in wanted else None,
         parts=find_parts(engine, model.shaft, model.counterweight) if model else None,
     )
+
+
+def _list_assumed(
+    engine: Engine, wanted: Collection[str], ladder: Ladder | None
+) -> tuple[Assumed, ...] | None:
+    """Return the values that are assumed for the wanted quantities; None if there are none."""
+    assumed = engine.list_assumed("gas", without=list_idle_defaults(engine, wanted)) or ()
+    steps = ladder.steps if ladder is not None and "ladder" in wanted else ()
+    return (*assumed, *assume_skirt(engine, [step.remedy for step in steps])) or None
 
 
 def _check_height(guide_height: float | None) -> None:

@@ -8,15 +8,16 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
+from ..file.fields import join_words
 from ..file.model import Counterweight, Shaft, Slider
-from ..show.sheet import UNKNOWN, Column, Grid, degrees, given, number
+from ..show.sheet import UNKNOWN, Column, Grid, degrees, given, number, size_text
 from ..sizing.planes import FIELDS, DeviceTable, find_free, find_unbalance, name_kind
 from ..sizing.remedy import Remedy
 from .records import find_value
 
 if TYPE_CHECKING:
     from ..show.units import ShownUnit, System
-    from ..sizing.workshop import Practical, Tools
+    from ..sizing.workshop import Misfit, Practical, Tools
 
 
 _ORDER = ("ratio", "order", "unbalance", "angle", "direction", "position", "at")  # sequence in CSV
@@ -116,41 +117,84 @@ def list_radii(practical: Sequence[Practical], unit: ShownUnit) -> str:
     return f"{', '.join(radii)} {unit.name}"
 
 
-def practical_grid(remedy: Remedy, practical: tuple[Practical, ...], system: System) -> Grid:
+def practical_grid(
+    remedy: Remedy,
+    practical: tuple[Practical, ...],
+    tools: Tools,
+    misfits: Sequence[Misfit],
+    system: System,
+) -> Grid:
     """Return a table of figures for the workshop, one row for each device.
 
     Args:
         remedy: Devices.
         practical: Figures for the workshop, one entry for each device; at least one entry.
+        tools: Tools of the workshop.
+        misfits: Counterweights whose half discs do not fit around the crank.
         system: System of units.
     """
     length = system.length
     mass = system.mass
     force = system.force
-    radius = list_radii(practical, length)
-    note = f"Force: centrifugal. Mass: at a radius of {radius}. Disc: semicircular, of steel."
-    if remedy.sliders:
-        note = f"Force: largest over a stroke. Mass: at an amplitude of {radius}."
-    names = []
-    radii = []
-    thicknesses = []
-    for k, (device, p) in enumerate(zip(remedy.devices, practical, strict=True), 1):
-        names.append(f"{k} {name_kind(device)}")
-        if isinstance(device, Slider) or p.disc_radius_mm is None:
-            radii.append(UNKNOWN)
-            thicknesses.append(UNKNOWN)
-        else:
-            radii.append(_length(p.disc_radius_mm, length, 3))
-            thicknesses.append(_length(p.disc_thickness_mm or 0.0, length, 3))
+    names = [f"{k} {name_kind(device)}" for k, device in enumerate(remedy.devices, 1)]
     columns = [
         Column("device", names, words=True),
         Column("rpm", [given(p.speed_rpm) for p in practical]),
         Column(f"force, {force.name}", [number(force.of(p.force_N)) for p in practical]),
-        Column(f"mass, {mass.name}", [number(mass.of(p.mass_kg)) for p in practical]),
-        Column(f"disc r, {length.name}", radii),
-        Column(f"thick, {length.name}", thicknesses),
+        Column(f"mass, {mass.name}", [_cell(p.shape_kg, mass) for p in practical]),
+        Column(f"disc r, {length.name}", [_disc_cell(p.disc_radius_mm, length) for p in practical]),
+        Column(
+            f"thick, {length.name}", [_disc_cell(p.disc_thickness_mm, length) for p in practical]
+        ),
     ]
-    return Grid("Sizes of the weights", columns, note)
+    notes = ["Force: largest over a stroke." if remedy.sliders else "Force: centrifugal."]
+    if any(p.disc_mass_kg is not None for p in practical):
+        notes.append("Disc: semicircular, of steel.")
+    if tools.radius is not None:
+        at_radius = [number(mass.of(p.mass_kg)) for p in practical]
+        columns.append(Column(f"at radius, {mass.name}", at_radius))
+        place = "an amplitude" if remedy.sliders else "a radius"
+        notes.append(f"Mass: at {place} of {list_radii(practical, length)} in the last column.")
+    notes += _tell_misfits([misfit for misfit in misfits if not misfit.asked], length)
+    return Grid("Sizes of the weights", columns, " ".join(notes))
+
+
+def _cell(value: float | None, unit: ShownUnit) -> str:
+    return UNKNOWN if value is None else number(unit.of(value))
+
+
+def _disc_cell(millimetres: float | None, unit: ShownUnit) -> str:
+    return UNKNOWN if millimetres is None else _length(millimetres, unit, 3)
+
+
+def _tell_misfits(misfits: Sequence[Misfit], unit: ShownUnit) -> Iterator[str]:
+    """Yield sentences on the counterweights for which the room around the crank has no half
+    disc.
+    """
+    if unknown := [misfit for misfit in misfits if misfit.room.radius_m is None]:
+        names = _name_misfits(unknown)
+        yield f"The room for {names} is not known; --disc gives half discs a radius."
+    if without := [misfit for misfit in misfits if misfit.room.radius_m == 0]:
+        yield (
+            f"No half disc of steel fits for {_name_misfits(without)}: the pistons reach the crank "
+            "axis."
+        )
+    thick = [misfit for misfit in misfits if misfit.disc is not None]
+    if not thick:
+        return
+    thickest = max(thick, key=lambda misfit: misfit.thickness)
+    yield (
+        f"No half disc of steel fits for {_name_misfits(thick)}: at the radius of the room, "
+        f"{size_text(thickest.room.radius_m or 0.0, unit)}, the thickness is "
+        f"{size_text(thickest.thickness, unit)}; half the smallest distance of throws is "
+        f"{size_text(thickest.room.thickness_m, unit)}."
+    )
+
+
+def _name_misfits(misfits: Sequence[Misfit]) -> str:
+    """Return the numbers of the counterweights in words."""
+    noun = "counterweight" if len(misfits) == 1 else "counterweights"
+    return f"{noun} {join_words([str(misfit.number) for misfit in misfits])}"
 
 
 def holes_grid(

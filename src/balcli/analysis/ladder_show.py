@@ -61,7 +61,8 @@ def ladder_grid(
         columns.append(_load_column(ladder, system))
     columns.append(Column("weights", [str(step.counterweights or UNKNOWN) for step in steps]))
     columns.append(Column("shafts", [str(step.shafts or UNKNOWN) for step in steps]))
-    columns.append(Column(system.mass.name, [_mass_cell(step, system) for step in steps]))
+    masses = [_mass_cell(step, system) for step in steps]
+    columns.append(Column(f"steel, {system.mass.name}", masses))
     notes = [_BEARINGS] if has_loads else []
     notes += _tell_loads(ladder, system)
     notes += filter(None, [_tell_left_out(out, ladder, system) for out in ladder.left_out])
@@ -111,8 +112,8 @@ def _load_column(ladder: Ladder, system: System) -> Column:
 
 
 def _mass_cell(step: Step, system: System) -> str:
-    """Return the cell of the mass of all new devices."""
-    return number(system.mass.of(step.mass_kg), 3) if step.mass_kg else UNKNOWN
+    """Return the cell of the mass of all new devices in steel; a dash if it is not known."""
+    return number(system.mass.of(step.steel_kg), 3) if step.steel_kg else UNKNOWN
 
 
 # ------------------------------------------------------------------ notes

@@ -21,7 +21,6 @@ from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
-from ..core.cylinders import find_innermost
 from ..core.loads import find_arms
 from ..core.phasors import Array, Complex, unit, wrap_degrees
 from ..core.records import Node, find_unit, remove_unit
@@ -32,6 +31,7 @@ from ..show.figures import FigureRow, record_rows
 from ..show.sheet import UNKNOWN, Column, Facts, Grid, Text, number, size_text
 from ..show.units import ShownUnit, System, name_with_unit
 from ..sizing.planes import measure_direction
+from ..sizing.room import find_lowest_edge
 from .records import BalanceParts, BalancerShaft, CounterweightPart, ShaftBearing, ShaftGear
 
 _ROUNDING = 1e-12  # share of the sum of all loads; a smaller load is rounding
@@ -49,23 +49,12 @@ def find_parts(
     """
     refuse_geared(engine)
     omega = float(engine.omega)
-    lowest = _find_lowest_edge(engine)
+    lowest = find_lowest_edge(engine)
     described = []
     for name, entries in group_eccentrics(shafts):
         described.append(_describe_shaft(name, [*entries.values()], omega))
     weights = tuple(_describe_counterweight(table, lowest) for table in counterweights)
     return BalanceParts(tuple(described), weights)
-
-
-def _find_lowest_edge(engine: Engine) -> float | None:
-    """Return the smallest distance of any piston's lowest edge from the crank axis, m; None if the
-    file gives no skirt, or if counterweights turn with the cylinders.
-    """
-    skirt = None if engine.model is None else engine.model.piston.skirt
-    if skirt is None or engine.rotary:
-        return None
-    innermost = float(find_innermost(engine.cylinders).min())
-    return innermost - skirt / 1e3 if math.isfinite(innermost) else None
 
 
 # ------------------------------------------------------------------ shafts

@@ -42,8 +42,17 @@ from ..sizing.ladder import Ladder, find_ladder
 from ..sizing.options import FIT, KNUCKLES, LADDER, SCHEMES, SchemeOptions
 from ..sizing.planes import FIELDS, DeviceTable, find_free, name_kind
 from ..sizing.remedy import Remedy, fit_devices
+from ..sizing.room import assume_skirt
 from ..sizing.sizing import size
-from ..sizing.workshop import Practical, Shapes, Tools, find_practical, shape_devices
+from ..sizing.workshop import (
+    Misfit,
+    Practical,
+    Shapes,
+    Tools,
+    find_misfits,
+    find_practical,
+    shape_devices,
+)
 
 _UNEVEN = "sized for steady speed; before and after are at uneven speed"
 
@@ -130,6 +139,7 @@ class Balance(Result):
             changed.
         parts: Bearing loads of new shafts and shapes of new counterweights, if bearings or a sector
             were given.
+        misfits: Counterweights whose half discs the room around the crank does not have.
         tools: Tools of the workshop.
         every_order: Whether orders were given; then all given orders are shown.
     """
@@ -144,6 +154,7 @@ class Balance(Result):
     permitted: Asked[PermittedUnbalance] = Asked("the command `balcli balance` with grade and mass")
     ladder: Asked[Ladder] = Asked("a scheme that leaves articulated rods unchanged")
     parts: Asked[BalanceParts] = Asked("shapes=Shapes(bearings=(-0.13, 0.13))")
+    misfits: Annotated[tuple[Misfit, ...], HIDDEN] = ()
     tools: Annotated[Tools, HIDDEN] = field(default_factory=Tools)
     every_order: Annotated[bool, HIDDEN] = False
 
@@ -266,14 +277,24 @@ def _answer(
         remedy=remedy,
         practical=find_practical(engine, remedy, tools),
         details=list_details(remedy),
-        assumed=before.assumed,
+        assumed=_list_assumed(before, remedy, ladder),
         before=before,
         after=after,
         ladder=ladder,
         parts=parts,
+        misfits=find_misfits(engine, remedy, tools),
         tools=tools,
         every_order=orders is not None,
     )
+
+
+def _list_assumed(
+    before: Analysis, remedy: Remedy, ladder: Ladder | None
+) -> tuple[Assumed, ...] | None:
+    """Return the values that are assumed for a balance; None if there are none."""
+    steps = () if ladder is None else ladder.steps
+    fitted = (remedy, *(step.remedy for step in steps))
+    return (*(before.assumed or ()), *assume_skirt(before.engine, fitted)) or None
 
 
 def permit_unbalance(

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from math import isinf
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -13,8 +14,9 @@ import typer
 
 from ..core.records import change_attributes
 from ..core.unbalance import SLUGS
-from ..errors import BalcliError, name_option, note
+from ..errors import BalcliError, name_option, note, warn
 from ..file.edit import set_speed
+from ..file.fields import join_words
 from ..file.toml import name_file
 from ..file.units import ANGLE, MASS
 from ..shell import scheme_options
@@ -45,7 +47,7 @@ from ..sizing.options import ALL, FIT, KNUCKLES, MEANINGS, OPTIONS, SchemeOption
 
 if TYPE_CHECKING:
     from ..engine.engine import Engine
-    from ..sizing.workshop import Shapes, Tools
+    from ..sizing.workshop import Misfit, Shapes, Tools
     from .answer import Balance
 
 
@@ -95,8 +97,12 @@ Schemes = Annotated[
     ),
 ]
 Radius = Annotated[str | None, optional("MM", "Radius of the weights; default: crank radius.")]
-Thickness = Annotated[str | None, optional("MM", "Thickness of half-disc weights; default: 20.")]
-Disc = Annotated[str | None, optional("MM", "Radius of half-disc weights; instead of --thickness.")]
+Thickness = Annotated[
+    str | None, optional("MM", "Thickness of half-disc weights; their radius follows.")
+]
+Disc = Annotated[
+    str | None, optional("MM", "Radius of half-disc weights; default: that of the room.")
+]
 Drill = Annotated[str | None, optional("MM", "Diameter of holes to drill from --radius inwards.")]
 MaxDepth = Annotated[str | None, optional("MM", "Deepest hole; default: to the axis.")]
 Slug = Annotated[str | None, optional("METAL", "Slugs in holes: tungsten, lead, or g/cm3.")]
@@ -184,6 +190,24 @@ def parse_shapes(
     radii, _, opening = sector.rpartition(",")
     lengths = read_lengths("sector", radii, wanted, 2, units)
     return places, (*lengths, read_figure("sector", opening, ANGLE))
+
+
+def _warn_of_discs(name: str, tools: Tools, misfits: Sequence[Misfit]) -> None:
+    """Warn of half discs that were asked for and exceed the room around the crank."""
+    asked = [misfit for misfit in misfits if misfit.asked]
+    largest = max(asked, key=lambda misfit: misfit.thickness, default=None)
+    if largest is None or largest.disc is None:
+        return
+    disc = largest.disc
+    room = largest.room
+    option = "--thickness" if tools.disc is None else "--disc"
+    numbers = join_words([str(misfit.number) for misfit in asked])
+    limit = "" if isinf(room.thickness_m) else f", thickness {1e3 * room.thickness_m:.4g} mm"
+    warn(
+        f"{name}: {option}: half discs beyond the room around the crank (radius "
+        f"{1e3 * (room.radius_m or 0):.4g} mm{limit}) for weights {numbers}: radius "
+        f"{1e3 * disc.radius:.4g} mm, thickness {1e3 * disc.thickness:.4g} mm"
+    )
 
 
 def parse_grade(text: str | None) -> float | None:
@@ -388,6 +412,7 @@ def balance(
     result = change_attributes(result, permitted=permitted)
     if hasattr(result, "parts"):
         warn_each(result.parts.doubts, name_file(path))
+    _warn_of_discs(name_file(path), tools, result.misfits)
     if write is not None and misfit is None:
         _write_balanced(text, path, write, result, rpm)
     show_balance(result, form, output, units)

@@ -76,7 +76,7 @@ def sheet(result: Balance, system: System) -> Sheet:
     remedy = result.remedy
     engine = result.before.engine
     loads = [find_crank_loads(state.engine) for state in (result.before, result.after)]
-    parts: list[Grid | Facts | Text] = [*assumed_facts(result.before.assumed)]
+    parts: list[Grid | Facts | Text] = [*assumed_facts(result.assumed)]
     if hasattr(result, "ladder"):
         usual = remedy.scheme == "auto"  # other schemes do not fit a step of the ladder
         parts.append(ladder_grid(result.ladder, engine, system, tell_fitted=usual))
@@ -118,7 +118,7 @@ def _lay_out_devices(
         yield Text("Fitted devices and reasons", tuple(dict.fromkeys(remedy.reasons)))
         if with_table:
             yield device_grid(remedy, system)
-        yield practical_grid(remedy, result.practical, system)
+        yield practical_grid(remedy, result.practical, result.tools, result.misfits, system)
         if any(figures.holes for figures in result.practical):
             yield holes_grid(remedy, result.practical, result.tools, system)
         if hasattr(result, "parts"):

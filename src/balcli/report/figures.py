@@ -27,6 +27,7 @@ from ..forces.stars import find_stars
 from ..sizing.ladder import Ladder, Step, find_ladder, is_judged_by_power
 from ..sizing.planes import DeviceTable, find_free, find_unbalance, name_kind
 from ..sizing.remedy import Remedy, fit_devices
+from ..sizing.room import find_rooms, weigh_steel
 
 MOST_STARS = 8
 _KINDS = (FORCE.name, MOMENT.name)
@@ -107,6 +108,7 @@ def _describe_choice(
         counterweights=len(remedy.counterweights),
         shafts=len(shafts),
         mass_kg=sum(map(find_unbalance, remedy.devices)) / radius,
+        steel_kg=weigh_steel(remedy, find_rooms(result.engine)),
         own=remedy,
         remedy=remedy,
     )

@@ -165,6 +165,7 @@ def describe_engine(model: EngineFile, engine: Engine, text: str) -> Node:
         "up": engine.up_deg,
         "bore": clean(engine.bore_m * 1e3),
         "reference": model.frame.reference,
+        "room": _describe_room(model),
         "numbers": numbers,
         "throws": forms["throws"],
         "pins": forms["pins"],
@@ -279,6 +280,16 @@ def describe_limits(small: float) -> Node:
         "likely": LIKELY,
         "worthNaming": WORTH_NAMING,
         "negligible": NEGLIGIBLE,
+    }
+
+
+def _describe_room(model: EngineFile) -> Node:
+    """Return what limits the room around the crank, m; None: the file does not give it."""
+    skirt = model.piston.skirt
+    crankcase = model.frame.crankcase
+    return {
+        "skirt": None if skirt is None else skirt / 1e3,
+        "crankcase": None if crankcase is None else crankcase / 1e3,
     }
 
 

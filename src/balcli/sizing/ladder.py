@@ -66,6 +66,7 @@ from .residual import (
     list_parts,
     measure_length,
 )
+from .room import find_rooms, weigh_steel
 from .steps import (
     add_at_ends,
     add_at_throws,
@@ -171,6 +172,9 @@ class Step:
         counterweights: Number of new counterweights.
         shafts: Number of new shafts.
         mass_kg: Sum of all new unbalances divided by the crank radius of cylinder 1.
+        steel_kg: Mass of half discs of steel that make these unbalances: counterweights with the
+            radius of the room around the crank, eccentrics of shafts as long as their diameter;
+            left out if this room is not known.
         pru_Nm_per_kW: Power related unbalance of the moment that the step faces; only for
             two-stroke engines with crossheads and known power.
         order: Order that the step balances; 0 as drawn.
@@ -191,6 +195,7 @@ class Step:
     counterweights: int
     shafts: int
     mass_kg: float
+    steel_kg: float | None = None
     pru_Nm_per_kW: float | None = None
     order: Annotated[int, HIDDEN] = 0
     share: Annotated[float, HIDDEN] = 0.0
@@ -497,6 +502,8 @@ def find_ladder(engine: Engine, small: float = SMALL) -> Ladder:
         consider(offer)
     for offer in _offer_compensators(drawn, listed) if drawn.by_power else _offer_shafts(drawn):
         consider(offer)
+    rooms = find_rooms(engine)
+    steps = [replace(step, steel_kg=weigh_steel(step.remedy, rooms)) for step in steps]
     replaced = _list_replaced(steps)
     omitted = [offer for offer in left_out if offer.fits_something and offer.name not in replaced]
     return Ladder(

@@ -5,24 +5,25 @@ size in steel, and holes to drill.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from itertools import count
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
 import numpy as np
 
 from ..core.phasors import wrap_degrees
-from ..core.records import Node
+from ..core.records import HIDDEN, Node
 from ..core.unbalance import STEEL, find_drill_depth, find_drilled_unbalance
+from ..engine.devices import find_sector
 from ..engine.engine import Engine
 from ..errors import Argument, ArgumentError, Message, check_number, join_messages
 from ..file.model import Counterweight, Sector, Shaft, Slider
 from ..file.read import T, TableReader
 from .planes import DeviceTable, as_millimetres, find_order, find_unbalance
 from .remedy import Remedy
+from .room import HalfDisc, Room, find_rooms
 
 ROUNDING = 1e-12  # share by which n holes may fall short before a hole is added
-THICKNESS = 0.020  # m, default thickness of a semicircular disc
 
 
 class Tools(NamedTuple):
@@ -30,8 +31,9 @@ class Tools(NamedTuple):
 
     Attributes:
         radius: Radius at which masses are stated; default: the crank radius.
-        thickness: Thickness of semicircular discs; default: 20 mm.
-        disc: Radius of semicircular discs, instead of their thickness.
+        thickness: Thickness of semicircular discs, from which their radius follows.
+        disc: Radius of semicircular discs, from which their thickness follows; default for a
+            counterweight: the radius of the room around the crank; for a shaft: half the thickness.
         drill: Diameter of the drill; without it no holes are planned.
         max_depth: Largest depth of holes; default: to the axis.
         slug: Density of slugs that fill the holes, kg/m3; default: empty holes.
@@ -72,13 +74,16 @@ class Practical(NamedTuple):
         force_N: Centrifugal force, or largest force of a slider, at the engine's speed.
         speed_rpm: Speed of the shaft; for a slider, its oscillations a minute.
         disc_radius_mm: Radius of a semicircular steel disc whose diameter passes through the axis
-            of rotation; left out for a counterweight that is a sector.
+            of rotation; this and the other figures of the disc are left out for a counterweight
+            that is a sector or for which no disc fits, and for a slider.
         disc_thickness_mm: Thickness of this disc.
+        disc_mass_kg: Mass of this disc.
         drill_depth_mm: Depth of each radial hole from a rim at `radius_mm` inwards. All figures of
             holes are None without a drill, and for sliders.
         holes: Number of equal holes side by side along the axis. Empty holes are opposite to the
             unbalance; holes with slugs are on its side.
         hole_angle_deg: Angle of the holes, measured like the angle of the device.
+        sector_kg: Mass of a counterweight that is a sector; None for other devices.
     """
 
     unbalance_kg_m: float
@@ -88,9 +93,16 @@ class Practical(NamedTuple):
     speed_rpm: float
     disc_radius_mm: float | None = None
     disc_thickness_mm: float | None = None
+    disc_mass_kg: float | None = None
     drill_depth_mm: float | None = None
     holes: int | None = None
     hole_angle_deg: float | None = None
+    sector_kg: Annotated[float | None, HIDDEN] = None
+
+    @property
+    def shape_kg(self) -> float | None:
+        """Mass of the half disc or of the sector; None without either."""
+        return self.disc_mass_kg if self.sector_kg is None else self.sector_kg
 
 
 class HolesDoNotFitError(ArgumentError):
@@ -114,8 +126,13 @@ def find_practical(engine: Engine, remedy: Remedy, tools: Tools) -> tuple[Practi
             width=1e3 * tools.drill,
             rim=1e3 * rim,
         )
-    room = tools.width or _find_room(engine, remedy)
-    return tuple(_find_figures(engine, device, tools, room) for device in remedy.devices)
+    width = tools.width or _find_width(engine, remedy)
+    rooms = find_rooms(engine)
+    figures = []
+    for device in remedy.devices:
+        shape = _find_shape(device, tools, rooms)
+        figures.append(_find_figures(engine, device, tools, width, shape))
+    return tuple(figures)
 
 
 def _refuse_impossible(tools: Tools) -> None:
@@ -147,20 +164,23 @@ def _check_figure(name: str, figure: float | None) -> float | None:
     return check_number(f"Tools: {name}", figure, f"give {wanted}")
 
 
-def _find_figures(engine: Engine, device: DeviceTable, tools: Tools, room: float) -> Practical:
+def _find_figures(
+    engine: Engine, device: DeviceTable, tools: Tools, width: float, shape: Node
+) -> Practical:
+    """Return the figures of a device. `width` is the room for holes, m, and `shape` has the figures
+    of its half disc or sector.
+    """
     unbalance = find_unbalance(device)
     order = find_order(device)
     radius = _find_rim(engine, device, tools)
-    is_sector = isinstance(device, Counterweight) and device.sector is not None
-    disc: Node = {} if is_sector else _find_disc(unbalance, tools)
     return Practical(
         unbalance_kg_m=unbalance,
         mass_kg=unbalance / radius,
         radius_mm=1e3 * radius,
         force_N=unbalance * (order * float(engine.omega)) ** 2,
         speed_rpm=order * float(engine.speed_rpm),
-        **disc,
-        **_plan_holes(device, unbalance, radius, tools, room),
+        **shape,
+        **_plan_holes(device, unbalance, radius, tools, width),
     )
 
 
@@ -205,7 +225,7 @@ def _find_rim(engine: Engine, device: DeviceTable, tools: Tools) -> float:
     return tools.radius or engine.find_radius(device.position / 1e3)
 
 
-def _find_room(engine: Engine, remedy: Remedy) -> float:
+def _find_width(engine: Engine, remedy: Remedy) -> float:
     """Return the room for holes along the crank, m: the smallest distance of neighbouring throws
     (the stroke if there is one throw or positions are not known), or of neighbouring planes of new
     counterweights if that is less.
@@ -216,17 +236,80 @@ def _find_room(engine: Engine, remedy: Remedy) -> float:
     return min([room, *np.diff(planes).tolist()])
 
 
-def _find_disc(unbalance: float, tools: Tools) -> Node:
-    """Return radius and thickness of a half disc, mm. Its centroid is 4R/(3 pi) from its diameter,
-    so `m r = density t 2/3 R^3`.
+# ------------------------------------------------------------------ discs and sectors
+class Misfit(NamedTuple):
+    """A counterweight for which the room around the crank has no half disc, or not the one that is
+    asked for.
+
+    Attributes:
+        number: Number of the device, from 1.
+        room: Room around its crank.
+        disc: Half disc that would be needed; None if the radius of the room is not known.
+        asked: Whether the half disc was asked for, and is listed though it does not fit.
     """
+
+    number: int
+    room: Room
+    disc: HalfDisc | None
+    asked: bool
+
+    @property
+    def thickness(self) -> float:
+        """Thickness of the half disc, m; 0 without one."""
+        return 0.0 if self.disc is None else self.disc.thickness
+
+
+def find_misfits(engine: Engine, remedy: Remedy, tools: Tools) -> tuple[Misfit, ...]:
+    """Return the counterweights whose half discs the room around the crank does not have.
+
+    Args:
+        engine: Engine without the new devices.
+        remedy: New devices.
+        tools: Tools of the workshop, which may ask for a radius or a thickness.
+    """
+    rooms = find_rooms(engine)
+    misfits = []
+    for number, device in enumerate(remedy.devices, 1):
+        if not isinstance(device, Counterweight) or device.sector is not None:
+            continue
+        room = rooms[device.engine]
+        asked = _find_asked_disc(device, tools)
+        disc = asked or room.find_disc(find_unbalance(device))
+        is_unlimited = asked is not None and room.radius_m is None
+        if not (is_unlimited or room.takes(disc)):
+            misfits.append(Misfit(number, room, disc, asked is not None))
+    return tuple(misfits)
+
+
+def _find_shape(device: DeviceTable, tools: Tools, rooms: Mapping[str | None, Room]) -> Node:
+    """Return the figures of a device's half disc or sector; empty for a slider, and for a
+    counterweight that fits in no half disc.
+    """
+    if isinstance(device, Slider):
+        return {}
+    if isinstance(device, Counterweight) and device.sector is not None:
+        return {"sector_kg": float(find_sector(device, device.sector).mass)}
+    disc = _find_asked_disc(device, tools)
+    if disc is None and isinstance(device, Counterweight):
+        disc = rooms[device.engine].shape(find_unbalance(device))
+    elif disc is None:
+        disc = HalfDisc.as_long_as_wide(find_unbalance(device))
+    if disc is None:
+        return {}
+    return {
+        "disc_radius_mm": 1e3 * disc.radius,
+        "disc_thickness_mm": 1e3 * disc.thickness,
+        "disc_mass_kg": disc.mass,
+    }
+
+
+def _find_asked_disc(device: DeviceTable, tools: Tools) -> HalfDisc | None:
+    """Return the half disc of the radius or thickness that is asked for; None if neither is."""
     if tools.disc is not None:
-        radius = tools.disc
-        thickness = 1.5 * unbalance / (STEEL * tools.disc**3)
-    else:
-        thickness = tools.thickness or THICKNESS
-        radius = (1.5 * unbalance / (STEEL * thickness)) ** (1 / 3)
-    return {"disc_radius_mm": 1e3 * radius, "disc_thickness_mm": 1e3 * thickness}
+        return HalfDisc.of_radius(find_unbalance(device), tools.disc)
+    if tools.thickness is not None:
+        return HalfDisc.of_thickness(find_unbalance(device), tools.thickness)
+    return None
 
 
 # ------------------------------------------------------------------ shapes of new devices

@@ -6,6 +6,7 @@ const Kernel = (() => {
   const TURN = 2 * Math.PI, SAMPLES = 256, ORDERS = 12, ROUNDING = 4e-15, NONE = [[0, 0], [0, 0]], ONE_PLACE = 1e-9;
   const WEIGHTS = "counterweights", AT_THROWS = "counterweights at every throw", MOST_STARS = 8;
   const LONG_STROKE = 1, LONG_STROKE_IN_BORES = 2.5;          // m, and in bores: only crosshead engines have longer strokes
+  const STEEL = 7850, SHARE_OF_DISTANCE = 0.7;                // kg/m3; radius of the room over piston pin distance, without a skirt
   const UPRIGHT = { force: ["vertical", "horizontal"], moment: ["yawing", "pitching"] };
   const rad = (deg) => deg * TURN / 360, deg = (angle) => angle * 360 / TURN;
   const polar = (size, angle) => [size * Math.cos(angle), size * Math.sin(angle)];
@@ -67,7 +68,7 @@ const Kernel = (() => {
     for (const each of throws) each.z = sum(each.files.map((number) => places[number])) / each.files.length;
     return {
       omega, r, cylinders, throws, reference, devices: listDevices(numbers, first.axis), firstAxis: first.axis,
-      known: data.known, up: data.up, gasOrders: data.gasOrders, bore, crossheads, power: take("operation.power"),
+      room: data.room, known: data.known, up: data.up, gasOrders: data.gasOrders, bore, crossheads, power: take("operation.power"),
     };
   }
 
@@ -553,14 +554,24 @@ const Kernel = (() => {
   const listChanges = (devices, kinds) => [...new Set(devices.map(({ order }) => order))].sort((a, b) => a - b).map((order) =>
     ({ order, force: kinds.force[order] || NONE, moment: kinds.moment[order] || NONE }));
   function describeStep(engine, { step, devices, peak, kinds, mainLoad, takesBack }) {
+    const steel = weighSteel(engine, devices);
     return {
       step, ...(takesBack ? { takes_back: true } : {}), peak_force_N: peak.force.value,
       ...(engine.known ? { peak_moment_Nm: peak.moment.value } : {}), ...(mainLoad === null ? {} : { main_bearing_N: mainLoad }),
       counterweights: devices.filter((d) => d.kind === "counterweight").length,
       shafts: new Set(devices.filter((d) => d.kind === "shaft").map((d) => d.ratio)).size,
-      mass_kg: sum(devices.map((d) => d.U)) / engine.r, devices: devices.map((d) => describeDevice(engine, d, devices)),
+      mass_kg: sum(devices.map((d) => d.U)) / engine.r, ...(steel === null ? {} : { steel_kg: steel }),
+      devices: devices.map((d) => describeDevice(engine, d, devices)),
       changes: listChanges(devices, kinds),
     };
+  }
+  // Mass of half discs of steel: counterweights with the radius of the room around the crank, eccentrics of shafts as
+  // long as their diameter; null if the room is not known.
+  function weighSteel(engine, devices) {
+    const { skirt, crankcase } = engine.room, distance = Math.min(...engine.cylinders.map(({ l, r, e }) => Math.sqrt((l - r) ** 2 - e ** 2)));
+    const radius = Math.min(crankcase ?? Infinity, skirt === null ? SHARE_OF_DISTANCE * distance : distance - skirt);
+    if (radius <= 0 && devices.some(({ kind }) => kind === "counterweight")) return null;
+    return sum(devices.map(({ kind, U }) => kind === "counterweight" ? 3 * Math.PI * U / (4 * radius) : Math.PI * STEEL * (0.75 * U / STEEL) ** 0.75));
   }
   const describeLeftOut = (engine, { step, cancels, fall }) => ({
     step, force_N: cancels.force, ...(engine.known ? { moment_Nm: cancels.moment } : {}), ...(fall === undefined ? {} : { main_bearing_N: fall }),

@@ -93,7 +93,7 @@ const Page = (() => {
   }
   function tellDevices(step) {
     const count = (n, name) => n ? `${n} ${name}${n > 1 ? "s" : ""}` : "";
-    const mass = step.mass_kg ? `${number(step.mass_kg / units.mass.size, 3)} ${units.mass.name}` : "";
+    const mass = step.steel_kg ? `${number(step.steel_kg / units.mass.size, 3)} ${units.mass.name} of steel` : "";
     return [count(step.counterweights, "counterweight"), count(step.shafts, "shaft"), mass].filter(Boolean).join(", ");
   }
   function showKey() {

@@ -142,7 +142,7 @@ const Tables = (() => {
     }
     put("weights", steps.map((step) => String(step.counterweights || UNKNOWN)));
     put("shafts", steps.map((step) => String(step.shafts || UNKNOWN)));
-    put(units.mass.name, steps.map((step) => step.mass_kg ? number(step.mass_kg / units.mass.size, 3) : UNKNOWN));
+    put(`steel, ${units.mass.name}`, steps.map((step) => step.steel_kg ? number(step.steel_kg / units.mass.size, 3) : UNKNOWN));
     return { head, rows, words: [0] };
   }
   function makeDevices({ devices }) {
