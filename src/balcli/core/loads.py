@@ -18,9 +18,10 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import cached_property, reduce
 from operator import add
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .cylinders import Cylinders, Device
 from .mechanisms.closed_form import Harmonics, Series
@@ -290,18 +291,64 @@ def share_by_lever(places: Array, planes: Array) -> Array:
     return shares
 
 
-def sum_weighted(loads: Phasors, weights: Array, sizes: Array | None = None) -> Phasors:
+def sum_weighted(loads: Phasors, weights: Array) -> Phasors:
     """Return weighted sums of loads; sums below their rounding error are set to 0.
 
     Args:
         loads: Phasors of shape (orders, loads).
         weights: Weights, shape (sums, loads), or (loads,) for a single sum.
-        sizes: For weights that are differences: the sum of the sizes of both terms of each
-            difference, in the shape of the weights, which bounds the rounding errors. None: the
-            weights are not differences.
     """
-    noise = loads.noise @ np.abs(weights if sizes is None else sizes).T
-    return Phasors(loads.orders, loads.vectors @ weights.T, noise).drop_noise()
+    noise = loads.noise @ np.abs(weights).T
+    # Real products use a faster routine than a product of complex vectors with real weights.
+    real = loads.vectors.real @ weights.T
+    imaginary = loads.vectors.imag @ weights.T
+    return Phasors(loads.orders, real + 1j * imaginary, noise).drop_noise()
+
+
+class SectionLoads(NamedTuple):
+    """Loads that sections of a shaft carry, phasors of shape (orders, sections).
+
+    Attributes:
+        shear: Sums of the loads on the free-end side of each section, N.
+        arms: Sums of these loads times their distance `z - section`, N m.
+    """
+
+    shear: Phasors
+    arms: Phasors
+
+
+def sum_to_sections(loads: Phasors, z: Array, sections: Array) -> SectionLoads:
+    """Return the loads that each section carries; sums below their rounding error are set to 0.
+
+    Args:
+        loads: Phasors of shape (orders, loads).
+        z: Axial positions of the loads, m, shape (loads,). A load at a section counts.
+        sections: Axial positions of the sections, m, shape (sections,).
+    """
+    from_free_end = np.argsort(z, kind="stable")
+    places = z[from_free_end]
+    vectors = loads.vectors[..., from_free_end]
+    noise = np.broadcast_to(loads.noise, loads.vectors.shape[1:])[:, from_free_end]
+    counts = np.searchsorted(places, sections, side="right")
+    force = _sum_first(vectors, counts)
+    force_noise = _sum_first(noise, counts)
+    moment = _sum_first(vectors * places, counts)
+    moment_noise = _sum_first(noise * np.abs(places), counts)
+    return SectionLoads(
+        Phasors(loads.orders, force, force_noise).drop_noise(),
+        Phasors(
+            loads.orders,
+            moment - sections * force,
+            moment_noise + np.abs(sections) * force_noise,
+        ).drop_noise(),
+    )
+
+
+def _sum_first(values: NDArray[Any], counts: NDArray[np.intp]) -> NDArray[Any]:
+    """Return the sums of the first `counts` values along the last axis."""
+    sums = np.zeros((*values.shape[:-1], values.shape[-1] + 1), values.dtype)
+    np.cumsum(values, axis=-1, out=sums[..., 1:])
+    return sums[..., counts]
 
 
 def find_ahead(z: Array, sections: Array) -> Array:

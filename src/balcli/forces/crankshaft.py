@@ -26,7 +26,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.cylinders import DeviceKind
-from ..core.loads import find_ahead, find_arms, share_by_lever, sum_weighted
+from ..core.loads import find_ahead, find_arms, share_by_lever, sum_to_sections, sum_weighted
 from ..core.peaks import Peak, find_peaks
 from ..core.phasors import Array, Complex, Phasors, join_places, unit
 from ..core.piecewise import Vectors, cut, find_panels, merged_breaks, quadrature
@@ -135,10 +135,8 @@ def compute_inner_loads(engine: Engine, orders: Array | None = None) -> InnerLoa
     every = merge_orders(find_relevant_orders(engine), [1, 2] if orders is None else orders)
     loads, z = compute_loads(engine, every)
     sections = list_places(z)
-    ahead = find_ahead(z, sections)
-    sizes = ahead * (np.abs(z) + np.abs(sections[:, None]))  # sizes of the terms of the arms
-    shear = sum_weighted(loads, ahead)
-    bending = 1j * sum_weighted(loads, find_arms(z, sections), sizes)
+    shear, arms = sum_to_sections(loads, z, sections)
+    bending = 1j * arms
     if orders is None:
         orders = every[mark_considerable(bending) | (every <= 2)]
     if len(orders) * len(z) > MOST_RESULTS_ALONG_CRANK:

@@ -72,8 +72,11 @@ class Remedy(NamedTuple):
 
     def add_devices(self, added: Iterable[DeviceTable], reason: str) -> Remedy:
         """Return the remedy with further devices, all for the same reason."""
-        pairs = list(zip(self.devices, self.reasons, strict=True))
-        pairs += [(device, reason) for device in added]
+        return self._add_pairs((device, reason) for device in added)
+
+    def _add_pairs(self, added: Iterable[tuple[DeviceTable, str]]) -> Remedy:
+        """Return the remedy with further devices, each with its reason."""
+        pairs = [*zip(self.devices, self.reasons, strict=True), *added]
         pairs.sort(key=lambda pair: KINDS.index(type(pair[0])))
         devices = tuple(device for device, _ in pairs)
         return self._replace(devices=devices, reasons=tuple(reason for _, reason in pairs))
@@ -99,11 +102,11 @@ def join_remedies(scheme: str, remedies: Iterable[Remedy]) -> Remedy:
         remedies: Remedies that change nothing but devices.
     """
     joined = Remedy(scheme)
+    pairs: list[tuple[DeviceTable, str]] = []
     for remedy in remedies:
-        for device, reason in zip(remedy.devices, remedy.reasons, strict=True):
-            joined = joined.add_devices([device], reason)
+        pairs += zip(remedy.devices, remedy.reasons, strict=True)
         joined = joined.add_details(**remedy.details)
-    return joined
+    return joined._add_pairs(pairs)
 
 
 def fit_devices(engine: Engine, remedy: Remedy) -> Engine:
