@@ -19,6 +19,7 @@ LARGEST_IN_COLUMNS = 1e30  # figure in a CSV file: products of such figures do n
 LONGEST_FIGURE = 100  # characters of a number with its unit, which a regular expression parses
 LONGEST_SHOWN = 60  # characters of a value that a message quotes
 MOST_MISTAKES_SHOWN = 20  # listed mistakes of one file: as many as fit on the screen
+WRITTEN_DIGITS = 12  # of a number that a command writes into a file: no scales show as many
 
 # What an engine may have ---------------------------------------------------------------------
 MOST_PARTS = 1000  # cylinders, or devices of one kind

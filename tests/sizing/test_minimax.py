@@ -25,7 +25,7 @@ def test_minimax_reaches_what_it_says_where_it_says(more):
     remedy = size(engine, "minimax")
     told = figures(remedy)
     curve = find_orders(fit_devices(engine, remedy))
-    assert find_peak(curve).value == pytest.approx(told["peak force"], rel=1e-12)
+    assert find_peak(curve).value == pytest.approx(told["peak force"], rel=1e-10)  # devices have twelve digits
     assert 0 <= told["relative error bound"] < 1e-14
     assert len(told["reached"]) == 3
     assert all(0 <= degree < 360 for degree in told["reached"])
@@ -48,7 +48,7 @@ def test_minimax_in_several_planes_takes_the_moment_too():
     engine = build_text(SMALL["vee"])
     one, several = (size_scheme(engine, "minimax", planes=planes) for planes in (None, (-0.1, 0.17)))
     assert sum(cmath.rect(d.unbalance, math.radians(d.angle)) for d in several.devices) == pytest.approx(
-        cmath.rect(one.devices[0].unbalance, math.radians(one.devices[0].angle)), rel=1e-12
+        cmath.rect(one.devices[0].unbalance, math.radians(one.devices[0].angle)), rel=1e-10
     )
     after = compute_spectra(fit_devices(engine, several), [1], ("moment",)).moment
     assert abs(after.forward[0]) <= 1e-13 * abs(after.backward[0])
@@ -72,7 +72,7 @@ def test_an_ellipse_lies_as_wanted(direction, ratio, name):
         assert abs(farthest.imag) <= 0.05 * abs(farthest)
     before = compute_spectra(engine, [1], ("force",)).force
     assert abs(force.backward[0]) == pytest.approx(abs(before.backward[0]), rel=1e-12)
-    assert abs(force.forward[0]) <= abs(force.backward[0]) * (1 + 1e-12)
+    assert abs(force.forward[0]) <= abs(force.backward[0]) * (1 + 1e-10)
 
 
 def test_an_ellipse_needs_a_force_against_the_crank():

@@ -1,13 +1,16 @@
 """Writing remedies: the original text stays, and what is read back is what was analysed."""
 
+import re
+
 import pytest
 from support.engines import GOOD, SINGLE, build_text
-from support.paths import ENGINE_FILES
+from support.paths import ENGINE_FILES, ENGINES
 from support.remedies import size_scheme
 
 from balcli.analysis.answer import analyze
 from balcli.balancing.answer import insert_remedy
 from balcli.errors import BalcliError
+from balcli.file.edit import format_value
 from balcli.sizing.options import SCHEMES
 from balcli.sizing.remedy import Remedy, fit_devices
 from balcli.sizing.sizing import size
@@ -81,3 +84,24 @@ def test_what_no_file_can_describe_is_not_written(scheme):
     remedy = size_scheme(build_text(SINGLE), scheme)
     with pytest.raises(BalcliError, match=f"scheme {scheme}: no engine file can describe its devices"):
         insert_remedy(SINGLE.encode(), remedy)
+
+
+def test_written_numbers_have_at_most_twelve_digits():
+    text = (ENGINES / "i3.toml").read_bytes()
+    remedy = size_scheme(build_text(text), "auto")
+    new = insert_remedy(text, remedy)
+    figures_of_devices = re.findall(r"[\d.]+", new.partition("# fitted")[2])
+    assert max(len(figure.replace(".", "").lstrip("0")) for figure in figures_of_devices) == 12
+    assert format_value([40480.200000000004, 1 / 3, -2e-15 / 3]) == "[40480.2, 0.333333333333, -6.66666666667e-16]"
+    assert format_value({"count": 1234567890123, "on": True}) == "{ count = 1234567890123, on = true }"
+
+
+def test_what_the_digits_of_a_file_leave_is_balanced():
+    """Twelve digits leave 1e-12 of a device's force: rounding, as long as it is no more."""
+    engine = build_text((ENGINES / "i3.toml").read_bytes())
+    remedy = size_scheme(engine, "auto")
+    assert abs(analyze(fit_devices(engine, remedy), [1]).spectra["moment"].forward[0]) == 0
+    first, *others = remedy.devices
+    heavier = first.model_copy(update={"unbalance": first.unbalance * (1 + 1e-9)})
+    left = analyze(fit_devices(engine, remedy._replace(devices=(heavier, *others))), [1])
+    assert abs(left.spectra["moment"].forward[0]) > 0

@@ -32,7 +32,7 @@ from ..engine.parts import Parts
 from ..errors import ArgumentError, BalcliError, InputError, check_type, list_values
 from ..file.assumed import Assumed
 from ..file.edit import format_value, remove_tables, rewrite, set_keys
-from ..file.fields import counted
+from ..file.fields import counted, limit_digits
 from ..file.model import EngineFile, Sector
 from ..forces.crankshaft import find_crank_loads
 from ..limits import SMALL
@@ -371,6 +371,7 @@ def balance_knuckles(
     engine = build(model)
     engine = engine if speed_rpm is None else engine.at_speed(speed_rpm)
     angles_deg, reasons = _even_knuckles(engine, model, goal)
+    angles_deg = limit_digits(angles_deg)  # as they are written
     better = build(model.with_table("articulation", knuckle_angles=angles_deg))
     after = find_travel(better.cylinders)
     details = {

@@ -12,6 +12,7 @@ from contextlib import suppress
 from typing import Any
 
 from ..core.records import Node
+from .fields import limit_digits
 
 HEADER = re.compile(r"^[ \t]*\[{1,2}[ \t]*([\w.-]+)[ \t]*\]{1,2}[ \t]*(?:#.*)?$", re.MULTILINE)
 
@@ -33,6 +34,7 @@ def set_keys(text: str, table: str, keys: Mapping[str, object], note: str) -> st
     """
     from tomlkit.exceptions import TOMLKitError
 
+    keys = {key: limit_digits(value) for key, value in keys.items()}
     wanted = tomllib.loads(text)
     place: Any = wanted
     for name in table.split("."):
@@ -87,15 +89,17 @@ def rewrite(data: Mapping[str, object], reason: str) -> str:
 
 
 def format_value(value: object) -> str:
-    """Return a value, list or table in TOML, on one line. Numbers have the fewest decimals that
-    read back as the same number.
+    """Return a value, list or table in TOML, on one line. Numbers have at most twelve significant
+    digits.
     """
     if isinstance(value, (list, tuple)):
         return f"[{', '.join(map(format_value, value))}]"
     if isinstance(value, Mapping):
         inner = ", ".join(f"{key} = {format_value(part)}" for key, part in value.items())
         return f"{{ {inner} }}"
-    return json.dumps(value, ensure_ascii=False) if isinstance(value, (str, bool)) else repr(value)
+    if isinstance(value, (str, bool)):
+        return json.dumps(value, ensure_ascii=False)
+    return repr(limit_digits(value))
 
 
 def _find_section(text: str, table: str) -> Iterator[tuple[int, int, str]]:

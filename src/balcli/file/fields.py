@@ -7,8 +7,8 @@ from __future__ import annotations
 import math
 import re
 import sys
-from collections.abc import Callable, Collection, Iterable, Iterator
-from typing import TYPE_CHECKING, Annotated, NamedTuple
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 from ..core.records import Node
 from ..limits import (
@@ -17,6 +17,7 @@ from ..limits import (
     LONGEST_SHOWN,
     MOST_LIST_VALUES,
     SMALLEST_POSITIVE,
+    WRITTEN_DIGITS,
 )
 from .units import PLAIN, Dimension, convert, wanted
 
@@ -82,6 +83,19 @@ def as_written(value: float, unit: str) -> str:
 def order_number(order: float) -> int | float:
     """Return an order for output: an int if it is whole."""
     return int(order) if order == int(order) else float(order)
+
+
+def limit_digits(value: object) -> Any:
+    """Return a value, list or table with every number rounded to twelve significant digits: 40480.2
+    in place of 40480.200000000004.
+    """
+    if isinstance(value, float):
+        return float(f"{value:.{WRITTEN_DIGITS}g}")
+    if isinstance(value, Mapping):
+        return {key: limit_digits(part) for key, part in value.items()}
+    if isinstance(value, (list, tuple)):
+        return type(value)(map(limit_digits, value))
+    return value
 
 
 def counted(count: int, what: str) -> str:

@@ -17,6 +17,7 @@ import numpy as np
 from ..core.phasors import EPS, wrap_degrees
 from ..engine.engine import Engine, Placed
 from ..errors import MOMENTS_UNKNOWN, ArgumentError
+from ..file.fields import limit_digits
 from ..file.model import Counterweight, Shaft, Slider
 from .options import SchemeOptions
 from .residual import Residual, ResidualPart
@@ -175,6 +176,12 @@ _ROUNDING = 1e-12  # a sum of eccentrics below this share of the largest eccentr
 def name_kind(device: DeviceTable) -> str:
     """Return the name of a device's table: "counterweight", "shaft" or "slider"."""
     return type(device).__name__.lower()
+
+
+def round_figures(device: DeviceTable) -> DeviceTable:
+    """Return a device with the digits that a file has."""
+    figures = {key: limit_digits(getattr(device, key)) for key in FIELDS[type(device)]}
+    return device.model_copy(update=figures)
 
 
 def find_order(device: DeviceTable) -> int:

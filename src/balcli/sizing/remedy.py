@@ -10,7 +10,7 @@ from ..core.cylinders import Device
 from ..engine.engine import Engine
 from ..engine.placed import build_fitted
 from ..file.model import Counterweight, EngineFile, Shaft, Slider
-from .planes import KINDS, DeviceTable, name_kind
+from .planes import KINDS, DeviceTable, name_kind, round_figures
 
 if TYPE_CHECKING:
     from .bobweights import Bobweight, FactorPeaks, PlaneNeed
@@ -71,8 +71,10 @@ class Remedy(NamedTuple):
         return tuple(device for device in self.devices if isinstance(device, Slider))
 
     def add_devices(self, added: Iterable[DeviceTable], reason: str) -> Remedy:
-        """Return the remedy with further devices, all for the same reason."""
-        return self._add_pairs((device, reason) for device in added)
+        """Return the remedy with further devices, all for the same reason. Their figures have the
+        digits that a file has, so that a written file has exactly these devices.
+        """
+        return self._add_pairs((round_figures(device), reason) for device in added)
 
     def _add_pairs(self, added: Iterable[tuple[DeviceTable, str]]) -> Remedy:
         """Return the remedy with further devices, each with its reason."""

@@ -247,7 +247,7 @@ const Kernel = (() => {
   // Phasors and peaks with devices: each device adds to one order.
   function addDevices(engine, kinds, devices) {
     const sums = Object.fromEntries(Object.entries(kinds).map(([kind, pairs]) => [kind, pairs.slice()]));
-    const drop = (v, part) => size(v) <= 1e-13 * size(part) ? [0, 0] : v;
+    const drop = (v, part) => size(v) <= 2e-11 * size(part) ? [0, 0] : v;                 // as core/loads.py
     const put = (kind, n, parts) => {
       const before = sums[kind][n] || NONE;
       sums[kind][n] = parts.map((v, k) => drop(add(before[k], v), v));

@@ -35,6 +35,8 @@
     const joined = word.replace(/([a-z])(?:\*\*)?([23])/gi, "$1^$2").replace(/[\s·⋅*]+|\.$/g, "");
     return joined.length < 2 || /^M[a-zG]/.test(joined) ? joined : joined.toLowerCase();   // Mg: a megagram
   }
+  // A number with the digits that a written file has.
+  const brief = (value) => Number(value.toPrecision(12));
   // A number in the unit of the file, as people write it; an Error says what would be right.
   function readValue(name, text) {
     const { unit, above, least, most, whole } = find(name), wanted = `give a number${unit ? ` in ${unit}` : ""}`;
@@ -53,7 +55,7 @@
       const known = Object.keys(factors).join(", ");
       throw new Error(`${name}: the unit "${word.slice(0, 20)}" is not known here; ${wanted}${known && `, or in ${known}`}`);
     }
-    const found = value * factor;
+    const found = brief(value * factor);
     if (whole && (!Number.isInteger(found) || !found)) throw new Error(`${name}: give a whole number other than 0`);
     if (above !== undefined && found <= above) throw new Error(`${name}: ${found} is not above ${above}`);
     if (least !== undefined && found < least) throw new Error(`${name}: ${found} is below ${least}`);
@@ -261,7 +263,7 @@
     step = "0";
     for (const d of chosen?.devices || []) {
       const table = freeTable(next, d.kind), start = d.kind === "counterweight" ? engine.firstAxis : 0;
-      Object.assign(next, { [`${table}.unbalance`]: d.U * 1e6, [`${table}.angle`]: degrees(d.angle - start), [`${table}.position`]: d.z * 1e3 });
+      Object.assign(next, { [`${table}.unbalance`]: brief(d.U * 1e6), [`${table}.angle`]: brief(degrees(d.angle - start)), [`${table}.position`]: brief(d.z * 1e3) });
       if (d.kind === "shaft") Object.assign(next, { [`${table}.ratio`]: d.ratio, [`${table}.at.1`]: 0, [`${table}.at.2`]: 0 });
     }
     apply(next, { rebuild: true });
