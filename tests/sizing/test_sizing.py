@@ -57,6 +57,7 @@ OPTIONS = {
     "measured": 1.9,
     "roll": "zero",
 }
+OF_SCHEMES = {"counterweights": {"order": 1}, "complete": {"at": (0.02 + 0.03j, 0.04, 0.05)}}  # instead of these
 NEEDY = {"compensator", "eccentric-slider", "ellipse", "oldham", "step"}  # need an option, or another engine
 
 
@@ -64,7 +65,8 @@ NEEDY = {"compensator", "eccentric-slider", "ellipse", "oldham", "step"}  # need
 @pytest.mark.parametrize("scheme", sorted({*SCHEMES} - NEEDY))
 def test_an_option_makes_a_difference_or_is_refused(scheme, option):
     engine = build_text(SMALL["vee"])
-    options = SchemeOptions(**{option: 1 if scheme == "counterweights" and option == "order" else OPTIONS[option]})
+    given = {**OPTIONS, **OF_SCHEMES.get(scheme, {})}
+    options = SchemeOptions(**{option: given[option]})
     if option not in SCHEMES[scheme]:
         with pytest.raises(BalcliError, match=f"scheme {scheme} has no {option}; (it takes|choose scheme)"):
             size(engine, scheme, options)

@@ -40,6 +40,7 @@ from ..show.result import Result
 from ..sizing.fit import list_to_fit, size_fit
 from ..sizing.ladder import Ladder, find_ladder
 from ..sizing.options import FIT, KNUCKLES, LADDER, SCHEMES, SchemeOptions
+from ..sizing.placed_steps import fit_steps
 from ..sizing.planes import FIELDS, DeviceTable, find_free, name_kind
 from ..sizing.remedy import Remedy, fit_devices
 from ..sizing.room import assume_skirt
@@ -110,10 +111,11 @@ def describe_remedy(remedy: Remedy) -> FittedRemedy:
 
 def list_details(remedy: Remedy) -> Node:
     """Return the details of a remedy. Its bobweight card, the unbalance that each plane needs and
-    has (`planes`), the peaks for each of several factors (`sweep`) and the note are added, unless
-    they are empty.
+    has (`planes`), the peaks for each of several factors (`sweep`), the note and the moments that
+    single eccentrics leave (`moments_left`) are added, unless they are empty.
     """
     more = {"card": remedy.card, "planes": remedy.needs, "sweep": remedy.sweep, "note": remedy.note}
+    more["moments_left"] = remedy.moments_left
     return {**remedy.details, **{key: value for key, value in more.items() if value}}
 
 
@@ -210,7 +212,8 @@ def balance(
     if scheme in LADDER:
         asked.check(scheme)
         ladder = find_ladder(engine, asked.read_small())
-        return _answer(engine, ladder.fit(asked.step), orders, tools, ladder, shapes)
+        remedy = fit_steps(engine, ladder, asked)
+        return _answer(engine, remedy, orders, tools, ladder, shapes)
     remedy = size(engine, scheme, asked)
     start = engine if remedy.start is None else remedy.start
     return _answer(start, remedy, orders, tools, find_ladder(start, asked.read_small()), shapes)

@@ -139,6 +139,12 @@ def _list_notes(result: Balance, system: System) -> Iterator[str]:
         yield tell_usual(result.ladder)
     if remedy.step or remedy.steps is not None:
         yield _tell_left(result, system)
+    for left in remedy.moments_left:
+        size = size_text(left.moment_Nm, system.moment)
+        yield (
+            f"The one eccentric of the shaft at {left.ratio:+d} leaves a moment of {size}; two "
+            "places of --position cancel it."
+        )
     yield _tell_couple(result, system)
     yield _tell_bearings(result, system)
     yield tell_best_factors(result, system)

@@ -31,10 +31,11 @@ Scheme = Annotated[
 Order = Annotated[int | None, optional("N", "Order to balance; default: lowest suitable order.")]
 At = Annotated[
     list[str] | None,
-    optional("X,Y", "Shaft position, mm; twice for two shafts, first the one against the crank."),
+    optional("X,Y", "Shaft position, mm; once for each shaft, first those against the crank."),
 ]
 Position = Annotated[
-    str | None, optional("Z|Z,Z", "Axial position of new devices, mm; two values for compensators.")
+    str | None,
+    optional("Z|Z,Z", "Axial position of new devices, mm; two for pairs of them."),
 ]
 Planes = Annotated[
     str | None,

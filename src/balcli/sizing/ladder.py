@@ -279,6 +279,18 @@ class Ladder:
             )
         return self._join("step", chosen)
 
+    def list_fitted(self, step: str | int | None = None) -> tuple[str, ...]:
+        """Return the names of the steps whose devices `fit` returns for this argument."""
+        if step is None:
+            return self.auto
+        chosen = self._choose(str(step))
+        if len(chosen) > 1:
+            return chosen
+        names = [row.step for row in self.steps]
+        fitted = names[1 : names.index(chosen[0]) + 1]
+        replaced = {WEIGHTS} if WEIGHTS_AT_THROWS in fitted else set()
+        return tuple(name for name in fitted if name not in replaced)
+
     def _join(self, scheme: str, names: tuple[str, ...]) -> Remedy:
         """Return the devices that these steps add, without those of other steps."""
         remedies = [self.find_step(name).own for name in names]

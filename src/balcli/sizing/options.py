@@ -35,10 +35,11 @@ class Scheme(NamedTuple):
     meaning: str
 
 
+_PLACES = ("at", "position", "planes")  # of shafts, eccentrics and counterweights
 _SCHEMES = (
-    Scheme("auto", (), "orders 1 and 2: counterweights; shafts if they cancel much"),
-    Scheme("complete", (), "all of orders 1 and 2: counterweights, and even small shafts"),
-    Scheme("step", ("step",), "rows of the ladder that balance prints, by name or number"),
+    Scheme("auto", _PLACES, "orders 1 and 2: counterweights; shafts if they cancel much"),
+    Scheme("complete", _PLACES, "all of orders 1 and 2: counterweights, and even small shafts"),
+    Scheme("step", ("step", *_PLACES), "rows of the ladder that balance prints, by name or number"),
     Scheme(
         "counterweights",
         ("order", "planes"),
@@ -131,8 +132,10 @@ class SchemeOptions(NamedTuple):
         order: Order to balance; default: the lowest order with a force or moment that the scheme
             cancels and that is not small.
         at: Positions x + iy of shafts or sliders; for a pair of shafts, the position of the shaft
-            that turns against the crank comes first.
-        position: Position z of new devices; compensators take one z, or two (fore and aft).
+            that turns against the crank comes first; for steps of the ladder, a position for each
+            shaft, in the order -1, -2, +2.
+        position: Position z of new devices; compensators take one z, or two (fore and aft). Shafts
+            of steps of the ladder take one z, which cancels only the force, or two.
         planes: "ends", "throws", or positions z of new devices.
         factor: Shares of the reciprocating mass to try; the best share is fitted; default: 0.5.
         measured: Mass on each bare pin that balances the crank, kg; the factor that

@@ -16,6 +16,18 @@ if TYPE_CHECKING:
     from .bobweights import Bobweight, FactorPeaks, PlaneNeed
 
 
+class MomentLeft(NamedTuple):
+    """The moment that one eccentric leaves, because it cancels only a force.
+
+    Attributes:
+        ratio: Speed ratio of its shaft.
+        moment_Nm: The moment, which turns with the shaft.
+    """
+
+    ratio: int
+    moment_Nm: float
+
+
 class Remedy(NamedTuple):
     """New devices as tables of the engine file, with reasons and notes.
 
@@ -38,6 +50,8 @@ class Remedy(NamedTuple):
         step: Name of the step of the ladder whose row is fitted (scheme step).
         steps: Names of the steps of the ladder whose devices are fitted (scheme auto, and scheme
             step with several steps); None for other schemes.
+        moments_left: Moments that shafts with one eccentric leave (schemes auto, step and
+            complete with a position).
     """
 
     scheme: str
@@ -54,6 +68,7 @@ class Remedy(NamedTuple):
     start: Engine | None = None
     step: str = ""
     steps: tuple[str, ...] | None = None
+    moments_left: tuple[MomentLeft, ...] = ()
 
     @property
     def counterweights(self) -> tuple[Counterweight, ...]:

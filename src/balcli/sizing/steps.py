@@ -15,7 +15,6 @@ from ..forces.spectrum import compute_spectra
 from .fitting import Fitting, Slot, explain_counterweights, explain_shaft, size_unbalances
 from .pairs import find_moment_about_y, place_forces
 from .planes import find_carriers, find_ends, find_planes
-from .remedy import Remedy
 from .residual import FORWARD, Residual, list_parts
 
 _AT_THROWS = (
@@ -77,19 +76,6 @@ def add_shafts(fitting: Fitting, residual: Residual, senses: Iterable[int]) -> F
         reason = explain_shaft(residual, sense, len(slots))
         fitting = fitting.cancel(slots, parts, reason, residual)
     return fitting
-
-
-def size_complete(engine: Engine) -> Remedy:
-    """Return devices that cancel all forces and moments of orders 1 and 2, even small ones."""
-    fitting = Fitting.start(ignore_compensators(engine), "complete")
-    first = fitting.find_residual(1)
-    second = fitting.find_residual(2)
-    carriers = find_carriers(engine)
-    for sense in carriers:
-        if any(first.parts[part] for part in list_parts(sense)):
-            fitting = add_at_ends(fitting, first, sense)
-    fitting = add_shafts(fitting, first, {-1}.difference(carriers))
-    return add_shafts(fitting, second, [1, -1]).remedy
 
 
 # ------------------------------------------------------------------ compensators
