@@ -114,6 +114,62 @@ def test_a_sector_is_the_sum_of_its_pieces(inner, outer, opening):
         assert back[:7] == pytest.approx(part[:7])
 
 
+# ------------------------------------------------------------------ eccentrics
+ECCENTRIC = "[[shaft]]\nname = 'left'\nratio = -2\nsector = {{ inner_radius = 9, outer_radius = 20, opening = {} }}\n"
+
+
+@pytest.mark.parametrize("opening", [180, 130])
+def test_an_eccentric_is_the_sum_of_its_sector_and_its_core(opening):
+    """A counterweight of the same sector, and a solid cylinder of the inner radius, 120 mm long."""
+    thick = f"opening = {opening}, thickness = 120 }}"
+    text = ECCENTRIC.format(opening).replace(f"opening = {opening} }}", thick)
+    found = find_parts(
+        build_text(GOOD + text + text.replace("[[shaft]]\nname = 'left'\nratio = -2", "[[counterweight]]"))
+    )
+    (part,), (bare,) = found.eccentrics, found.counterweights
+    core = 7850 * math.pi * 0.009**2 * 0.12
+    assert part.shaft == "left"
+    assert part.thickness_m == pytest.approx(0.12)
+    assert part.unbalance_kg_m == pytest.approx(bare.unbalance_kg_m)
+    assert part.mass_kg == pytest.approx(bare.mass_kg + core)
+    assert part.inertia_kg_m2 == pytest.approx(bare.inertia_kg_m2 + core * 0.009**2 / 2)
+    unbalance = ECCENTRIC.format(opening) + f"unbalance = {part.unbalance_kg_m * 1e6!r}\n"
+    (back,) = find_parts(build_text(GOOD + unbalance)).eccentrics
+    assert back[1:] == pytest.approx(part[1:])
+
+
+def test_sectors_of_one_name_add_up_to_the_inertia_of_the_shaft():
+    """Figures of a calculation by hand: each has 123.505 kg mm2, which counts with the square of the ratio."""
+    one = ECCENTRIC.format(180) + "unbalance = 4576.406537132128\n"
+    (part,) = find_parts(build_text(GOOD + one)).eccentrics
+    assert (part.mass_kg, part.thickness_m) == pytest.approx((0.7133237189313336, 0.12026854445236496))
+    for count in (1, 2):
+        engine = build_text(GOOD + count * one)
+        (shaft,) = find_parts(engine).shafts
+        assert shaft.inertia_at_crank_kg_m2 == pytest.approx(count * 4 * 0.00012350510597601024)
+        turning = engine.find_turning_inertia()
+        assert turning.energy - build_text(GOOD).find_turning_inertia().energy == pytest.approx(
+            shaft.inertia_at_crank_kg_m2
+        )
+
+
+def test_a_fitted_eccentric_has_its_length(tmp_path):
+    """The unbalance that cancels the force turning against the crank of a single; the file keeps the sector."""
+    ask("engines", "single", tmp_path / "single.toml")
+    text = (tmp_path / "single.toml").read_text(encoding="utf-8")
+    shaft = ECCENTRIC.format(180).replace("-2", "-1") + "unbalance = 'fit'\n"
+    file = write(tmp_path / "fit.toml", text + shaft)
+    found = ask_json("balance", file, "--write", tmp_path / "out.toml")
+    (eccentric,) = found["parts"]["eccentrics"]
+    assert eccentric["unbalance_kg_m"] == found["shafts"][0]["unbalance_kg_m"]
+    (written,) = find_parts(load(tmp_path / "out.toml")).eccentrics
+    assert written.thickness_m == pytest.approx(eccentric["thickness_m"])
+    assert "Eccentrics" in ask("analyze", tmp_path / "out.toml", "--only", "parts")
+    rows = ask_csv("analyze", tmp_path / "out.toml", "--only", "parts")
+    (mass,) = (row["value"] for row in rows if (row["quantity"], row["figure"]) == ("eccentric 1", "mass_kg"))
+    assert float(mass) == pytest.approx(written.mass_kg)
+
+
 @pytest.mark.parametrize(
     "text",
     [

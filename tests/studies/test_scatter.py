@@ -83,6 +83,83 @@ def test_devices_stay_where_they_are_when_the_first_throw_moves() -> None:
         assert one == pytest.approx(four, rel=1e-9)
 
 
+# ------------------------------------------------------------------ devices
+SINGLE = changed(("[0, 180, 180, 0]", "[0]"), ("spacing = 100\n", ""), ("[layout]\nfiring_order = [1, 3, 4, 2]\n", ""))
+WEIGHT = "[[counterweight]]\nangle = {}\nposition = 3\n{}\n"
+OF_SHAFT = "[[shaft]]\nratio = -1\nat = [-60, 55]\nangle = {}\n{}\n"
+OF_SLIDER = "[[slider]]\norder = 2\ndirection = 20\nangle = {}\n{}\n"
+SECTOR = "sector = {{ inner_radius = 9, outer_radius = 40, opening = 170, thickness = {} }}"
+
+
+@pytest.mark.parametrize(
+    ("table", "angle", "weight", "size", "name"),
+    [
+        *((WEIGHT, 176, "unbalance = {}", 52000, "counterweight"), (OF_SHAFT, 183, "unbalance = {}", 9800, "shaft")),
+        *(
+            (OF_SLIDER, 30, "unbalance = {}", 5000, "slider"),
+            (WEIGHT, 176, "radius = 40\nmass = {}", 1.2, "counterweight"),
+        ),
+        *((WEIGHT, 170, SECTOR, 30, "counterweight"), (OF_SHAFT, 190, SECTOR, 25, "shaft")),
+    ],
+)
+def test_devices_deviate_in_unbalance_and_angle(table, angle, weight, size, name):
+    """As in files with other figures, at both ends of the tolerances."""
+    forces = "force.2.major" if name == "slider" else "force.1.major"
+    (spread,) = scatter(SINGLE + table.format(angle, weight.format(size)), forces, Tolerances(mass=0.01, angle_deg=0.5))
+    for part, changes in ((name, ((angle, 1.01 * size), (angle, 0.99 * size))),
+                          (f"{name} angle", ((angle + 0.5, size), (angle - 0.5, size)))):  # fmt: skip
+        ends = [evaluate(SINGLE + table.format(at, weight.format(what)), forces) for at, what in changes]
+        assert spread.sensitivity[f"{part} 1"] == pytest.approx((ends[0] - ends[1]) / 2, rel=1e-7)
+
+
+def test_figures_of_a_calculation_by_hand():
+    text = (
+        "[crank]\nstroke = 84\nthrow_mass = 0.9\n[rod]\nlength = 150\nmass = 0.42\ncg = 42\ninertia = 1700\n"
+        "[piston]\nbore = 94\nmass = 0.4\n[operation]\nspeed = 6500\n"
+    )
+    devices = WEIGHT.format(176, "unbalance = 52000") + OF_SHAFT.format(183, "unbalance = 9800")
+    (spread,) = scatter(text + devices, "force.1.major", Tolerances(mass=0.01, angle_deg=0.5))
+    wanted = {
+        "counterweight 1": -218.47445593111843,
+        "shaft 1": -39.93304389759669,
+        "counterweight angle 1": -88.44657606702185,
+        "shaft angle 1": 18.767724702894157,
+    }
+    assert {name: spread.sensitivity[name] for name in wanted} == pytest.approx(wanted)
+
+
+def test_a_throw_and_a_weight_that_turn_together_add_up():
+    """Both change the angle of the weight in the file, which counts from the throw."""
+    text = SINGLE + WEIGHT.format(150, "unbalance = 40000")
+    variants = Variants(load(text), "force.1.major", Tolerances(angle_deg=2))
+    names = [source.name for source in variants.sources]
+    deviations = np.zeros((1, len(names)))
+    for name in ("throw angle 1", "counterweight angle 1"):
+        deviations[0, names.index(name)] = 2.0
+    turned = evaluate(text, "force.1.major")  # the throw and its weight have turned by 2 deg
+    assert variants.evaluate(deviations)[0, 0] == pytest.approx(turned, rel=1e-12)
+    deviations[0, names.index("counterweight angle 1")] = 0.0
+    assert variants.evaluate(deviations)[0, 0] != pytest.approx(turned, rel=1e-4)
+
+
+def test_shafts_without_an_eccentric_do_not_deviate():
+    text = SINGLE + "[[shaft]]\nratio = -1\ninertia = 90\n" + WEIGHT.format(0, "unbalance = 0")
+    (spread,) = scatter(text, "force.1.major", Tolerances(mass=0.01, angle_deg=1))
+    assert not {name for name in spread.sensitivity if name.startswith(("shaft", "counterweight"))}
+
+
+def test_devices_of_geared_engines_and_of_the_whole(tmp_path):
+    """Those of an engine's own file have its name."""
+    (tmp_path / "twin.toml").write_text(TWIN + WEIGHT.format(10, "unbalance = 900"))
+    table = '[[engine]]\nname = "{}"\nfile = "twin.toml"\nat = [0, 0, {}]\n'
+    shaft = OF_SHAFT.format(20, "unbalance = 700")
+    (tmp_path / "pair.toml").write_text(table.format("upper", 0) + table.format("lower", 500) + shaft)
+    pair = balcli.load(tmp_path / "pair.toml")
+    spread = balcli.scatter(pair, "force.1.major", mass_scatter="1%", samples=10, seed=1).quantities["force.1.major"]
+    assert {"upper counterweight 1", "lower counterweight 1", "shaft 1"} <= {*spread.sensitivity}
+    assert spread.sensitivity["shaft 1"] != 0
+
+
 def test_a_rod_deviates_without_its_shells() -> None:
     """What a rod's tolerance does is the same with shells and oil on the pins as without."""
     shells = "[bobweight]\nrod_bearing = 0.05\noil = 0.01\n"

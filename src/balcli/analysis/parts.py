@@ -26,13 +26,20 @@ from ..core.phasors import Array, Complex, unit, wrap_degrees
 from ..core.records import Node, find_unit, remove_unit
 from ..engine.devices import build_device, find_given_unbalance, find_sector, group_eccentrics
 from ..engine.engine import Engine, refuse_geared
-from ..file.model import Counterweight, Shaft
+from ..file.model import Counterweight, Sector, Shaft
 from ..show.figures import FigureRow, record_rows
 from ..show.sheet import UNKNOWN, Column, Facts, Grid, Text, number, size_text
 from ..show.units import ShownUnit, System, name_with_unit
 from ..sizing.planes import measure_direction
 from ..sizing.room import find_lowest_edge
-from .records import BalanceParts, BalancerShaft, CounterweightPart, ShaftBearing, ShaftGear
+from .records import (
+    BalanceParts,
+    BalancerShaft,
+    CounterweightPart,
+    Eccentric,
+    ShaftBearing,
+    ShaftGear,
+)
 
 _ROUNDING = 1e-12  # share of the sum of all loads; a smaller load is rounding
 
@@ -51,10 +58,14 @@ def find_parts(
     omega = float(engine.omega)
     lowest = find_lowest_edge(engine)
     described = []
+    eccentrics = []
     for name, entries in group_eccentrics(shafts):
         described.append(_describe_shaft(name, [*entries.values()], omega))
+        for entry in entries.values():
+            if entry.sector is not None:
+                eccentrics.append(_describe_eccentric(name, entry, entry.sector))
     weights = tuple(_describe_counterweight(table, lowest) for table in counterweights)
-    return BalanceParts(tuple(described), weights)
+    return BalanceParts(tuple(described), weights, tuple(eccentrics) or None)
 
 
 # ------------------------------------------------------------------ shafts
@@ -151,6 +162,19 @@ def _find_bending(
     return largest, 1e3 * float(z[first])
 
 
+def _describe_eccentric(name: str, table: Shaft, sector: Sector) -> Eccentric:
+    """Return mass and shape of an eccentric that is a sector on the core of its shaft."""
+    shape = find_sector(table, sector)
+    return Eccentric(
+        shaft=name,
+        position_mm=table.position,
+        unbalance_kg_m=float(shape.unbalance),
+        mass_kg=float(shape.mass),
+        inertia_kg_m2=float(shape.inertia),
+        thickness_m=float(shape.thickness),
+    )
+
+
 # ------------------------------------------------------------------ counterweights
 def _describe_counterweight(table: Counterweight, lowest: float | None) -> CounterweightPart:
     """Return unbalance and, for a sector, mass and shape of a counterweight.
@@ -185,6 +209,14 @@ _BEARING = {
     "largest_N": "largest",
 }
 _SHORT = {"position_mm": "z", "angle_deg": "at", "center_of_mass_m": "radius"}
+_ECCENTRIC = {
+    "position_mm": "z",
+    "unbalance_kg_m": "unbalance",
+    "mass_kg": "mass",
+    "inertia_kg_m2": "inertia",
+    "thickness_m": "length",
+}
+_CORE_NOTE = "Mass and inertia include the core of the shaft."
 _WEIGHT = {key: remove_unit(key) for key in CounterweightPart._fields} | _SHORT
 
 
@@ -204,6 +236,8 @@ def lay_out_parts(parts: BalanceParts, system: System) -> Iterator[Grid | Facts 
     if bare := [shaft.name for shaft in parts.shafts if not shaft.bearings]:
         unknown = f"Loads are not known: the file gives no bearings for {', '.join(bare)}."
         yield Text("Balancer shafts", (unknown,))
+    if parts.eccentrics:
+        yield _lay_out_eccentrics(parts.eccentrics, system)
     if parts.counterweights:
         yield _lay_out_counterweights(parts.counterweights, system)
     if not (parts.shafts or parts.counterweights):
@@ -258,6 +292,13 @@ def _tell_shaft(shaft: BalancerShaft, system: System) -> str:
     return ", ".join(words)
 
 
+def _lay_out_eccentrics(parts: Sequence[Eccentric], system: System) -> Grid:
+    unit_ = system.unbalance.fit(max(part.unbalance_kg_m for part in parts))
+    shaft = Column("shaft", [part.shaft for part in parts], words=True)
+    columns = [shaft, *list_columns(parts, _ECCENTRIC, {"kg·m": unit_}, system)]
+    return Grid("Eccentrics", columns, _CORE_NOTE)
+
+
 def _lay_out_counterweights(parts: Sequence[CounterweightPart], system: System) -> Grid:
     unit_ = system.unbalance.fit(max(abs(part.unbalance_kg_m) for part in parts))
     numbers = Column("no.", [str(k) for k in range(1, len(parts) + 1)], words=True)
@@ -275,5 +316,7 @@ def list_part_rows(parts: BalanceParts) -> Iterator[FigureRow]:
     for shaft in parts.shafts:
         name = f"shaft {shaft.name.removeprefix('shaft ')}"
         yield from record_rows(0, name, None, shaft, "name")
+    for k, eccentric in enumerate(parts.eccentrics or (), 1):
+        yield from record_rows(0, f"eccentric {k}", None, eccentric, "shaft")
     for k, weight in enumerate(parts.counterweights, 1):
         yield from record_rows(0, f"counterweight {k}", None, weight)

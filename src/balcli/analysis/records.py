@@ -519,16 +519,38 @@ class CounterweightPart(NamedTuple):
     clearance_m: float | None = None
 
 
+class Eccentric(NamedTuple):
+    """An eccentric in the shape of a sector on the core of its shaft.
+
+    Attributes:
+        shaft: Name of the shaft.
+        position_mm: Position along the crank.
+        unbalance_kg_m: Unbalance.
+        mass_kg: Mass with the core.
+        inertia_kg_m2: Polar moment of inertia about the axis of the shaft, with the core.
+        thickness_m: Length along the shaft.
+    """
+
+    shaft: str
+    position_mm: float
+    unbalance_kg_m: float
+    mass_kg: float
+    inertia_kg_m2: float
+    thickness_m: float
+
+
 class BalanceParts(NamedTuple):
-    """Bearing loads of balancer shafts, and shapes of counterweights.
+    """Bearing loads of balancer shafts, and shapes of counterweights and eccentrics.
 
     Attributes:
         shafts: Balancer shafts.
         counterweights: Counterweights.
+        eccentrics: Eccentrics in the shape of a sector; left out if there are none.
     """
 
     shafts: tuple[BalancerShaft, ...]
     counterweights: tuple[CounterweightPart, ...]
+    eccentrics: tuple[Eccentric, ...] | None = None
 
     @property
     def doubts(self) -> Iterator[Doubt]:

@@ -269,7 +269,8 @@ def _answer(
     shapes = shapes or Shapes()
     parts = None
     remedy = shape_devices(engine, remedy, shapes)
-    shafts = () if shapes.bearings is None else remedy.shafts
+    has_sectors = any(shaft.sector for shaft in remedy.shafts)
+    shafts = remedy.shafts if has_sectors or shapes.bearings is not None else ()
     if shafts or any(weight.sector for weight in remedy.counterweights):
         parts = find_parts(engine, shafts, remedy.counterweights)
     if changed is None:

@@ -84,7 +84,7 @@ def build_device(
     take = figures.take
     sector = None
     unbalance = find_given_unbalance(table, figures, path)
-    if isinstance(table, Counterweight) and table.sector is not None:
+    if isinstance(table, (Counterweight, Shaft)) and table.sector is not None:
         sector = find_sector(table, table.sector, figures, path)
         unbalance = sector.unbalance
     start = first_axis_deg if isinstance(table, Counterweight) else 0.0
@@ -101,7 +101,8 @@ def build_device(
         forward, backward = (turning, 0j) if table.ratio > 0 else (0j, turning)
         order = abs(table.ratio)
         compensates = table.role == "compensator"
-        spin = table.ratio * take(f"{path}.inertia", table.inertia) / 1e6
+        inertia = take(f"{path}.inertia", table.inertia) / 1e6 if sector is None else sector.inertia
+        spin = table.ratio * inertia
         kind = DeviceKind.SHAFT
         return Device(order, forward, backward, place, z, kind, compensates, spin)
     # With unbalance U, order n and crank angle theta, the vector `U cos(n theta + angle)` along the
@@ -138,14 +139,15 @@ def find_given_unbalance(
 
 
 class SectorFigures(NamedTuple):
-    """Figures of a counterweight in the shape of a sector, in SI units.
+    """Figures of a counterweight or eccentric in the shape of a sector, in SI units; mass, centre
+    of mass and inertia of an eccentric include the core of the shaft.
 
     Attributes:
-        unbalance: Mass x distance of the centre of mass from the crank axis, kg m.
+        unbalance: Mass x distance of the centre of mass from the axis of rotation, kg m.
         mass: Mass, kg.
-        center_of_mass: Distance of the centre of mass from the crank axis, m.
+        center_of_mass: Distance of the centre of mass from the axis of rotation, m.
         thickness: Thickness, m.
-        inertia: Polar moment of inertia about the crank axis, kg m2.
+        inertia: Polar moment of inertia about the axis of rotation, kg m2.
     """
 
     unbalance: Figure
@@ -156,20 +158,21 @@ class SectorFigures(NamedTuple):
 
 
 def find_sector(
-    table: Counterweight, sector: Sector, figures: FileFigures = AS_GIVEN, path: str = ""
+    table: Counterweight | Shaft, sector: Sector, figures: FileFigures = AS_GIVEN, path: str = ""
 ) -> SectorFigures:
-    """Return the figures of a counterweight from the thickness of its sector, or from its
-    unbalance.
+    """Return the figures of a counterweight, or of an eccentric on its shaft, from the thickness of
+    its sector, or from its unbalance.
 
     With the inner radius r, the outer radius R and the opening angle q, the sector has the area
-    `q/2 (R^2 - r^2)` and, about the crank axis, the first moment `2/3 (R^3 - r^3) sin(q/2)` and
-    the polar second moment `q/4 (R^4 - r^4)`.
+    `q/2 (R^2 - r^2)` and, about the axis of rotation, the first moment `2/3 (R^3 - r^3) sin(q/2)`
+    and the polar second moment `q/4 (R^4 - r^4)`. The core of a shaft adds the area `pi r^2` and
+    the polar second moment `pi r^4/2`.
 
     Args:
-        table: The counterweight.
+        table: The counterweight or eccentric.
         sector: Its sector.
         figures: Figures of the file.
-        path: Dotted name of the counterweight.
+        path: Dotted name of its table.
 
     Raises:
         InputError: A figure varies that the file does not give: the unbalance of a sector with
@@ -193,6 +196,9 @@ def find_sector(
     # mass per area of the sector, kg/m2
     weight = density * or_zero(thickness) if unbalance is None else unbalance / first
     polar = angle / 4 * (outer**4 - inner**4)
+    if isinstance(table, Shaft):
+        area = area + math.pi * inner**2
+        polar = polar + math.pi / 2 * inner**4
     return SectorFigures(
         weight * first, weight * area, first / area, weight / (1e3 * density), weight * polar
     )
@@ -230,6 +236,14 @@ def check_shafts(parts: Parts) -> Iterator[Problem]:
             for number in [k for k, one in entries.items() if one.has(key)][1:]:
                 told = f'is given twice for the shaft "{name}"; give it once'
                 yield Problem(f"shaft.{number}.{key}", told)
+        shaped = [number for number, one in entries.items() if one.sector is not None]
+        given = [number for number, one in entries.items() if one.has("inertia")]
+        if shaped and given and shaped != given:
+            told = (
+                f'is given for the shaft "{name}", whose inertia follows from '
+                f"shaft.{shaped[0]}.sector; give one of them"
+            )
+            yield Problem(f"shaft.{given[0]}.inertia", told)
         driven = [number for number, one in entries.items() if one.drag]
         if driven and not any(one.gear for one in entries.values()):
             told = "needs gear, such as { position = -150, radius = 35, direction = 90 }"

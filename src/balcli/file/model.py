@@ -393,21 +393,38 @@ class Device(FileTable):
 
 
 class Sector(FileTable):
-    """A counterweight as a sector of a disc; its middle is at the angle of the counterweight."""
+    """A counterweight, or the eccentric of a shaft, as a sector of a disc; its middle is at the
+    angle of the device. The shaft within the inner radius turns with an eccentric.
+    """
 
     inner_radius: Distance = 0.0
-    """Inner radius. Example: 30"""
+    """Inner radius; for a shaft, the radius of its core. Example: 30"""
     outer_radius: Size
     """Outer radius. Example: 75"""
     opening: Annotated[float, Number(ANGLE, above=0, most=360)]
     """Full angle of the sector. Example: 140"""
     thickness: Size | None = None
-    """Thickness, instead of the unbalance; left out: it follows from the unbalance. Example: 18"""
+    """Thickness (length along the shaft), instead of the unbalance; left out: it follows from the
+    unbalance. Example: 18"""
     density: Density = 7.85
     """Density. Example: 7.85"""
 
     def _check_radii(self) -> Iterator[str]:
         yield from self.check_below("inner_radius", "outer_radius")
+
+
+def check_sector(device: Device, sector: Sector | None) -> Iterator[str]:
+    """Yield what is wrong with the sector of a device and the unbalance beside it."""
+    if sector is None:
+        return
+    is_sized = device.unbalance is not None or device.mass is not None
+    if is_sized == (sector.thickness is not None):
+        has = "sector.thickness and an unbalance" if is_sized else "a sector without thickness"
+        yield f"has {has}; give either sector.thickness or unbalance, the other follows"
+    elif is_sized and sector.opening == 360:
+        yield "has a sector with opening = 360, which has no unbalance; give less than 360"
+    elif device.unbalance is not None and device.unbalance < 0:
+        yield f"has a sector and unbalance = {device.unbalance:g} < 0; turn its angle by 180 deg"
 
 
 class Counterweight(Device):
@@ -433,16 +450,7 @@ class Counterweight(Device):
     """Shape of the counterweight as a sector; give its thickness, or the unbalance, not both."""
 
     def _check_sector(self) -> Iterator[str]:
-        if self.sector is None:
-            return
-        is_sized = self.unbalance is not None or self.mass is not None
-        if is_sized == (self.sector.thickness is not None):
-            has = "sector.thickness and an unbalance" if is_sized else "a sector without thickness"
-            yield f"has {has}; give either sector.thickness or unbalance, the other follows"
-        elif is_sized and self.sector.opening == 360:
-            yield "has a sector with opening = 360, which has no unbalance; give less than 360"
-        elif self.unbalance is not None and self.unbalance < 0:
-            yield f"has a sector and unbalance = {self.unbalance:g} < 0; turn its angle by 180 deg"
+        yield from check_sector(self, self.sector)
 
 
 class Gear(FileTable):
@@ -463,7 +471,10 @@ class Shaft(Device):
     to the whole shaft; give each in one of its entries.
     """
 
-    choices = (Device.choices[0]._replace(instead=("inertia",)),)
+    choices = (
+        Device.choices[0]._replace(instead=("inertia", "sector")),
+        Choice((("inertia",), ("sector",))),
+    )
     by_number: ClassVar[bool] = True
 
     name: Name = ""
@@ -480,13 +491,19 @@ class Shaft(Device):
     the force itself is meant to remain. Example: 'balancer'"""
     inertia: Inertia = 0.0
     """Polar moment of inertia about the shaft's own axis, for an uneven speed and for sizing the
-    flywheel. Example: 150"""
+    flywheel; the sectors of a shaft give it instead. Example: 150"""
+    sector: Sector | None = None
+    """Shape of the eccentric as a sector on the core of the shaft; give its thickness, or the
+    unbalance, not both."""
     bearings: Place | None = None
     """Axial positions (z) of the shaft's two bearings. Example: [-130, 130]"""
     gear: Gear | None = None
     """The gear that drives the shaft."""
     drag: Annotated[float, Number(TORQUE, least=0, most=1e12)] = 0.0
     """Friction torque on the shaft, which its gear transmits. Example: 0.2"""
+
+    def _check_sector(self) -> Iterator[str]:
+        yield from check_sector(self, self.sector)
 
     def _check_bearings(self) -> Iterator[str]:
         if self.bearings is not None and self.bearings[0] == self.bearings[1]:

@@ -287,7 +287,7 @@ def _find_shape(device: DeviceTable, tools: Tools, rooms: Mapping[str | None, Ro
     """
     if isinstance(device, Slider):
         return {}
-    if isinstance(device, Counterweight) and device.sector is not None:
+    if isinstance(device, (Counterweight, Shaft)) and device.sector is not None:
         return {"sector_kg": float(find_sector(device, device.sector).mass)}
     disc = _find_asked_disc(device, tools)
     if disc is None and isinstance(device, Counterweight):

@@ -4,8 +4,9 @@ mounts, shafts and inertias. Every part has a list of the figures of the file th
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import chain
 from math import isfinite
 from typing import NamedTuple
 
@@ -18,6 +19,7 @@ from .quantity_names import ENGINE, MOUNTS, TORSION
 
 # Keys of the masses and inertia of a rod, with the number of file units in one SI unit.
 _ROD_UNITS = {"mass": 1.0, "small_end": 1.0, "big_end": 1.0, "inertia": 1e6}
+_WHOLE_RING_DEG = 360.0  # a sector of this opening has no unbalance
 OF_MOUNTS = 0.15
 OF_SHAFTS = 0.05  # default tolerances of stiffness
 
@@ -27,10 +29,11 @@ class Tolerances:
     """Largest deviations of each kind of part.
 
     Attributes:
-        mass: Relative tolerance of piston, rod and throw masses, and of inertias.
+        mass: Relative tolerance of piston, rod and throw masses, of the unbalances of devices, and
+            of inertias.
         length: Relative tolerance of rod lengths. The other figures of a rod, such as its mass or
             the masses of its ends, do not change with the length.
-        angle_deg: Tolerance of throw angles.
+        angle_deg: Tolerance of the angles of throws and devices.
         stiffness: Relative tolerance of the stiffness of mounts or shafts; None: OF_MOUNTS or
             OF_SHAFTS.
     """
@@ -95,21 +98,28 @@ def find_sources(
 
     Args:
         model: Engine file.
-        chapter: Kind of quantities whose parts deviate: ENGINE (pistons, rods and throws), MOUNTS
-            or TORSION.
+        chapter: Kind of quantities whose parts deviate: ENGINE (pistons, rods, throws and devices),
+            MOUNTS or TORSION.
         within: Tolerances; parts with a tolerance of 0 are left out.
     """
     if model.engine and chapter == ENGINE:
-        return _find_sources_of_several(model, within)
+        several, sources = _find_sources_of_several(model, within)
+        return several, (*sources, *_drop_exact(_list_devices(model, within)))
+    found: Iterator[Source]
     if chapter == MOUNTS:
-        sources = _list_mounts(model, within)
+        found = _list_mounts(model, within)
     elif chapter == TORSION:
         model = _spell_out_shafting(model)
-        sources = _list_shafting(model, within)
+        found = _list_shafting(model, within)
     else:
         model = _spell_out_throws(model, angles=bool(within.angle_deg))
-        sources = _list_parts(model, within)
-    return model, tuple(source for source in sources if source.tolerance)
+        found = chain(_list_parts(model, within), _list_devices(model, within))
+    return model, _drop_exact(found)
+
+
+def _drop_exact(sources: Iterable[Source]) -> tuple[Source, ...]:
+    """Return the parts whose tolerance is not 0."""
+    return tuple(source for source in sources if source.tolerance)
 
 
 def _find_sources_of_several(
@@ -192,6 +202,41 @@ def _list_pistons(model: EngineFile, mass: float) -> Iterator[Source]:
         if weighed.crosshead:
             figures = {f"cylinder.{n}.crosshead_mass": float(weighed.crosshead)}
             yield _relative("crosshead mass", n, mass, figures)
+
+
+# ------------------------------------------------------------------ devices
+def _list_devices(model: EngineFile, within: Tolerances) -> Iterator[Source]:
+    """Yield the unbalances of counterweights, shafts and sliders that are not 0, and their
+    angles.
+    """
+    kinds: dict[str, Sequence[Counterweight | Shaft | Slider]] = {
+        "counterweight": model.counterweight,
+        "shaft": model.shaft,
+        "slider": model.slider,
+    }
+    for kind, tables in kinds.items():
+        for number, table in enumerate(tables, 1):
+            path = f"{kind}.{label_table(table, number)}"
+            figures = {f"{path}.{key}": value for key, value in _find_weight(table).items()}
+            if any(figures.values()):
+                yield _relative(kind, number, within.mass, figures)
+                lines = {f"{path}.angle": Line(table.angle, 1.0)}
+                angle = f"{kind} angle"
+                yield Source(angle, str(number), within.angle_deg, lines, relative=False)
+
+
+def _find_weight(table: Counterweight | Shaft | Slider) -> dict[str, float]:
+    """Return the figure of a device's file to which its unbalance is proportional: the unbalance,
+    the mass, or the thickness of its sector; empty for a shaft without an eccentric.
+    """
+    if table.unbalance is not None:
+        return {"unbalance": table.unbalance}
+    if table.mass is not None:
+        return {"mass": table.mass}
+    sector = None if isinstance(table, Slider) else table.sector
+    if sector is not None and sector.thickness is not None and sector.opening < _WHOLE_RING_DEG:
+        return {"sector.thickness": sector.thickness}
+    return {}
 
 
 def _hold_devices(model: EngineFile) -> dict[str, Line]:

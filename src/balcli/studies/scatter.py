@@ -220,10 +220,11 @@ class Variants:
         Raises:
             BalcliError: A variant is impossible.
         """
-        figures = {}
+        figures: dict[str, Array] = {}
         for source, column in zip(self.sources, deviations.T, strict=True):
             for path, line in source.figures.items():
-                figures[path] = line.value + line.slope * column
+                # several parts may change a figure, such as the angle of a counterweight
+                figures[path] = figures.get(path, line.value) + line.slope * column
         try:
             values = self._evaluator.evaluate(figures, (len(deviations),))
         except InputError as error:
@@ -347,8 +348,8 @@ def scatter(
             quantities of the cycle (`torque.max`, `fluctuation`, `guide.6.H`), of mounts
             (`mode.roll.Hz`, `mount.left.force`) or of torsion (`torsion.1.Hz`). Default: force and
             moment of orders 1 and 2, or only force if positions of throws are unknown.
-        mass_scatter: Tolerance of every piston, rod and throw mass, as a share (0.005) or a text
-            ("0.5%").
+        mass_scatter: Tolerance of every piston, rod and throw mass, and of the unbalance of every
+            counterweight, shaft and slider, as a share (0.005) or a text ("0.5%").
         length_scatter: Tolerance of every rod length, a share or a text; other figures of rods do
             not change.
         angle_scatter: Tolerance of every throw angle, in degrees or a text with its unit.

@@ -111,8 +111,8 @@ def _group_parts(
 RENDERER = Renderer(sheet=sheet, rows=rows)
 
 
-MASS = "Tolerance of piston, rod and throw masses, and of inertias."
-ANGLE = "Tolerance of throw angles, such as 0.2 deg."
+MASS = "Tolerance of masses, of the unbalances of devices, and of inertias."
+ANGLE = "Tolerance of the angles of throws and devices, such as 0.2 deg."
 STIFFNESS = "Tolerance of the stiffness of mounts or shafts."
 OF_EACH = "15% for mounts, 5% for shafts"
 SAMPLES = "Number of engines; default: 100000, or 500 if each is computed by itself, as for mounts."
