@@ -12,12 +12,15 @@ from typing import get_args
 
 import numpy as np
 import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from support.cases import slow
 from support.commands import run_python
 from support.engines import GOOD, build_text, changed, inline_engine
 from support.gas_engines import FOUR as GAS_FOUR, WIEBE
+from support.paths import ROOT
 from support.pictures import draw_page
 
+from balcli import load_example
 from balcli.analysis.answer import QUANTITIES, analyze
 from balcli.analysis.plot import draw_vector_bars, visible_rows
 from balcli.balancing.answer import balance
@@ -230,18 +233,18 @@ SHORT = [what for what in (*OF_GAS, *OF_PARTS) if what not in LONG]
 
 @pytest.mark.parametrize("what", [*SHORT, *slow(*LONG)])
 def test_no_label_is_cut_off_by_the_edge_of_a_page(what):
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-
     fired = build_text(GAS_FOUR + WIEBE)
     page = make_page(PageSubject(Study(analyze(fired))), what)
     style.save_figure(page, "png")
     canvas = FigureCanvasAgg(page)
     canvas.draw()
     labels = [ax.xaxis.label for ax in page.axes] + [ax.yaxis.label for ax in page.axes]
+    labels += [ax.get_legend() for ax in page.axes if ax.get_legend()]
+    labels += [text for ax in page.axes for text in (ax.title, ax._left_title, *ax.texts)]
     for label in labels:
         box = label.get_window_extent(canvas.get_renderer())
         inside = box.x0 >= 0 and box.y0 >= 0 and box.x1 <= page.bbox.x1 and box.y1 <= page.bbox.y1
-        assert inside or not label.get_text(), label.get_text()
+        assert inside or (hasattr(label, "get_text") and not label.get_text()), label
 
 
 @pytest.mark.parametrize(
@@ -252,3 +255,45 @@ def test_pictures_name_components_by_up(frame, names):
     subject = PageSubject(Study(analyze(build_text(GOOD + frame))))
     shown = re.findall(r">([^<>]*)</text>", draw_panel(subject, "curves", "force"))
     assert names <= set(shown), shown
+
+
+def test_angles_are_written_where_they_touch_nothing():
+    """At most eight on a curve, away from the curve and from each other, in inches as drawn."""
+    fired = build_text(GAS_FOUR + WIEBE)
+    page = make_page(PageSubject(Study(analyze(fired))), "pin")
+    style.save_figure(page, "png")
+    canvas = FigureCanvasAgg(page)
+    canvas.draw()
+    for ax in page.axes:
+        texts = [text for text in ax.texts if "°" in text.get_text()]
+        assert 4 <= len(texts) <= 8
+        boxes = [text.get_window_extent(canvas.get_renderer()) for text in texts]
+        assert not any(one.overlaps(other) for k, one in enumerate(boxes) for other in boxes[:k])
+        path = ax.transData.transform(max((line.get_xydata() for line in ax.lines), key=len))
+        assert not any(box.contains(*point) for box in boxes for point in path)
+
+
+@pytest.mark.parametrize(
+    ("name", "loci"),
+    [
+        ("i3", ["moment"]),
+        ("i4", ["force"]),
+        ("v8_crossplane", ["moment"]),
+        ("twin180", ["moment", "force"]),
+        ("i6", []),
+    ],
+)
+def test_the_overview_has_the_locus_of_what_matters(name, loci):
+    page = make_page(PageSubject(Study(analyze(load_example(name)))), "overview")
+    titles = [ax.get_title("left") for ax in page.axes]
+    assert titles[: len(loci)] == [f"Free {quantity}" for quantity in loci]
+    spectra = page.axes[len(loci) :]
+    assert len({ax.get_xlim() for ax in spectra}) == 1
+    assert [tick.get_text() for tick in spectra[0].get_xticklabels()][:3] == ["1", "2", "3"]
+
+
+def test_a_colour_has_one_meaning_in_the_report_and_in_pictures():
+    css = (ROOT / "src" / "balcli" / "report" / "assets" / "report.css").read_text()
+    for colour, name in style.NAMES.items():
+        if name not in ("ink", "soft", "faint", "paper"):
+            assert f"--{name}: light-dark({colour}, " in css

@@ -8,21 +8,24 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from itertools import cycle as repeat
 from types import MappingProxyType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from ..core.phasors import Array, Phasors, unit as unit_vector
 from ..engine.engine import Engine, find_row
 from ..forces.crankshaft import AlongCrank
+from ..forces.kinds import COUPLE, GAS, ROLL, ROLL_TOTAL, TORQUE, Kind
 from ..show.plot_style import (
+    BEFORE,
     BLUE,
-    GREEN,
+    COUPLE as COUPLE_COLOUR,
+    GAS as GAS_COLOUR,
     INK,
     MANY_LOOKS,
     PAPER,
-    RED,
     SOFT,
+    TORQUE as TORQUE_COLOUR,
     Look,
     put_legend_above,
 )
@@ -39,8 +42,32 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-_LOOKS = ((BLUE, "-", ""), (RED, (0, (5, 1.5)), "////"), (GREEN, (0, (1.5, 1)), "...."))
-_DASHED: Look = {"color": SOFT, "linewidth": 1.1, "linestyle": (0, (4, 2))}
+class _CurveLook(NamedTuple):
+    """Colour, line style and hatch of a curve."""
+
+    colour: str
+    line: str | tuple[float, tuple[float, ...]]
+    hatch: str = ""
+
+    @property
+    def of_line(self) -> Look:
+        """Arguments of matplotlib for a line."""
+        return {"color": self.colour, "linestyle": self.line}
+
+
+_LONG_DASHES = (0, (5, 1.5))
+# A component, the other one, and their sum.
+_COMPONENTS = (_CurveLook(BLUE, "-"), _CurveLook(BLUE, _LONG_DASHES), _CurveLook(INK, "-"))
+_OF_KIND = {  # moments about the crank
+    COUPLE: _CurveLook(COUPLE_COLOUR, (0, (1.5, 1)), "...."),
+    TORQUE: _CurveLook(TORQUE_COLOUR, _LONG_DASHES, "////"),
+    GAS: _CurveLook(GAS_COLOUR, (0, (3, 1, 1, 1)), "xxxx"),
+    ROLL: _CurveLook(INK, "-"),
+    ROLL_TOTAL: _CurveLook(INK, "-"),
+}
+_DASHED: Look = {"color": BEFORE, "linewidth": 1.3, "linestyle": (0, (4, 2))}
+_LETTER = 0.018  # width of a letter above a bar, as a share of the axis
+_MOST_TICKS = 12  # numbers on an axis of orders
 
 
 def draw_vector_bars(
@@ -61,32 +88,50 @@ def draw_vector_bars(
     s = fit_largest(unit, *(p for p in (curve, before) if p is not None))
     ahead = np.abs(curve.forward[shown]) / s.size
     against = np.abs(curve.backward[shown]) / s.size
-    places = np.arange(len(shown))
+    orders = curve.orders[shown]
+    gap = _find_gap(orders)
     if before is not None:
-        look: Look = {"facecolor": "none", "edgecolor": SOFT, "linestyle": (0, (3, 2))}
-        ax.bar(places, before.major[shown] / s.size, 0.72, label="before", **look)
-    ax.bar(places, ahead, 0.56, color=BLUE, label="with the crank")
-    upper = ax.bar(places, against, 0.56, bottom=ahead, color=RED, hatch="////", label="against it")
-    labels = [number(float(top), 3) for top in ahead + against]
-    ax.bar_label(upper, labels, padding=2, fontsize=7)
-    _finish_bars(ax, curve.orders[shown], f"{what}, {s.name}")
+        look: Look = {"facecolor": "none", "edgecolor": BEFORE, "linestyle": (0, (3, 2))}
+        ax.bar(orders, before.major[shown] / s.size, 0.72 * gap, label="before", **look)
+    width = 0.56 * gap
+    ax.bar(orders, ahead, width, color=BLUE, label="with the crank")
+    ax.bar(orders, against, width, bottom=ahead, color=BLUE, hatch="////", label="against it")
+    _finish_bars(ax, orders, f"{what}, {s.name}")
+    _write_sizes(ax, orders, ahead + against)
 
 
-def draw_scalar_bars(ax: Axes, curves: Mapping[str, Phasors], unit: ShownUnit) -> None:
+def _write_sizes(ax: Axes, orders: Array, sizes: Array) -> None:
+    """Write the size of each order above its bar; of two that would touch, only the larger one."""
+    span = float(np.ptp(ax.get_xlim()))
+    written: list[tuple[float, float]] = []  # places, and half the widths of their texts
+    for k in np.argsort(-sizes, kind="stable"):
+        text = number(float(sizes[k]), 3)
+        place = float(orders[k])
+        half = _LETTER * span * len(text) / 2
+        is_free = all(abs(place - other) > half + taken for other, taken in written)
+        if sizes[k] and is_free:
+            look: Look = {"xytext": (0, 2), "textcoords": "offset points", "fontsize": 7}
+            ax.annotate(text, (place, float(sizes[k])), ha="center", va="bottom", **look)
+            written.append((place, half))
+
+
+def draw_scalar_bars(ax: Axes, curves: Mapping[Kind, Phasors], unit: ShownUnit) -> None:
     """Draw the amplitudes of several moments about the crank, side by side.
 
     Args:
         ax: Axes to draw on.
-        curves: Phasors by label, all with the same orders.
+        curves: Phasors by kind, all with the same orders.
         unit: Unit of the moments.
     """
     shown = sorted({k for curve in curves.values() for k in visible_rows(curve)})
     s = fit_largest(unit, *curves.values())
-    for (label, curve), look, shift in zip(curves.items(), _LOOKS, (-0.27, 0, 0.27), strict=False):
-        sizes = curve.major[shown] / s.size
-        places = np.arange(len(shown)) + shift
-        ax.bar(places, sizes, 0.25, color=look[0], hatch=look[2], label=label)
-    _finish_bars(ax, next(iter(curves.values())).orders[shown], f"moment, {s.name}")
+    orders = next(iter(curves.values())).orders[shown]
+    gap = _find_gap(orders)
+    for (kind, curve), shift in zip(curves.items(), (-0.27, 0, 0.27), strict=True):
+        look = _OF_KIND[kind]
+        look_of_bar: Look = {"color": look.colour, "hatch": look.hatch, "label": kind.label}
+        ax.bar(orders + gap * shift, curve.major[shown] / s.size, 0.25 * gap, **look_of_bar)
+    _finish_bars(ax, orders, f"moment, {s.name}")
 
 
 def visible_rows(curve: Phasors, before: Phasors | None = None) -> list[int]:
@@ -103,12 +148,36 @@ def visible_rows(curve: Phasors, before: Phasors | None = None) -> list[int]:
 
 
 def _finish_bars(ax: Axes, orders: Array, label: str) -> None:
-    ax.set_xticks(np.arange(len(orders)), [order_name(n) for n in orders])
-    ax.set(xlabel="order", ylabel=label, xlim=(-0.6, len(orders) - 0.4))
+    set_order_axis([ax], orders)
+    ax.set(xlabel="order", ylabel=label)
     ax.grid(False, axis="x")
     ax.locator_params(axis="y", nbins=4)
     ax.set_ylim(0, 1.35 * ax.dataLim.y1 or 1)
     put_legend_above(ax)
+
+
+def _find_gap(orders: Array) -> float:
+    """Return the distance between neighbouring orders: 1, or 1/2 with half orders."""
+    return 0.5 if np.any(orders % 1) else 1.0
+
+
+def set_order_axis(axes: Sequence[Axes], orders: Array) -> None:
+    """Make the order the axis of bars, from the lowest of these orders (1, or 1/2) to the highest.
+
+    Args:
+        axes: Axes of bars, which get the same ends, so that equal orders have equal places.
+        orders: Orders in any of them.
+    """
+    gap = _find_gap(orders)
+    highest = float(orders.max(initial=2.0))
+    count = round((highest - gap) / gap) + 1
+    step = gap * -(-count // _MOST_TICKS)
+    ticks = np.arange(step, highest + gap / 2, step)
+    if step > gap:
+        ticks = np.append(gap, ticks)
+    for ax in axes:
+        ax.set_xticks(ticks, [order_name(n) for n in ticks])
+        ax.set_xlim(0.4 * gap, highest + 0.6 * gap)
 
 
 def draw_curves(
@@ -118,6 +187,7 @@ def draw_curves(
     what: str,
     unit: ShownUnit,
     dashed: Mapping[str, Array] = MappingProxyType({}),
+    looks: Sequence[_CurveLook] = _COMPONENTS,
 ) -> None:
     """Draw values over the crank angle.
 
@@ -128,18 +198,40 @@ def draw_curves(
         what: Name of the quantity.
         unit: Unit of the quantity.
         dashed: Further values by label, drawn dashed, such as those before balancing.
+        looks: Looks of the lines; default: two components, and their sum.
     """
     s = unit.fit(float(np.abs([*lines.values(), *dashed.values()]).max()))
     crank = np.degrees(crank)
     for label, line in dashed.items():
         ax.plot(crank, line / s.size, label=label, **_DASHED)
-    for (label, line), look in zip(lines.items(), _LOOKS, strict=False):
-        ax.plot(crank, line / s.size, color=look[0], linestyle=look[1], label=label)
+    for (label, line), look in zip(lines.items(), looks, strict=False):
+        ax.plot(crank, line / s.size, label=label, **look.of_line)
     ax.axhline(0, color=SOFT, linewidth=0.7)
     set_crank_axis(ax, crank)
     ax.set_ylabel(f"{what}, {s.name}")
     ax.locator_params(axis="y", nbins=5)
     put_legend_above(ax)
+
+
+def draw_scalars(
+    ax: Axes,
+    crank: Array,
+    curves: Mapping[Kind, Phasors],
+    unit: ShownUnit,
+    dashed: Mapping[str, Array],
+) -> None:
+    """Draw moments about the crank over the crank angle, as `draw_curves`.
+
+    Args:
+        ax: Axes to draw on.
+        crank: Crank angles, rad, shape (angles,).
+        curves: Phasors by kind.
+        unit: Unit of the moments.
+        dashed: Further values by label.
+    """
+    lines = {kind.label: curve.values(crank).real for kind, curve in curves.items()}
+    looks = [_OF_KIND[kind] for kind in curves]
+    draw_curves(ax, crank, lines, "moment", unit, dashed, looks)
 
 
 def set_crank_axis(ax: Axes, crank_deg: Array, label: str = "crank angle, deg") -> None:
@@ -169,15 +261,15 @@ def draw_factors(
     share = [row.factor for row in rows]
     moments = np.array([row.peak_moment_Nm for row in rows])
     s = force.fit(max(row.peak_force_N for row in rows))
-    forces = np.array([(row.peak_force_N, row.along_N, row.across_N) for row in rows]).T / s.size
-    labels = ("force", "along the first bank", "across it")
-    for values, label, look in zip(forces, labels, _LOOKS, strict=True):
-        ax.plot(share, values, color=look[0], linestyle=look[1], label=label)
+    forces = np.array([(row.along_N, row.across_N, row.peak_force_N) for row in rows]).T / s.size
+    labels = ("along the first bank", "across it", "force")
+    for values, label, look in zip(forces, labels, _COMPONENTS, strict=True):
+        ax.plot(share, values, label=label, **look.of_line)
     best = min(rows, key=lambda row: row.cost)
     least = size_text(best.peak_force_N, force)
     if best.by_moment and moment is not None:
         least = f"moment {size_text(best.peak_moment_Nm, moment)}"
-    ax.plot(best.factor, best.peak_force_N / s.size, "o", color=BLUE)
+    ax.plot(best.factor, best.peak_force_N / s.size, "o", color=INK)
     ax.set(
         xlabel="balance factor: share of the reciprocating mass in the counterweights",
         ylabel=f"largest over a revolution, {s.name}",
@@ -291,8 +383,8 @@ def _draw_motion(
     """
     mean, *waves = np.fft.rfft(exact[:-1], norm="forward")[:3]
     parts = [2 * (c * unit_vector(n * own_deg)).real for n, c in enumerate(waves, 1)]
-    for order, (part, color) in enumerate(zip(parts, (RED, GREEN), strict=True), 1):
-        ax.plot(own_deg, part, color=color, linewidth=0.9, label=f"order {order}")
+    for order, (part, line) in enumerate(zip(parts, ("--", ":"), strict=True), 1):
+        ax.plot(own_deg, part, line, color=BEFORE, linewidth=1.1, label=f"order {order}")
     dashed = _DASHED | {"color": INK, "linewidth": 0.9, "zorder": 3}
     ax.plot(own_deg, mean.real + sum(parts), label="mean and orders 1, 2", **dashed)
     ax.plot(own_deg, exact, color=BLUE, linewidth=2.2, label="exact")

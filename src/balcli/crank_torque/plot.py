@@ -20,7 +20,7 @@ from ..forces.curves import find_torque_curves
 from ..forces.rod_forces import compute_rod_forces, list_hung_rows
 from ..forces.spectrum import take_gas
 from ..show.plane import draw_path, set_up_plane
-from ..show.plot_style import BLUE, GREEN, INK, RED, SOFT, put_legend_above
+from ..show.plot_style import BLUE, GAS, INK, RED, SOFT, TORQUE, put_legend_above
 from ..show.units import ShownUnit, System
 from .answer import choose_firing_cylinder
 
@@ -103,8 +103,8 @@ def _draw_torque(ax: Axes, engine: Engine, unit: ShownUnit) -> None:
     mean = curves.total.mean / s.size
     ax.fill_between(crank, total, mean, where=total >= mean, color=BLUE, alpha=0.18, linewidth=0)
     ax.fill_between(crank, total, mean, where=total <= mean, color=RED, alpha=0.18, linewidth=0)
-    ax.plot(crank, gas, color=GREEN, linewidth=1, linestyle="--", label="gas")
-    ax.plot(crank, total - gas, color=RED, linewidth=1, linestyle=":", label="inertia")
+    ax.plot(crank, gas, color=GAS, linewidth=1, linestyle="--", label="gas")
+    ax.plot(crank, total - gas, color=TORQUE, linewidth=1, linestyle=":", label="inertia")
     ax.plot(crank, total, color=INK, label="total")
     ax.axhline(mean, color=SOFT, linewidth=0.9, label="mean")
     set_crank_axis(ax, crank)

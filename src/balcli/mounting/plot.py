@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..core.vibration import Real
 from ..show.plot_style import (
     BLUE,
     FAINT,
@@ -23,8 +24,9 @@ from ..show.plot_style import (
 )
 from ..show.sheet import NAMELESS, number, order_name
 from ..show.units import System
-from .build import BodyMode
+from .build import BodyMode, find_mounted_modes
 from .records import BodyResponse, MountReport
+from .response import trace_peaks
 from .rigid_body import PROJECTION, find_corners
 from .show import Kind, list_kinds
 
@@ -37,6 +39,7 @@ if TYPE_CHECKING:
 
 _WIDEST = 7.0
 _THINNEST = 0.6  # largest and smallest line width of orders, in points (1/72 inch)
+_POINTS = 400  # least number of points of a curve
 _SWING = 0.22  # drawn travel of the corner that moves most, as a share of the body's size
 
 
@@ -66,17 +69,29 @@ def _draw_curves(ax: Axes, result: MountReport, kind: Kind) -> None:
     """
     labels = ["", *(f", {fit_name(other.name, 20)}" for other in result.beside)]
     for label, response in zip(labels, result.responses, strict=True):
-        looks = zip(kind.places(response), MANY_LOOKS, strict=False)
-        for (name, _, peak, _), (line, colour) in looks:
+        speeds = _refine(response.speeds_rpm)
+        modes = find_mounted_modes(result.mounted)
+        peaks = trace_peaks(result.mounted, modes, response.loads, speeds)
+        count = len(response.mounts)
+        heights = peaks[:, :count] if kind.part == "mount" else 1e3 * peaks[:, count:]  # m to mm
+        looks = zip(kind.places(response), heights.T, MANY_LOOKS, strict=False)
+        for (name, _, _, _), curve, (line, colour) in looks:
             look: Look = {"color": colour, "linestyle": "-." if label else line}
             width = 1.0 if label else 1.8
             shown = f"{fit_name(name, 20)}{label}"
-            heights = peak / kind.unit.size
-            ax.plot(response.speeds_rpm, heights, label=shown, linewidth=width, **look)
+            ax.plot(speeds, curve / kind.unit.size, label=shown, linewidth=width, **look)
     ax.set_ylim(bottom=0)
     title = "Force of each mount" if kind.part == "mount" else "Motion of points"
     ax.set(xlabel="rpm", ylabel=f"{kind.unit.name}, all orders", title=title)
     ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=2)
+
+
+def _refine(speeds_rpm: Real) -> Real:
+    """Return the speeds and, between them, as many as a smooth curve needs."""
+    pieces = -(-_POINTS // max(len(speeds_rpm) - 1, 1))
+    numbers = np.arange(len(speeds_rpm))
+    fine = np.linspace(0, len(speeds_rpm) - 1, pieces * (len(speeds_rpm) - 1) + 1)
+    return np.interp(fine, numbers, speeds_rpm)
 
 
 def _draw_meetings(ax: Axes, result: MountReport, response: BodyResponse) -> None:

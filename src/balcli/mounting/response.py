@@ -102,10 +102,7 @@ class RunningBody(NamedTuple):
             BalcliError: An undamped mode is driven; see `refuse_resonance`.
         """
         centre = mounted.body.centre
-        mounts = np.concatenate(couple_mounts(mounted.body, mounted.dynamic), axis=-1)
-        points = carry_points(mounted.points, centre)
-        couplings = np.concatenate([mounts, np.concatenate([points, 0 * points], axis=-1)])
-        running = cls(modes, find_loads(engine, centre, orders), couplings)
+        running = cls(modes, find_loads(engine, centre, orders), _couple(mounted))
         if orders is not None or running.loads.gas is None:
             return running
         running.refuse_resonance(omega, ranged=ranged)
@@ -179,6 +176,27 @@ class RunningBody(NamedTuple):
                 "without that speed"
             )
         return not driven
+
+
+def trace_peaks(mounted: MountedBody, modes: BodyModes, loads: BodyLoads, speeds_rpm: Real) -> Real:
+    """Return the largest length of each curve over the cycle: forces of the mounts, N, then motions
+    of the points, m; shape (speeds, curves).
+
+    Args:
+        mounted: Body on its mounts.
+        modes: Its equations of motion.
+        loads: Load of the engine.
+        speeds_rpm: Speeds, shape (speeds,).
+    """
+    running = RunningBody(modes, loads, _couple(mounted))
+    return running.find_peaks(speeds_rpm * RPM)
+
+
+def _couple(mounted: MountedBody) -> Complex:
+    """Return the couplings of a `RunningBody`."""
+    mounts = np.concatenate(couple_mounts(mounted.body, mounted.dynamic), axis=-1)
+    points = carry_points(mounted.points, mounted.body.centre)
+    return np.concatenate([mounts, np.concatenate([points, 0 * points], axis=-1)])
 
 
 def list_meetings(modes: BodyModes, loads: BodyLoads, rpm: Real) -> list[tuple[int, float, float]]:

@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import partial
+from textwrap import wrap
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -24,30 +25,44 @@ from ..analysis.plot import (
     draw_journals,
     draw_piston,
     draw_scalar_bars,
+    draw_scalars,
     draw_vector_bars,
+    set_order_axis,
     visible_rows,
 )
 from ..balancing.scheme_show import percent
-from ..core.phasors import Array, Phasors
+from ..core.peaks import find_largest
+from ..core.phasors import Array, Complex, Phasors
 from ..crank_torque.plot import draw_gas
 from ..forces.crankshaft import AlongCrank
-from ..forces.kinds import COUPLE, EVERY_KIND, FORCE, FREE, GAS, KINDS, ROLL, ROLL_TOTAL, TORQUE
+from ..forces.kinds import (
+    COUPLE,
+    FORCE,
+    FREE,
+    GAS,
+    KINDS,
+    MOMENT,
+    ROLL,
+    ROLL_TOTAL,
+    TORQUE,
+    Kind,
+)
 from ..forces.stars import find_stars
 from ..show.engine_facts import tell_pivot
 from ..show.plane import (
     FINE,
-    draw_loci,
     draw_locus,
     draw_order,
     draw_paths,
     draw_polygon,
     draw_star,
+    draw_whole_path,
 )
 from ..show.plot_style import (
+    BEFORE,
     BLUE,
-    GREEN,
     INK,
-    RED,
+    Look,
     fit_name,
     inline_svg,
     open_figure,
@@ -55,7 +70,7 @@ from ..show.plot_style import (
     put_title,
     save_figure,
 )
-from ..show.sheet import NAMELESS, NEGLIGIBLE, order_name, size_text, small_text
+from ..show.sheet import NAMELESS, NEGLIGIBLE, NOTHING, order_name, size_text, small_text
 from ..show.units import SI, ShownUnit, System
 from .study import Banks, Study
 
@@ -67,6 +82,11 @@ if TYPE_CHECKING:
 _LARGEST_RATIO = 10.0  # largest ratio of radii that is drawn
 _JUMP = 0.5  # a larger change of a radius between neighbouring angles is a change of its sign
 _MOST_STARS = 8
+_IMPORTANT = 0.05  # least share of one cylinder's first order of a second quantity
+_ALIKE = 5.0  # most by which its share is smaller than that of the first quantity
+_STEPS_BESIDE = 3  # largest number of steps of a ladder side by side
+_STEP_LETTERS = 28  # largest number of letters in a line of a step's title
+_OWN_SCALES = "Each step has its own scale; its title tells the largest value. Dot: crank angle 0°."
 _STARS = (
     "Left: forces of the cylinders (numbers) at crank angle 0, without devices. Then: polygons of\n"
     "force and moment, with a colour for each bank. Dashed: the sum; a dot: the sum is 0."
@@ -75,17 +95,28 @@ _BANKS_DEG = (0, 30, 60, 90, 120, 150, 180)
 
 
 def draw_end_curves(ax: Axes, banks: Banks, unit: ShownUnit) -> None:
-    """Draw the path of the force's tip for several bank angles."""
-    shown = [int(np.argmin(np.abs(banks.angles_deg - angle))) for angle in _BANKS_DEG]
+    """Draw the path of the force's tip for several bank angles, and dotted for the engine's own."""
     s = unit.fit(float(banks.force.major.max(initial=0)))
-    ahead = banks.force.forward[0, shown]
-    against = banks.force.backward[0, shown]
     turn = np.exp(1j * FINE)
-    paths = (ahead[:, None] * turn + against[:, None] / turn) / s.size
-    labels = (f"{angle}°" for angle in _BANKS_DEG)
-    draw_paths(ax, dict(zip(labels, paths, strict=True)), FORCE.name_components(None), s.name)
+
+    def find_path(angle: float) -> Complex:
+        row = int(np.argmin(np.abs(banks.angles_deg - angle)))
+        ahead = banks.force.forward[0, row]
+        against = banks.force.backward[0, row]
+        return np.asarray((ahead * turn + against / turn) / s.size, complex)
+
+    paths = {f"{angle}°": find_path(angle) for angle in _BANKS_DEG}
+    draw_paths(ax, paths, FORCE.name_components(None), s.name)
+    if banks.own_deg <= 180:
+        own = find_path(banks.own_deg)
+        look: Look = {"color": INK, "linestyle": ":", "linewidth": 1.6}
+        ax.plot(own.imag, own.real, label=_name_own(banks), **look)
     ax.set_title(f"Force of order {banks.order:g}: path of its tip by bank angle")
-    put_legend_above(ax, len(_BANKS_DEG))
+    put_legend_above(ax, len(_BANKS_DEG) + 1)
+
+
+def _name_own(banks: Banks) -> str:
+    return f"this engine, {banks.own_deg:.4g}°"
 
 
 def draw_radii(ax: Axes, banks: Banks) -> None:
@@ -96,14 +127,14 @@ def draw_radii(ax: Axes, banks: Banks) -> None:
     angles = banks.angles_deg
     with_crank[1:][np.abs(np.diff(with_crank)) > _JUMP] = np.nan
     ax.plot(angles, with_crank, color=BLUE, label="with the crank")
-    ax.plot(angles, against, color=RED, linestyle=(0, (5, 1.5)), label="against it")
+    ax.plot(angles, against, color=BLUE, linestyle=(0, (5, 1.5)), label="against it")
     ratio[np.abs(ratio) >= _LARGEST_RATIO] = np.nan
-    ax.plot(angles, ratio, color=GREEN, linestyle=":", label="ratio")
+    ax.plot(angles, ratio, color=BEFORE, linestyle=(0, (3, 1, 1, 1)), label="ratio")
     ax.axhline(0, color=INK, linewidth=0.7)
     ax.set(
         xlim=(0, 180),
         xticks=_BANKS_DEG,
-        xlabel="bank angle, deg (dotted: this engine)",
+        xlabel=f"bank angle, deg (dotted: {_name_own(banks)})",
         ylabel="radius / longest radius; ratio",
     )
     if banks.own_deg <= 180:
@@ -136,10 +167,10 @@ def draw_radius_roses(ax: Any, banks: Banks) -> None:
     sides = _set_up_compass(ax, banks)
     with_crank, against, ratio = (np.abs(_mirrored(radii)) for radii in banks.find_radii())
     ratio[ratio >= _LARGEST_RATIO] = np.nan
-    ax.plot(sides, ratio, color=GREEN, linewidth=2.4)
-    ax.plot(np.pi + sides, ratio, color=GREEN, linewidth=1.0)
+    ax.plot(sides, ratio, color=BEFORE, linewidth=2.4)
+    ax.plot(np.pi + sides, ratio, color=BEFORE, linewidth=1.0)
     ax.plot(sides, with_crank, color=BLUE)
-    ax.plot(sides, against, color=RED, linestyle="--")
+    ax.plot(sides, against, color=BLUE, linestyle="--")
     marks = np.arange(0, 360, 30)
     angles = np.where(marks > 180, 720 - 2 * marks, 2 * marks)
     ax.set_thetagrids(marks, [f"{angle}°" if angle <= 180 else "" for angle in angles])
@@ -157,14 +188,15 @@ def draw_roses(ax: Any, banks: Banks, unit: ShownUnit) -> None:
     sides = _set_up_compass(ax, banks)
     dashed = (0, (5, 1.5))
     ax.plot(sides, _mirrored(ahead) / s.size, color=BLUE, label="with the crank")
-    ax.plot(sides, _mirrored(against) / s.size, color=RED, linestyle=dashed, label="against it")
+    ax.plot(sides, _mirrored(against) / s.size, color=BLUE, linestyle=dashed, label="against it")
     if banks.own_deg <= 180:
         for side in (-0.5, 0.5):
             ax.axvline(np.radians(side * banks.own_deg), color=INK, linewidth=0.9, linestyle=":")
     marks = np.arange(-90, 91, 30)
     ax.set_thetagrids(marks, [f"{abs(2 * mark):g}°" for mark in marks])
     ax.set(thetamin=-90, thetamax=90, rmax=1.08 * largest / s.size or 1)
-    ax.set_title(f"Rotating vectors by bank angle, {s.name} (dotted: this engine)", pad=6)
+    title = f"Rotating vectors by bank angle, {s.name}\n(dotted: {_name_own(banks)})"
+    ax.set_title(title, pad=6)
     ax.legend(loc="lower center", bbox_to_anchor=(0.5, 0.02), ncols=2)
 
 
@@ -208,11 +240,11 @@ class PageSubject:
         """Return the unit in which a quantity is drawn."""
         return self.system.moment if quantity == ABOUT else self.system.unit(KINDS[quantity])
 
-    def list_scalars(self, *, with_gas: bool) -> dict[str, Phasors]:
-        """Return the moments about the crank by label, the roll last."""
+    def list_scalars(self, *, with_gas: bool) -> dict[Kind, Phasors]:
+        """Return the moments about the crank by kind, the roll last."""
         gas_counts = with_gas and self.now.spectra.gas is not None
         kinds = (TORQUE, GAS, ROLL_TOTAL) if gas_counts else (COUPLE, TORQUE, ROLL)
-        return {EVERY_KIND[kind.name].label: self.now.spectra[kind.name] for kind in kinds}
+        return {kind: self.now.spectra[kind.name] for kind in kinds}
 
     def find_words(self, quantity: str) -> str:
         """Return a text for a quantity without a picture (unknown, balanced or negligible); empty
@@ -233,6 +265,24 @@ class PageSubject:
         if not largest or largest < NEGLIGIBLE * self.now.of_one_cylinder[kind]:
             return small_text(largest, self.unit(quantity))
         return ""
+
+    def choose_important(self) -> list[str]:
+        """Return force, moment or both: the one whose largest value is the larger share of one
+        cylinder's first order, and the other one if its share is at least 5 % and not less than a
+        fifth of that of the first. Before balancing, if the page compares.
+        """
+        drawn = self.study.before or self.now
+        shares = {}
+        for quantity in _VECTORS:
+            if quantity == MOMENT.name and not drawn.moments_known:
+                continue
+            scale = drawn.of_one_cylinder[quantity]
+            peak = float(find_largest(drawn.spectra[quantity]))
+            shares[quantity] = peak / scale if scale else 0.0
+        ordered = sorted(shares, key=lambda quantity: -round(shares[quantity], 9))
+        first, *others = ordered
+        least = max(_IMPORTANT, shares[first] / _ALIKE)
+        return [first, *(quantity for quantity in others if shares[quantity] >= least)]
 
     def find_pictured(self, quantities: Sequence[str]) -> tuple[list[str], str]:
         """Return the quantities with a picture, and a line of text on the others."""
@@ -313,12 +363,6 @@ def _draw(ax: Axes, subject: PageSubject, what: str, quantity: str) -> None:
     ax.set_title(subject.title(what, quantity))
     if what == "polar":
         draw_locus(ax, curve, subject.name_components(quantity), unit, before)
-    elif what == "ladder":
-        turn = -(subject.now.engine.up_deg or 0.0)
-        paths = {}
-        for name, step in subject.study.steps.items():
-            paths[name] = step.spectra[quantity].turn(turn)
-        draw_loci(ax, paths, subject.name_components(quantity), unit)
     elif what == "spectrum" and quantity == ABOUT:
         draw_scalar_bars(ax, subject.list_scalars(with_gas=True), unit)
     elif what == "spectrum":
@@ -347,11 +391,10 @@ def _draw_scalars(ax: Axes, subject: PageSubject, roll: Phasors, before: Phasors
     """
     scalars = subject.list_scalars(with_gas=False)
     crank = _divide_cycle(*scalars.values(), roll, before)
-    lines = {label: phasors.values(crank).real for label, phasors in scalars.items()}
     old = {}
     if before is not None:
         old[f"{ROLL.name} before"] = np.real(before.values(crank))
-    draw_curves(ax, crank, lines, "moment", subject.unit(ABOUT), old)
+    draw_scalars(ax, crank, scalars, subject.unit(ABOUT), old)
 
 
 class _DrawnOrder(NamedTuple):
@@ -363,16 +406,36 @@ class _DrawnOrder(NamedTuple):
 
 
 def _lay_out_overview(fig: Figure, subject: PageSubject) -> str:
-    """Draw the locus of the force, or of the moment if the force is balanced, and the spectra."""
+    """Draw the locus of force or moment, the more important one, or of both if they are alike; and
+    the spectra.
+    """
     shown, words = subject.find_pictured(PICTURED)
-    loci = [quantity for quantity in shown if quantity in _VECTORS][:1]
-    fig.set_size_inches(5.2 + 5.6 * len(loci), max(3.4, 2.2 * len(shown) + 0.4, 6.0 * len(loci)))
+    important = subject.choose_important()
+    loci = [quantity for quantity in important if quantity in shown]
+    bars = sorted(shown, key=(*important, *PICTURED).index)
+    fig.set_size_inches(5.2 + 5.6 * len(loci), max(3.4, 2.2 * len(shown) + 0.4, 6.0 * bool(loci)))
     grid = fig.add_gridspec(len(shown) or 1, 1 + len(loci))
-    for quantity in loci:
-        _draw(fig.add_subplot(grid[:, 0]), subject, "polar", quantity)
-    for row, quantity in enumerate(shown):
-        _draw(fig.add_subplot(grid[row, -1]), subject, "spectrum", quantity)
+    for column, quantity in enumerate(loci):
+        _draw(fig.add_subplot(grid[:, column]), subject, "polar", quantity)
+    spectra = [fig.add_subplot(grid[row, -1]) for row in range(len(bars))]
+    for ax, quantity in zip(spectra, bars, strict=True):
+        _draw(ax, subject, "spectrum", quantity)
+    _align_orders(spectra, subject, bars)
     return words
+
+
+def _align_orders(spectra: Sequence[Axes], subject: PageSubject, bars: Sequence[str]) -> None:
+    """Give the bars of several quantities one axis of orders."""
+    orders = []
+    for quantity in bars:
+        curves: Iterable[Phasors | None] = subject.phasors(quantity)
+        if quantity == ABOUT:
+            curves = subject.list_scalars(with_gas=True).values()
+        for curve in curves:
+            if curve is not None:
+                orders.append(curve.orders[visible_rows(curve)])
+    if orders:
+        set_order_axis(spectra, np.concatenate(orders))
 
 
 def _lay_out_rows(fig: Figure, subject: PageSubject, *, whats: Sequence[str], height: float) -> str:
@@ -380,11 +443,17 @@ def _lay_out_rows(fig: Figure, subject: PageSubject, *, whats: Sequence[str], he
     shown, words = subject.find_pictured(PICTURED)
     fig.set_figheight(0.5 + height * len(shown))
     grid = fig.add_gridspec(len(shown) or 1, 6)
+    spectra = []
     for row, quantity in enumerate(shown):
         pictures = [what for what in whats if what != "polar" or quantity != ABOUT]
         span = 6 // len(pictures)
         for k, what in enumerate(pictures):
-            _draw(fig.add_subplot(grid[row, k * span : (k + 1) * span]), subject, what, quantity)
+            ax = fig.add_subplot(grid[row, k * span : (k + 1) * span])
+            _draw(ax, subject, what, quantity)
+            if what == "spectrum":
+                spectra.append(ax)
+    if spectra:
+        _align_orders(spectra, subject, shown)
     return words
 
 
@@ -394,6 +463,37 @@ def _lay_out_loci(fig: Figure, subject: PageSubject, *, what: str, height: float
     for k, quantity in enumerate(shown, 1):
         _draw(fig.add_subplot(1, len(shown), k), subject, what, quantity)
     return words
+
+
+def _lay_out_ladder(fig: Figure, subject: PageSubject) -> str:
+    """Draw the locus with the devices of each step of the ladder, each in its own scale."""
+    pictured, words = subject.find_pictured(_VECTORS)
+    shown = sorted(pictured, key=(*subject.choose_important(), *_VECTORS).index)
+    steps = subject.study.steps
+    columns = min(len(steps), _STEPS_BESIDE)
+    rows = -(-len(steps) // columns)
+    if not shown:
+        return words
+    fig.set_size_inches(max(3.3 * columns, 6.6), 0.9 + 3.5 * rows * len(shown))
+    fig.set_layout_engine("constrained", h_pad=0.2)
+    grid = fig.add_gridspec(rows * len(shown), columns)
+    for above, quantity in enumerate(shown):
+        for k, (name, step) in enumerate(steps.items()):
+            ax = fig.add_subplot(grid[above * rows + k // columns, k % columns])
+            _draw_step(ax, subject, quantity, name, step)
+    return f"{_OWN_SCALES}\n{words}".strip()
+
+
+def _draw_step(ax: Axes, subject: PageSubject, quantity: str, name: str, step: Analysis) -> None:
+    """Draw the locus of a step of the ladder, gray without devices."""
+    unit = subject.unit(quantity)
+    curve = step.spectra[quantity].turn(-(subject.now.engine.up_deg or 0.0))
+    largest = float(find_largest(curve))
+    told = size_text(largest, unit, 4) if largest else NOTHING
+    colour = BLUE if step.engine.devices != subject.now.engine.devices else BEFORE
+    draw_whole_path(ax, curve, subject.name_components(quantity), unit, colour)
+    title = "\n".join(wrap(name, _STEP_LETTERS))
+    ax.set_title(f"{title}\n{quantity} {told}", pad=6)
 
 
 def _lay_out_orders(fig: Figure, subject: PageSubject) -> str:
@@ -519,7 +619,7 @@ _LAYOUTS: dict[str, tuple[float, float, Callable[[Figure, PageSubject], str | No
     "overview": (10.8, 6.4, _lay_out_overview),
     "all": (11.7, 8, partial(_lay_out_rows, whats=("polar", "spectrum", "curves"), height=3.6)),
     "polar": (9.6, 5.6, partial(_lay_out_loci, what="polar", height=5.6)),
-    "ladder": (9.6, 6.4, partial(_lay_out_loci, what="ladder", height=6.4)),
+    "ladder": (9.9, 7.9, _lay_out_ladder),
     "orders": (11.7, 7.4, _lay_out_orders),
     "spectrum": (6.5, 8.0, partial(_lay_out_rows, whats=("spectrum",), height=2.5)),
     "curves": (7.5, 8.6, partial(_lay_out_rows, whats=("curves",), height=2.7)),

@@ -11,10 +11,20 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from ..core.peaks import find_largest
 from ..core.phasors import Array, Complex, Phasors, unit as unit_vector
 from ..forces.stars import Star, find_direction
-from .plot_style import BLUE, GREEN, INK, PAPER, RED, SOFT, Look, put_legend_above
+from .plot_style import (
+    BEFORE,
+    BLUE,
+    GREEN,
+    INK,
+    PAPER,
+    RED,
+    SOFT,
+    Look,
+    measure_room,
+    put_legend_above,
+)
 from .sheet import NOTHING, VISIBLE, number, order_name, size_text
 from .units import ShownUnit
 
@@ -25,6 +35,13 @@ if TYPE_CHECKING:
 FINE = np.radians(np.arange(361))  # crank angles at which one order is drawn
 _ORDER_ANGLE = 36  # order * crank angle, deg, at which both vectors are drawn
 _BOX: Look = {"facecolor": PAPER, "edgecolor": "none", "pad": 0.5}
+_LIGHT = "#a9cfe8"
+_DARK = "#00253d"  # ends of the colours of several paths
+_MOST_ANGLES = 8  # crank angles that are written at a path
+_HEIGHT_IN = 0.11  # height of an angle, inches
+_LETTER_IN = 0.062  # width of one of its letters
+_GAP_IN = 0.045  # distance from the path
+_SHARE_OF_SIDE = 0.4  # half the side of square axes, as a share of their part of the figure
 _CENTERED: Look = {"fontsize": 7, "ha": "center", "va": "center", "bbox": _BOX}
 
 
@@ -50,7 +67,8 @@ def set_up_plane(ax: Axes, largest: float, names: Sequence[str] = (), unit: str 
 
 def draw_path(ax: Axes, path: Complex, crank_deg: Array, step: float, limit: float) -> None:
     """Draw the path of a vector's tip, with a dot every `step` degrees. The crank angle at every
-    second dot is written on the outer side of the path.
+    second dot is written beside the path where it touches neither the path nor another angle; at
+    most eight are written.
 
     Args:
         path: Path in the unit of the axes, real part upwards, shape (angles,).
@@ -66,18 +84,44 @@ def draw_path(ax: Axes, path: Complex, crank_deg: Array, step: float, limit: flo
     ax.plot(at.imag, at.real, "o", color=BLUE, markersize=2.6)
     normal = 1j * along * np.where((1j * along * at.conj()).real < 0, -1, 1)
     normal = np.where(np.abs(along) > 0.05 * np.abs(along).max(initial=0), normal, at)
-    written: list[complex] = []
+    inch = limit / (_SHARE_OF_SIDE * min(measure_room(ax)))
+    written: list[_Box] = []
     for mark, place, out in zip(marks[::2], at[::2], normal[::2], strict=True):
-        spot = place + 0.085 * limit * out / (abs(out) or 1)
-        if not any(_would_overlap(spot, other, limit) for other in written):
-            ax.text(spot.imag, spot.real, f"{mark:g}°", zorder=1.5, **_CENTERED)
-            written.append(spot)
+        text = f"{mark:g}°"
+        size = complex(_HEIGHT_IN, _LETTER_IN * len(text)) * inch / 2
+        way = out / (abs(out) or 1)
+        for side in (way, -way, 1j * way, -1j * way):
+            reach = abs(side.real) * size.real + abs(side.imag) * size.imag + _GAP_IN * inch
+            box = _Box(place + reach * side, size)
+            is_free = not any(map(box.touches, written)) and not box.holds_any(path)
+            if is_free and box.is_within(limit) and len(written) < _MOST_ANGLES:
+                ax.text(box.middle.imag, box.middle.real, text, **_CENTERED)
+                written.append(box)
+                break
 
 
-def _would_overlap(place: complex, other: complex, limit: float) -> bool:
-    """Return whether crank angles written at two places would overlap."""
-    apart = place - other
-    return abs(apart.real) <= 0.07 * limit and abs(apart.imag) <= 0.16 * limit
+class _Box(NamedTuple):
+    """Place of a text: its middle, and half its height (real part) and width (imaginary part)."""
+
+    middle: complex
+    size: complex
+
+    def touches(self, other: _Box) -> bool:
+        """Return whether two texts touch each other."""
+        apart = self.middle - other.middle
+        both = self.size + other.size
+        return abs(apart.real) <= both.real and abs(apart.imag) <= both.imag
+
+    def holds_any(self, path: Complex) -> bool:
+        """Return whether a path runs through the text."""
+        apart = path - self.middle
+        inside = (np.abs(apart.real) <= self.size.real) & (np.abs(apart.imag) <= self.size.imag)
+        return bool(inside.any())
+
+    def is_within(self, limit: float) -> bool:
+        """Return whether the text lies within axes of this half side."""
+        far = abs(self.middle.real) + self.size.real, abs(self.middle.imag) + self.size.imag
+        return max(far) <= limit
 
 
 def draw_locus(
@@ -104,7 +148,12 @@ def draw_locus(
     s = unit.fit(most)
     limit = set_up_plane(ax, (1.25 if tiny else 1) * most / s.size, names, s.name)
     for old in others:
-        look: Look = {"color": SOFT, "linewidth": 1, "linestyle": (0, (4, 2)), "label": "before"}
+        look: Look = {
+            "color": BEFORE,
+            "linewidth": 1.3,
+            "linestyle": (0, (4, 2)),
+            "label": "before",
+        }
         ax.plot(old.imag / s.size, old.real / s.size, **look)
         ax.plot([], [], color=BLUE, label="after")
         put_legend_above(ax)
@@ -129,47 +178,43 @@ def draw_locus(
     _draw_arrow(ax, path[start], tip, color=BLUE, linewidth=1.2, mutation_scale=13)
 
 
-def draw_paths(
-    ax: Axes,
-    paths: Mapping[str, Complex],
-    names: Sequence[str],
-    unit: str,
-    *,
-    taper: float = 0.0,
-) -> None:
-    """Draw several paths of a vector's tip.
+def draw_paths(ax: Axes, paths: Mapping[str, Complex], names: Sequence[str], unit: str) -> None:
+    """Draw several paths of a vector's tip, from light to dark.
 
     Args:
         ax: Axes of the picture.
         paths: Paths by label, in the unit of the axes, real part upwards; each of shape (angles,).
         names: Names of the axes.
         unit: Unit of the axes.
-        taper: Difference of line widths between a path and the path drawn over it.
     """
-    from matplotlib import colormaps
+    from matplotlib.colors import LinearSegmentedColormap
 
     set_up_plane(ax, max(float(np.abs(path).max()) for path in paths.values()), names, unit)
-    shades = np.linspace(0, 0.9, len(paths))
-    widths = 1.5 + taper * np.arange(len(paths))[::-1]
-    for (label, path), shade, width in zip(paths.items(), shades, widths, strict=True):
-        look: Look = {"color": colormaps["viridis"](shade), "linewidth": width, "label": label}
+    shades = LinearSegmentedColormap.from_list("blue", [_LIGHT, BLUE, _DARK])
+    for (label, path), shade in zip(paths.items(), np.linspace(0, 1, len(paths)), strict=True):
+        look: Look = {"color": shades(shade), "linewidth": 1.5, "label": label}
         ax.plot(path.imag, path.real, "o-", markevery=360, markersize=3, **look)
 
 
-def draw_loci(
-    ax: Axes, curves: Mapping[str, Phasors], names: Sequence[str], unit: ShownUnit
+def draw_whole_path(
+    ax: Axes, curve: Phasors, names: Sequence[str], unit: ShownUnit, colour: str
 ) -> None:
-    """Draw the paths of the tips of several vectors, by name, over a revolution. Line widths
-    differ, so that equal vectors remain visible.
+    """Draw the path of a vector's tip in a scale of its own, with a dot at crank angle 0.
+
+    Args:
+        ax: Axes to draw on.
+        curve: Phasors of the vector, shape (orders,).
+        names: Names of the axes.
+        unit: Unit of the vector.
+        colour: Colour of the path.
     """
-    largest = {name: float(find_largest(curve)) for name, curve in curves.items()}
-    s = unit.fit(max(largest.values()))
-    paths = {}
-    for name, curve in curves.items():
-        size = size_text(largest[name], unit, 4) if largest[name] else NOTHING
-        paths[f"{name}: {size}"] = values_over_period(curve) / s.size
-    draw_paths(ax, paths, names, s.name, taper=0.7)
-    ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.1))
+    path = values_over_period(curve)
+    largest = float(np.abs(path).max())
+    s = unit.fit(largest)
+    path = path / s.size
+    set_up_plane(ax, largest / s.size, names, s.name)
+    ax.plot(path.imag, path.real, color=colour, linewidth=2)
+    ax.plot(path.imag[:1], path.real[:1], "o", color=colour, markersize=5)
 
 
 def _draw_arrow(ax: Axes, start: complex, tip: complex, **look: object) -> None:
@@ -215,7 +260,7 @@ def draw_order(
     start = 0j
     for vector, colour, style, way in (
         (complex(forward * phase), BLUE, "-", "with the crank"),
-        (complex(backward / phase), RED, (0, (3, 1)), "against it"),
+        (complex(backward / phase), BLUE, (0, (3, 1)), "against it"),
     ):
         if not vector:
             continue

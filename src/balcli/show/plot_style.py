@@ -8,7 +8,7 @@ from __future__ import annotations
 import logging
 import re
 import warnings
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from functools import cache
 from io import BytesIO
@@ -26,21 +26,41 @@ if TYPE_CHECKING:
 Form = Literal["svg", "png", "pdf"]
 Look: TypeAlias = dict[str, Any]  # keyword arguments of matplotlib
 
-# Wong, Nature Methods 8 (2011) 441: colour-blind readers distinguish these colours; line styles and
-# hatches distinguish the curves in black and white.
-INK = "#1a1a1a"
+# The colours of the report page (report.css): one quantity has one colour in every picture. Line
+# styles and hatches distinguish the curves in black and white.
+INK = "#1a1a1a"  # sums and roll
 SOFT = "#6b6b6b"
 FAINT = "#d4d4d4"
 PAPER = "#ffffff"
-BLUE = "#0072b2"
-RED = "#d55e00"
-GREEN = "#009e73"
+BEFORE = "#7d858f"  # the engine as drawn, beside the engine with devices
+BLUE = "#0067a8"  # the engine now
+RED = "#c2410c"  # what shakes
+GREEN = "#007a5a"  # devices
+TORQUE = "#7a4fa3"  # torque of inertia
+GAS = "#8f6400"
+COUPLE = "#00727a"
 # Looks of up to twelve curves.
 MANY_LOOKS = (*zip(("-", "--", ":") * 4, (BLUE, RED, GREEN, INK) * 3, strict=True),)
-_WORDS = ("ink", "soft", "faint", "paper", "blue", "red", "green")
-NAMES = dict(zip((INK, SOFT, FAINT, PAPER, BLUE, RED, GREEN), _WORDS, strict=True))
+# Variables of the report page, by colour.
+NAMES = {
+    INK: "ink",
+    SOFT: "soft",
+    FAINT: "faint",
+    PAPER: "paper",
+    BEFORE: "before",
+    BLUE: "blue",
+    RED: "red",
+    GREEN: "green",
+    TORQUE: "torque",
+    GAS: "gas",
+    COUPLE: "couple",
+}
 _LETTER = 0.1
 _WIDE_LETTER = 0.19  # width of a letter and of a wide letter in a title, inches
+_LEGEND_LETTER = 0.062  # width of a letter in a legend, inches
+_LEGEND_LINE = 0.35  # width of a line in a legend with the gaps beside it, inches
+_LABELS = 0.8  # width of ticks and labels on the left of axes, inches
+_ROW = 12.5  # height of a row of a legend, points
 
 STYLE = Path(__file__).with_name("balcli.mplstyle")
 # Font families with Chinese, Japanese and Korean glyphs; the first that is installed is used.
@@ -187,5 +207,38 @@ def put_legend_above(ax: Axes, columns: int = 4) -> None:
         ax: Axes to change.
         columns: Largest number of columns.
     """
+    labels = ax.get_legend_handles_labels()[1]
+    width = measure_room(ax)[0] - _LABELS
+    columns = min(columns, len(labels))
+    while columns > 1 and _measure_legend(labels, columns) > width:
+        columns -= 1
     legend = ax.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=columns)
     legend.set_in_layout(False)  # a long legend must not narrow the axes
+    rows = -(-len(labels) // columns) if columns else 0
+    if rows > 1:
+        import matplotlib
+
+        pad = matplotlib.rcParams["axes.titlepad"] + _ROW * (rows - 1)
+        ax.set_title(ax.get_title("left"), pad=pad)
+
+
+def _measure_legend(labels: Sequence[str], columns: int) -> float:
+    """Return the width of a legend, inches. It is filled column by column."""
+    rows = -(-len(labels) // columns)
+    width = 0.0
+    for start in range(0, len(labels), rows):
+        longest = max(map(len, labels[start : start + rows]))
+        width += _LEGEND_LINE + _LEGEND_LETTER * longest
+    return width
+
+
+def measure_room(ax: Axes) -> tuple[float, float]:
+    """Return the width and height of the part of its figure that axes have, inches."""
+    figure = ax.get_figure(root=True)
+    assert figure is not None
+    width, height = figure.get_size_inches()
+    spec = ax.get_subplotspec()
+    if spec is None:
+        return float(width), float(height)
+    rows, columns = spec.get_gridspec().get_geometry()
+    return float(width * len(spec.colspan) / columns), float(height * len(spec.rowspan) / rows)

@@ -20,8 +20,10 @@ from ..show.plot_style import (
     FAINT,
     INK,
     MANY_LOOKS,
+    PAPER,
     RED,
     SOFT,
+    Look,
     fit_name,
     open_figure,
     put_legend_above,
@@ -52,6 +54,8 @@ _MOST_SHAFTS = 8  # largest number of shafts whose torque is drawn
 _WIDEST = 0.9  # largest width of an order in a waterfall, as a share of the gap between orders
 _MOST_ORDERS = 15  # largest number of orders in a Campbell diagram or waterfall
 _LEAST_ORDER = 0.01  # orders below this share of the largest order's work or torque are left out
+_APART = 0.042  # distance of two texts along an axis, as a share of the axis
+_ON_PAPER: Look = {"facecolor": PAPER, "edgecolor": "none", "pad": 0.5}
 _WORTH = 1e-3  # criticals with a smaller share of the work on their mode are not drawn
 
 
@@ -182,22 +186,52 @@ def _draw_campbell(ax: Axes, result: TorsionAnalysis) -> None:
     dots = [(c.speed_rpm, c.order * c.speed_rpm / 60, c.work) for c in met if c.order in orders]
     rpm, hertz, works = np.array(dots).reshape(-1, 3).T
     ceiling = 1.25 * hertz.max(initial=first)
-    for mode in result.modes:
-        if mode.frequency_Hz < ceiling:
-            ax.axhline(mode.frequency_Hz, color=INK, linewidth=1)
-            height = mode.frequency_Hz
-            label = f"{number(mode.frequency_Hz)} Hz"
-            ax.text(0.01 * top, height, label, va="bottom", fontsize=7)
-    for order in orders:
-        end = min(top, 60 * ceiling / order)
-        ax.plot([0, end], [0, order * end / 60], color=FAINT, linewidth=0.9, zorder=1)
-        ax.text(end, order * end / 60, order_name(order), fontsize=7, color=SOFT)
+    hertz_of_modes = [one.frequency_Hz for one in result.modes if one.frequency_Hz < ceiling]
+    for height, place in zip(hertz_of_modes, _spread(hertz_of_modes, ceiling), strict=True):
+        ax.axhline(height, color=INK, linewidth=1)
+        label = f"{number(height)} Hz"
+        spot = place + 0.012 * ceiling
+        ax.text(0.01 * top, spot, label, va="bottom", fontsize=7, bbox=_ON_PAPER)
+    _draw_rays(ax, orders, top, ceiling)
     sizes = 12 + 240 * works / works.max(initial=0.0)
     ax.scatter(rpm, hertz, s=sizes, color=RED, alpha=0.7, zorder=3)
     ax.set(xlim=(0, 1.03 * top), ylim=(0, ceiling), xlabel="rpm", ylabel="Hz")
     title = "Campbell diagram: orders, and criticals by work"
     ax.set_title(title + _count_left_out(len(every) - len(orders)))
     _shade_barred(ax, result)
+
+
+def _draw_rays(ax: Axes, orders: Sequence[float], top: float, ceiling: float) -> None:
+    """Draw a ray for each order. Its number stands at its end, right of the axes or above them;
+    numbers that would touch each other are moved along the edge.
+
+    Args:
+        ax: Axes to draw on.
+        orders: Orders, rising.
+        top: Highest speed, rpm.
+        ceiling: Highest frequency, Hz.
+    """
+    for order in orders:
+        end = min(top, 60 * ceiling / order)
+        ax.plot([0, end], [0, order * end / 60], color=FAINT, linewidth=0.9, zorder=1)
+    look: Look = {"fontsize": 7, "color": SOFT}
+    beside = [order for order in orders if order * top / 60 <= ceiling]
+    heights = [order * top / 60 for order in beside]
+    for order, height in zip(beside, _spread(heights, ceiling), strict=True):
+        ax.text(1.01 * top, height, order_name(order), va="center", **look)
+    above = [order for order in reversed(orders) if order not in beside]
+    speeds = [60 * ceiling / order for order in above]
+    for order, speed in zip(above, _spread(speeds, top), strict=True):
+        ax.text(speed, 1.01 * ceiling, order_name(order), ha="center", va="bottom", **look)
+
+
+def _spread(places: Sequence[float], span: float) -> list[float]:
+    """Return rising places on an axis, moved upwards so far that their texts do not touch."""
+    moved: list[float] = []
+    for place in places:
+        free = moved[-1] + _APART * span if moved else place
+        moved.append(max(place, free))
+    return moved
 
 
 def _find_largest(sizes: Real) -> Indices:
