@@ -208,7 +208,7 @@ def test_loads_are_told_when_they_are_asked_for(tmp_path):
     assert any(row.startswith("2,pin,,max,") for row in rows)
     assert any(row.startswith("0,main,3,mean,") for row in rows)
     status, _, err = run_here("torque", path, "--loads", "wrist")
-    assert (status, err) == (2, "balcli: --loads: 'wrist'; choose from pin, main\n")
+    assert (status, err) == (2, "balcli: --loads: 'wrist'; choose from pin, main, rod\n")
 
 
 # ------------------------------------------------------------------ sweeps and pictures

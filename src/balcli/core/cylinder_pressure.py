@@ -17,6 +17,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -45,6 +46,7 @@ class GasPiston:
 
     Attributes:
         area: Area of the bore, m2.
+        rod_area: Area of the piston rod's cross-section, m2; 0 without piston rod.
         stroke: Distance between the dead centres, m.
         top: Angle of the crank from the cylinder's axis when the piston is at its upper dead
             centre, rad.
@@ -65,6 +67,12 @@ class GasPiston:
     lam: Array
     eps: Array
     linkage: Articulated | None = None
+    rod_area: float = 0.0
+
+    @property
+    def back_area(self) -> float:
+        """Area of the piston at the crank end, m2."""
+        return self.area - self.rod_area
 
     @property
     def swept(self) -> float:
@@ -115,19 +123,20 @@ class GasPiston:
         return float(high)
 
 
-def pistons(cylinders: Cylinders, area: ArrayLike) -> list[GasPiston]:
+def pistons(cylinders: Cylinders, area: ArrayLike, rod_area: ArrayLike = 0.0) -> list[GasPiston]:
     """Return the piston of every cylinder.
 
     Args:
         cylinders: Cylinders of one engine, not of an array of variants.
         area: Area of the bores, m2: one value, or one for each cylinder.
+        rod_area: Area of the piston rods, m2: one value, or one for each cylinder.
     """
     # In a rotary engine, the pistons move along their axes as in a stationary one.
     kind = cylinders.linkage.hung if isinstance(cylinders.linkage, Rotary) else cylinders.linkage
     linkage = kind if isinstance(kind, Articulated) else None
     c = replace(cylinders, linkage=linkage)
     found = []
-    figures = (c.lam, c.eps, area, *find_travel(c), c.radius)
+    figures = (c.lam, c.eps, area, *find_travel(c), c.radius, rod_area)
     lam, eps, *sizes = (np.broadcast_to(figure, c.count) for figure in figures)
     for row in range(c.count):
         rows = np.array(row)
@@ -141,14 +150,40 @@ def pistons(cylinders: Cylinders, area: ArrayLike) -> list[GasPiston]:
                 knuckle=linkage.knuckle[rows],
                 lead_deg=linkage.lead_deg[rows],
             )
-        bore, stroke, top, bottom, radius = (float(size[row]) for size in sizes)
+        bore, stroke, top, bottom, radius, rod = (float(size[row]) for size in sizes)
         lower = math.radians(bottom + 180 - top)
         upper = math.radians(top)
-        found.append(GasPiston(bore, stroke, upper, lower, radius, lam[rows], eps[rows], own))
+        found.append(GasPiston(bore, stroke, upper, lower, radius, lam[rows], eps[rows], own, rod))
     return found
 
 
 # ---------------------------------------------------------------- pressure and torque
+class GasEnd(NamedTuple):
+    """Gas in one end of a cylinder.
+
+    Attributes:
+        name: "head" (away from the crank) or "crank".
+        pressure: Absolute pressure over the cycle angle, Pa.
+        area: Area of the piston in this end, m2.
+        swept: Swept volume of this end, m3.
+        work: Work of the gas on the piston in one revolution of a compressor, or in one cycle of
+            any other end, J.
+        volumetric_efficiency: Volume drawn in over swept volume; None unless the end compresses.
+    """
+
+    name: str
+    pressure: PiecewiseCurve
+    area: float
+    swept: float
+    work: float
+    volumetric_efficiency: float | None = None
+
+    @property
+    def turns(self) -> float:
+        """Turns of the crank in one cycle of this end."""
+        return self.pressure.period / (2 * math.pi)
+
+
 @dataclass(frozen=True, eq=False)
 class GasTorque:
     """Torque of the gas of one cylinder on the crankshaft.
@@ -159,7 +194,10 @@ class GasTorque:
             period after the first.
         curve: Torque over the cycle angle, N m.
         pressure: Absolute pressure over the cycle angle, Pa; None if only the torque is known.
+            With a crank end, it is the pressure in the head end that would cause the same force on
+            a single-acting piston, which may be negative.
         crankcase: Absolute pressure under the piston, Pa.
+        ends: Gas in the ends of the cylinder, head first; empty if only the torque is known.
     """
 
     piston: GasPiston
@@ -167,6 +205,12 @@ class GasTorque:
     curve: PiecewiseCurve
     pressure: PiecewiseCurve | None = None
     crankcase: float = 1e5
+    ends: tuple[GasEnd, ...] = ()
+
+    @property
+    def is_double_acting(self) -> bool:
+        """Whether there is gas at the crank end."""
+        return len(self.ends) > 1
 
     def force_under(self, pressure: Array) -> Array:
         """Return the gas force on the piston towards the crankshaft, N, for pressures in the
@@ -213,6 +257,68 @@ def press(
     return GasTorque(piston, breaks, resolved(torque, breaks), pressure, crankcase)
 
 
+def make_end(
+    piston: GasPiston,
+    pressure: PiecewiseCurve,
+    *,
+    crank_end: bool = False,
+    volumetric_efficiency: float | None = None,
+) -> GasEnd:
+    """Return the gas in one end of a cylinder.
+
+    Args:
+        piston: Piston on which the pressure acts.
+        pressure: Absolute pressure, Pa, over the cycle angle.
+        crank_end: Whether the end is the one towards the crank.
+        volumetric_efficiency: For a compressor, volume drawn in over swept volume.
+    """
+    area = piston.back_area if crank_end else piston.area
+    sense = -1 if crank_end else 1
+
+    def work_rate(angle: Array) -> Array:
+        return sense * area * pressure.at(angle) * piston.rate(angle)
+
+    work = resolved(work_rate, pressure.breaks).integral
+    name = "crank" if crank_end else "head"
+    return GasEnd(name, pressure, area, area * piston.stroke, work, volumetric_efficiency)
+
+
+def press_both(
+    piston: GasPiston, ends: Sequence[GasEnd], breaks: Array, crankcase: float, period: float
+) -> GasTorque:
+    """Return the torque of the gas in the ends of a cylinder.
+
+    Args:
+        piston: Piston on which the gas acts.
+        ends: Head end, and the crank end if there is one.
+        breaks: Cycle angles, rad, between which the pressure in the head end is smooth.
+        crankcase: Absolute pressure on the cross-section of the piston rod, or below a
+            single-acting piston, Pa.
+        period: Length of the cycle of the engine, rad.
+    """
+    head, *others = ends
+    if not others and round(head.pressure.period / period, 6) == 1:
+        return replace(press(piston, head.pressure, breaks, crankcase), ends=tuple(ends))
+    parts = [_repeat_breaks(each.pressure.breaks, period) for each in ends]
+    merged = merged_breaks([(part, 0.0) for part in parts], period)
+
+    def effective(angle: Array) -> Array:
+        pressure = head.pressure.at(angle)
+        for crank in others:
+            pressure = pressure - (crank.pressure.at(angle) - crankcase) * crank.area / piston.area
+        return pressure
+
+    pressure = resolved(effective, merged)
+    return replace(press(piston, pressure, merged, crankcase), ends=tuple(ends))
+
+
+def _repeat_breaks(breaks: Array, period: float) -> Array:
+    """Return breakpoints of a curve over one or more of its periods, as far as `period`."""
+    own = breaks[-1] - breaks[0]
+    times = np.arange(max(round(period / own), 1))
+    return np.asarray((breaks[:-1] + own * times[:, None]).ravel())
+
+
 def blend(first: GasTorque, second: GasTorque, share: float) -> GasTorque:
     """Return the gas torque for a pressure between the pressures of two gas torques.
 
@@ -231,7 +337,8 @@ def blend(first: GasTorque, second: GasTorque, share: float) -> GasTorque:
 
     pressure = first.pressure and second.pressure and mix(first.pressure, second.pressure)
     curve = mix(first.curve, second.curve)
-    return replace(first, breaks=breaks, curve=curve, pressure=pressure)
+    ends = (make_end(first.piston, pressure),) if pressure else ()
+    return replace(first, breaks=breaks, curve=curve, pressure=pressure, ends=ends)
 
 
 def find_highest(pressure: PiecewiseCurve) -> Extreme:

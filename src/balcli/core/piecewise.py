@@ -16,16 +16,17 @@ import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from typing import NamedTuple, TypeAlias
+from typing import NamedTuple, TypeAlias, TypeVar
 
 import numpy as np
 from numpy.polynomial import legendre
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from .peaks import Peak
 from .phasors import Array, Complex
 
 Function: TypeAlias = Callable[[Array], Array]  # values at angles (rad), in the shape of the angles
+Number = TypeVar("Number", np.float64, np.complex128)
 Vectors: TypeAlias = Callable[[Array], Complex]  # values at angles, shape (vectors, angles)
 
 gauss = lru_cache(legendre.leggauss)  # rising nodes and weights of the quadrature on [-1, 1]
@@ -413,7 +414,7 @@ class Panels:
         """Return the largest size of a force and the first angle (rad) at which it is reached. At a
         jump, the values on both sides count.
         """
-        series = self._find_series(samples)
+        series = self.find_series(samples)
         finer = 2 * _TERMS - 1  # terms of the square
         values = legendre.legvander(gauss(finer)[0], _TERMS - 1) @ series
         squares = values_to_series(finer) @ (values.real**2 + values.imag**2)
@@ -424,11 +425,11 @@ class Panels:
         """Return the mean size of a force over the period. The size has a corner where the force is
         0.
         """
-        series = self._find_series(samples)
+        series = self.find_series(samples)
         x, y = (PiecewiseCurve(self.breaks, part) for part in (series.real, series.imag))
         return resolved(lambda at: np.hypot(x.within(at), y.within(at)), self.breaks).mean
 
-    def _find_series(self, samples: Complex) -> Complex:
+    def find_series(self, samples: NDArray[Number]) -> NDArray[Number]:
         """Return the Legendre coefficients of a force on each panel, shape (terms, panels)."""
         return np.asarray(values_to_series(_TERMS) @ samples.reshape(_TERMS, -1))
 

@@ -18,11 +18,13 @@ from ..file.assumed import STEADY
 from ..forces.crankshaft import refuse_too_many_forces
 from ..forces.curves import find_constant_inertia, find_moving_inertia, find_torque_curves
 from ..forces.spectrum import check_orders, compute_spectra, list_gas_orders, take_gas
+from .ends import list_ends
 from .flywheel import find_flywheel
 from .loads import KINDS_OF_LOAD, analyze_loads
 from .records import (
     TorqueAnalysis,
     TorqueOrder,
+    find_brake_share,
     list_torques,
     measure_curve,
     measure_energy,
@@ -61,7 +63,8 @@ def torque(
             "upper.3" in geared engines; default: 1, or the first to fire if cylinder 1 is a dummy.
         fluctuation: Allowed fluctuation of speed, (highest - lowest)/mean; the result has the
             inertia that limits the fluctuation to this value.
-        loads: "pin" (loads of crank pins), "main" (loads of main bearings), or both.
+        loads: "pin" (loads of crank pins), "main" (loads of main bearings), "rod" (loads along the
+            piston rods), or several of them.
 
     Raises:
         BalcliError: The engine has no gas, the cylinder does not exist, the fluctuation is not
@@ -94,10 +97,10 @@ def torque(
     curves = find_torque_curves(steady)
     above = surplus(curves.total)
     omega = float(engine.omega)
-    imep = gas.work / float(engine.displacement_m3)
-    efficiency = engine.mechanical_efficiency
-    pressures = (t.pressure for t, rows in gas.group_equal() if gas.shares[rows].any())
-    tops = map(find_highest, filter(None, pressures))
+    imep = gas.work / (gas.swept if gas.has_pump_ends else float(engine.displacement_m3))
+    brake_share = find_brake_share(engine, imep)
+    working = [torque for torque, rows in gas.group_equal() if gas.shares[rows].any()]
+    tops = [find_highest(end.pressure) for torque in working for end in torque.ends]
     highest = max(tops, key=lambda extreme: extreme.value, default=None)
     spectra = compute_spectra(steady, shown, KINDS_OF_TORQUE)
     single = compute_spectra(steady, shown, KINDS_OF_TORQUE, each=True).select_place(row)
@@ -112,12 +115,13 @@ def torque(
         assumed=engine.list_assumed("gas", "flywheel", without=idle),
         cycle_deg=gas.cycle_deg,
         imep_Pa=imep,
-        bmep_Pa=None if efficiency is None else imep * efficiency,
+        bmep_Pa=None if brake_share is None else imep * brake_share,
         max_pressure_Pa=None if highest is None else highest.value,
         max_pressure_deg=None if highest is None else float(np.degrees(highest.angle)),
         mean_torque_Nm=curves.gas.mean,
         power_W=curves.gas.mean * omega,
         torque=measure_curve(curves.total),
+        ends=list_ends(engine, gas),
         orders=tuple(
             TorqueOrder(order=write_whole(n), torques=all_of_it, one_cylinder=one)
             for n, all_of_it, one in each

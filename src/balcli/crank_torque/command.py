@@ -54,7 +54,8 @@ Cylinder = Annotated[
     optional("N|NAME.N", "Show the gas torque of this cylinder; default: 1, or the first to fire."),
 ]
 LoadsOption = Annotated[
-    str | None, optional("pin,main", "Also show loads of pins and main bearings.", "--loads")
+    str | None,
+    optional("pin,main,rod", "Also show loads of pins, main bearings and piston rods.", "--loads"),
 ]
 Curve = Annotated[
     Path | None,

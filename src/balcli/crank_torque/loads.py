@@ -20,8 +20,9 @@ from ..forces.crankshaft import (
     place_main_bearings,
 )
 from ..forces.rod_forces import compute_rod_forces, list_hung_rows
+from .rod_loads import RodLoad, measure_rod_loads
 
-KINDS_OF_LOAD = ("pin", "main")
+KINDS_OF_LOAD = ("pin", "main", "rod")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -57,6 +58,7 @@ class CycleLoads:
         knuckle: Loads of the knuckle pins in master rods, by the cylinders whose articulated rods
             turn on them.
         main: Loads of main bearings.
+        rod: Loads along the piston rods.
         obstacle: Reason why requested loads of main bearings are unknown. It is given only if
             loads of pins were requested as well; otherwise an error states the reason.
     """
@@ -64,11 +66,12 @@ class CycleLoads:
     pin: Asked[tuple[CycleLoad, ...]] = Asked('loads=["pin"]')
     knuckle: tuple[CycleLoad, ...] | None = None
     main: Asked[tuple[CycleLoad, ...]] = Asked('loads=["main"]')
+    rod: Asked[tuple[RodLoad, ...]] = Asked('loads=["rod"]')
     obstacle: str | None = None
 
 
-def analyze_loads(engine: Engine, asked: Iterable[str] = KINDS_OF_LOAD) -> CycleLoads:
-    """Return loads of pins and bearings.
+def analyze_loads(engine: Engine, asked: Iterable[str] = ("pin", "main")) -> CycleLoads:
+    """Return loads of pins, bearings and piston rods.
 
     Main bearings are assumed half-way between neighbouring throws; the end bearings are the same
     distance outside the end throws. The shaft is treated as cut at each bearing. If the positions
@@ -86,6 +89,7 @@ def analyze_loads(engine: Engine, asked: Iterable[str] = KINDS_OF_LOAD) -> Cycle
     steady = replace(engine, ripple=())
     sizes = engine.bearings
     pin = knuckle = main = obstacle = None
+    rod = measure_rod_loads(steady) if "rod" in asked else None
     if "pin" in asked:
         # forces on crank or knuckle pins; the real part is outward along the cylinder's axis
         area = sizes and sizes.pin_m2
@@ -100,14 +104,14 @@ def analyze_loads(engine: Engine, asked: Iterable[str] = KINDS_OF_LOAD) -> Cycle
             places = place_main_bearings(steady)
             vectors = partial(compute_bearing_loads, steady)
         except BearingsUnknownError as error:
-            if pin is None:
+            if pin is None and rod is None:
                 raise
             obstacle = error.reason
         else:
             found = _measure(steady, vectors, sizes and sizes.main_m2)
             each = enumerate(zip(places.tolist(), found, strict=True), 1)
             main = tuple(replace(f, bearing=k, position_mm=z * 1e3) for k, (z, f) in each)
-    return CycleLoads(pin=pin, knuckle=knuckle, main=main, obstacle=obstacle)
+    return CycleLoads(pin=pin, knuckle=knuckle, main=main, rod=rod, obstacle=obstacle)
 
 
 def _measure(engine: Engine, vectors: Vectors, area: float | None) -> Iterator[CycleLoad]:

@@ -16,6 +16,7 @@ from ..file.fields import order_number
 from ..forces.spectrum import Spectra
 from ..show.figures import Harmonic, list_harmonics
 from ..show.result import Result
+from .ends import End
 from .flywheel import Flywheel, degrees_in_cycle
 from .loads import CycleLoads
 
@@ -92,12 +93,15 @@ class TorqueAnalysis(Result):
         no_burning_in: Cylinders that compress and expand their charge without burning it.
         assumed: Values assumed because the engine file leaves them out.
         cycle_deg: Length of the engine's cycle or of the curve's period.
-        imep_Pa: Indicated mean effective pressure: work of all cylinders divided by displacement.
+        imep_Pa: Indicated mean effective pressure: work of all cylinders divided by displacement
+            (by the swept volume of all ends); negative where the machine takes work.
         bmep_Pa: Brake mean effective pressure.
+        ends: Gas in the ends of all cylinders; left out unless a cylinder has a crank end or a
+            compressor cycle.
         max_pressure_Pa: Highest pressure in any cylinder that has gas.
         max_pressure_deg: Cycle angle of the highest pressure, from the firing dead centre.
         mean_torque_Nm: Indicated mean torque.
-        power_W: Indicated power.
+        power_W: Indicated power; negative where the machine takes power.
         torque: Largest and smallest torque.
         orders: Torque by order.
         energy: Surplus energy of the torque.
@@ -126,6 +130,7 @@ class TorqueAnalysis(Result):
     mean_torque_Nm: float
     power_W: float | None = None
     torque: Extremes
+    ends: tuple[End, ...] | None = None
     orders: tuple[TorqueOrder, ...]
     energy: Energy
     flywheel: Asked[Flywheel] = Asked(
@@ -144,6 +149,16 @@ class TorqueAnalysis(Result):
         """Name of the engine or curve, and its mean torque, in words."""
         of = self.name if self.engine is None else self.engine.summary
         return f"of {of}; mean {self.mean_torque_Nm:.4g} N m"
+
+
+def find_brake_share(engine: Engine, imep_Pa: float) -> float | None:
+    """Return brake work over indicated work: the mechanical efficiency, or its inverse where the
+    machine takes work. None if the file gives no efficiency.
+    """
+    efficiency = engine.mechanical_efficiency
+    if efficiency is None or imep_Pa >= 0:
+        return efficiency
+    return 1 / efficiency
 
 
 def measure_curve(torque: PiecewiseCurve) -> Extremes:

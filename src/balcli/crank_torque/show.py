@@ -32,11 +32,12 @@ from ..show.sheet import (
 from ..show.units import ShownUnit, System
 from .flywheel import Flywheel
 from .loads import CycleLoads
-from .records import TorqueAnalysis, Torques, write_whole
+from .pump_show import show_ends, show_rod_loads
+from .records import TorqueAnalysis, Torques, find_brake_share, write_whole
 
 _NO_INERTIA = "The uneven speed is not known: no inertia is given ([crank] inertia, [flywheel])."
 _size = partial(size_text, digits=None)  # a size with the default number of digits
-_PARTS = ("torque", "energy", "flywheel", "loads", "orders")
+_PARTS = ("torque", "energy", "flywheel", "loads", "orders", "ends")
 
 
 # ------------------------------------------------------------------ CSV
@@ -66,6 +67,7 @@ def _list_rows(result: TorqueAnalysis, found: Node, system: System) -> Iterator[
             parts.append(("main", {key: loads}))
         else:
             parts += [(key, load) for load in loads]
+    parts += [(f"{end['end']} end", end) for end in found.get("ends", ())]
     for quantity, part in parts:
         yield from _write(quantity, part, system)
     for cylinder, entries in places:
@@ -101,6 +103,8 @@ def sheet(result: TorqueAnalysis, system: System) -> Sheet:
     title = f"{result.name or NAMELESS}: {what}"
     parts: list[Grid | Facts | Text] = [Facts(tuple(_list_work(result, system)))]
     parts.append(_describe_course(result, system))
+    if result.ends is not None:
+        parts.append(show_ends(result.ends, system))
     if hasattr(result, "flywheel"):
         parts.append(Facts(tuple(_list_flywheel(result, result.flywheel, system)), "Flywheel"))
     elif result.engine is not None:
@@ -128,9 +132,12 @@ def _list_work(result: TorqueAnalysis, system: System) -> Iterator[tuple[str, st
         yield "speed", tell_speed(engine, steady=True)
         if result.assumed:
             yield "assumed", tell_assumed(result.assumed)
-        efficiencies = {" indicated": 1.0}
-        if engine.mechanical_efficiency is not None:
-            efficiencies[" brake"] = engine.mechanical_efficiency
+        absorbs = (result.imep_Pa or 0.0) < 0
+        sign = -1.0 if absorbs else 1.0
+        efficiencies = {" absorbed" if absorbs else " indicated": sign}
+        brake_share = find_brake_share(engine, result.imep_Pa or 0.0)
+        if brake_share is not None:
+            efficiencies[" brake"] = sign * brake_share
         if result.max_pressure_Pa is not None:
             size = _size(result.max_pressure_Pa, system.pressure)
             at = result.max_pressure_deg
@@ -255,6 +262,8 @@ def _make_load_tables(loads: CycleLoads, system: System) -> Iterator[Grid | Text
             for row, pressure in zip(rows, pressures, strict=True):
                 row.append(number(stress.of(pressure)))
         yield Grid.of_rows(title, heads, rows, note)
+    if hasattr(loads, "rod"):
+        yield show_rod_loads(loads.rod, system)
     if loads.obstacle:
         yield Text("Main bearings", (f"Not known: {loads.obstacle}.",))
 

@@ -42,7 +42,7 @@ from ..file.read import Draft
 from ..limits import MOST_SAMPLES, NEAREST_TO_LOCK
 from .devices import build_devices, check_shafts
 from .engine import Bearings, Engine, Rating
-from .figures import column, divide, find_wheel
+from .figures import column, divide, find_wheel, value_or
 from .firing.rules import check_numbering
 from .layout import Plan, are_places_known
 from .left_out import list_inferred
@@ -103,6 +103,7 @@ def build(
         fires_deg=parts.fires_deg,
         strokes=model.layout.strokes,
         bore_m=math.nan if bore is None else bore / 1e3,
+        bores_m=_find_bores(parts, math.nan if bore is None else bore),
         throws_m=places.throws,
         throw_radii_m=column([stroke / 2e3 for stroke in parts.throw_strokes], parts.rank),
         pins_m=places.pins,
@@ -122,6 +123,14 @@ def build(
         model=None if varied else model,
         of_locomotive=model.locomotive is not None,
     )
+
+
+def _find_bores(parts: Parts, general: Figure) -> tuple[Figure, ...]:
+    """Return the bore of each cylinder, m; empty if all have that of [piston] (`general`, mm)."""
+    bores = [parts.override(number, "bore") for number in parts.numbers]
+    if all(bore is None for bore in bores):
+        return ()
+    return tuple(value_or(bore, general) / 1e3 for bore in bores)
 
 
 def assemble(

@@ -16,20 +16,40 @@ from typing import NamedTuple, TypeVar
 
 import numpy as np
 
-from ..core.cylinder_pressure import GasError, GasPiston, GasTorque, blend, pistons, press
+from ..core.compressor import Compression, compress
+from ..core.cylinder_pressure import (
+    GasEnd,
+    GasError,
+    GasPiston,
+    GasTorque,
+    blend,
+    make_end,
+    pistons,
+    press_both,
+)
 from ..core.gas_cycle import GasCycle, Goal, Process, find_least_imep, gas_cycle
 from ..core.phasors import Array
 from ..core.piecewise import resolved
 from ..errors import BalcliError, InputError, Problem
-from ..file.csv_columns import Head, NumberColumns, locate_beside, read_columns
+from ..file.csv_columns import Head, NumberColumns, list_heads, locate_beside, read_columns
 from ..file.doubt import Doubt
-from ..file.gas_tables import DIAGRAM_KEYS, MEAN_PRESSURES, Gas
+from ..file.gas_tables import (
+    COMPRESSOR,
+    DIAGRAM_KEYS,
+    MEAN_PRESSURES,
+    CrankEnd,
+    Gas,
+    GasOf,
+    take_crank_end,
+    take_of,
+)
 from ..file.model import Override
 from ..file.table import FileTable
 from ..file.units import BAR
 from ..limits import HIGHEST_TABLE_ORDER, MOST_DIFFERENT_GAS
+from .card import draw_card
 from .gas import CylinderGas, EngineGas, GasLaw
-from .indicator import HEADS, build_diagram, list_doubts
+from .indicator import HEADS, build_diagram, choose_heads, find_absolute, list_doubts
 from .layout import find_first
 from .parts import Parts
 
@@ -41,6 +61,7 @@ HEAT_MOST = 40.0
 _KEPT = 512  # number of speeds for which the gas is cached
 _OVERSPEED = 1.6  # beyond this multiple of the rated speed, the gas is not interpolated
 Table = TypeVar("Table", bound=FileTable)
+TableWithEnd = TypeVar("TableWithEnd", Gas, GasOf)
 
 
 class _Source(NamedTuple):
@@ -48,6 +69,8 @@ class _Source(NamedTuple):
 
     Attributes:
         number: Cylinder number.
+        gas: Gas of the cylinder, in the form of [gas].
+        table: Number of the [[gas.of]] with this gas; 0: [gas] itself.
         path: Key that names the file with the indicator diagram of the cylinder.
         indicator: Name of the file with this diagram; None without a diagram.
         heat: Heat supplied in a computed cycle, J; None if the file gives none.
@@ -56,11 +79,23 @@ class _Source(NamedTuple):
     """
 
     number: int
+    gas: Gas
+    table: int
     path: str
     indicator: str | None
     heat: float | None
     heat_path: str
     share: float
+
+    @property
+    def place(self) -> str:
+        """Path of the table with the gas of the cylinder."""
+        return f"gas.of.{self.table}" if self.table else "gas"
+
+    @property
+    def compresses(self) -> bool:
+        """Whether the head end has a compressor cycle."""
+        return self.indicator is None and self.gas.cycle == COMPRESSOR
 
 
 def build_gas(parts: Parts) -> EngineGas:
@@ -72,10 +107,16 @@ def build_gas(parts: Parts) -> EngineGas:
             error lists all of them.
     """
     gas = _vary(parts)
-    bore = _take(parts, "piston.bore", parts.model.piston.bore)
-    if problems := list(_list_contradictions(parts, gas, bore)):
+    bores = [_find_diameter(parts, number, "bore", "bore") for number in parts.numbers]
+    rods = [
+        _find_diameter(parts, number, "piston_rod_diameter", "rod_diameter")
+        for number in parts.numbers
+    ]
+    if problems := list(_list_contradictions(parts, gas, bores, rods)):
         raise InputError(problems)
-    found = pistons(parts.cylinders, math.pi / 4 * ((bore or 0.0) / 1e3) ** 2)
+    areas = [math.pi / 4 * (bore / 1e3) ** 2 for bore in bores]
+    rod_areas = [math.pi / 4 * (rod / 1e3) ** 2 for rod in rods]
+    found = pistons(parts.cylinders, np.array(areas), np.array(rod_areas))
 
     @cache
     def read(name: str, heads: tuple[Head, ...]) -> NumberColumns:
@@ -226,8 +267,10 @@ def _build_steady(
     problems = list[Problem]()
     sources = [_find_source(parts, gas, number) for number in parts.numbers]
     keys = [
-        (*mechanism, source.indicator, source.heat)
-        for mechanism, source in zip(parts.cylinders.mechanisms, sources, strict=True)
+        (*mechanism, piston.area, piston.rod_area, source.indicator, source.heat, source.table)
+        for mechanism, piston, source in zip(
+            parts.cylinders.mechanisms, found, sources, strict=True
+        )
     ]
     like = [keys.index(key) for key in keys]  # row of the first cylinder with an equal torque
     if (different := len(set(like))) > MOST_DIFFERENT_GAS:
@@ -241,25 +284,25 @@ def _build_steady(
     for row in sorted(set(like)):
         source = sources[row]
         piston = found[row]
-        name = source.indicator or gas.harmonics
-        try:
-            if name is None:
-                cycle = _compute_cycle(gas, source, piston, strokes, at_least=at_least)
-                torques[row] = press(piston, cycle.pressure, cycle.breaks, gas.crankcase * BAR)
-                overfed += _doubt_heat(gas, source, piston, cycle)
-            elif source.indicator is None:
+        own = source.gas if source.table else gas
+        name = source.indicator or own.harmonics
+        if source.indicator is None and name is not None:
+            try:
                 torques[row] = _read_harmonics(name, read(name, _HARMONICS), piston, strokes)
-            else:
-                columns = read(name, HEADS)
-                pressure, notes = build_diagram(gas, source.path, name, columns, strokes)
-                torques[row] = press(piston, pressure, pressure.breaks, gas.crankcase * BAR)
-                imep = torques[row].imep
-                doubts += (*notes, *list_doubts(gas, source.path, columns, pressure, imep))
+            except BalcliError as error:
+                problems.append(Problem("gas.harmonics", str(error)))
+            continue
+        single_acting = own.crank_end is None
+        heads = partial(_list_heads, parts)
+        made = _EndMaker(piston, read, strokes, heads, doubts, overfed, fires=single_acting)
+        try:
+            head, breaks = made.make_head(own, source, at_least=at_least)
+            ends = [head, *made.make_crank_end(own, source)]
         except InputError as error:
             problems += error.problems
-        except BalcliError as error:
-            path = "gas.harmonics" if source.indicator is None else source.path
-            problems.append(Problem(path, str(error)))
+            continue
+        under = own.crankcase * BAR
+        torques[row] = press_both(piston, ends, breaks, under, strokes * np.pi)
     if problems:
         raise InputError(list(dict.fromkeys(problems)))
     measured = any(source.indicator is not None for source in sources)
@@ -269,7 +312,7 @@ def _build_steady(
     doubts += [Doubt(f"gas.{key}", "changes nothing in this engine") for key in given]
     nominal = _find_nominal(parts, [piston.top for piston in found])
     cylinders = (
-        CylinderGas(piston, torques[row], angle, source.share, source.heat, row)
+        CylinderGas(piston, torques[row], angle, source.share, source.heat, row, source.compresses)
         for piston, row, angle, source in zip(found, like, nominal, sources, strict=True)
     )
     return EngineGas(
@@ -288,7 +331,24 @@ def _vary(parts: Parts) -> Gas:
     """
     gas = _vary_table(parts, "gas", parts.model.gas or Gas.model_construct())
     points = (_vary_table(parts, f"gas.at.{k}", point) for k, point in enumerate(gas.at, 1))
-    return gas.model_copy(update={"at": tuple(points)}) if gas.at else gas
+    gas = gas.model_copy(update={"at": tuple(points)}) if gas.at else gas
+    if gas.of:
+        tables = [_vary_of(parts, f"gas.of.{k}", table) for k, table in enumerate(gas.of, 1)]
+        gas = gas.model_copy(update={"of": tuple(tables)})
+    return _vary_crank_end(parts, "gas", gas)
+
+
+def _vary_of(parts: Parts, path: str, table: GasOf) -> GasOf:
+    return _vary_crank_end(parts, path, _vary_table(parts, path, table))
+
+
+def _vary_crank_end(parts: Parts, path: str, table: TableWithEnd) -> TableWithEnd:
+    """Return a table with the varied figures of its crank end."""
+    end: CrankEnd | None = table.crank_end
+    if end is None:
+        return table
+    varied = _vary_table(parts, f"{path}.crank_end", end)
+    return table.model_copy(update={"crank_end": varied})
 
 
 def _vary_table(parts: Parts, path: str, table: Table) -> Table:
@@ -309,29 +369,134 @@ def _take(parts: Parts, path: str, given: float | None) -> float | None:
     return None if found is None else float(found)
 
 
+def _list_heads(parts: Parts, name: str) -> list[str]:
+    """Return the heads of the columns of a file next to the engine file."""
+    return list_heads(locate_beside(parts.model.folder, name))
+
+
+def _find_diameter(parts: Parts, number: int, key: str, general: str) -> float:
+    """Return a diameter of a cylinder, mm: that of [cylinder.N], or that of [piston]; 0 if the file
+    gives none.
+
+    Args:
+        parts: Stages of the engine.
+        number: Number of the cylinder.
+        key: Key in [cylinder.N].
+        general: Key in [piston].
+    """
+    own = parts.override(number, key)
+    if own is not None:
+        return float(own)
+    return _take(parts, f"piston.{general}", getattr(parts.model.piston, general)) or 0.0
+
+
 def _find_source(parts: Parts, gas: Gas, number: int) -> _Source:
     path = f"cylinder.{number}"
+    own_table = next((k for k, one in enumerate(gas.of, 1) if number in one.cylinders), 0)
+    if own_table:
+        gas = take_of(gas, gas.of[own_table - 1])
+    general = f"gas.of.{own_table}" if own_table else "gas"
     table = parts.model.cylinder.get(number, Override.model_construct())
     heat = _take(parts, f"{path}.heat", table.heat)
-    heat_path = "gas.heat" if heat is None else f"{path}.heat"
+    heat_path = f"{general}.heat" if heat is None else f"{path}.heat"
     share = _take(parts, f"{path}.gas", 1.0 if table.gas is None else table.gas) or 0.0
     if table.indicator is not None:
-        return _Source(number, f"{path}.indicator", table.indicator, None, heat_path, share)
+        own_path = f"{path}.indicator"
+        return _Source(number, gas, own_table, own_path, table.indicator, None, heat_path, share)
     heat = (gas.heat if heat is None else heat) if gas.indicator is None else None
-    return _Source(number, "gas.indicator", gas.indicator, heat, heat_path, share)
+    heat = None if gas.cycle == COMPRESSOR else heat
+    own_path = f"{general}.indicator"
+    return _Source(number, gas, own_table, own_path, gas.indicator, heat, heat_path, share)
 
 
-def _list_contradictions(parts: Parts, gas: Gas, bore: float | None) -> Iterator[Problem]:
+def _list_pump_mistakes(
+    parts: Parts, gas: Gas, bores: Sequence[float], rods: Sequence[float]
+) -> Iterator[Problem]:
+    """Yield the mistakes in [[gas.of]], crank ends, compressor cycles and diameters of rods."""
+    yield from _check_numbers_of(parts, gas)
+    sources = [_find_source(parts, gas, number) for number in parts.numbers]
+    for source in {source.table: source for source in sources}.values():
+        yield from _check_ends(source)
+    all_compress = all(source.compresses for source in sources)
+    if parts.model.layout.strokes == 4 and all_compress:
+        yield Problem(
+            "layout.strokes", "is 4, but all cylinders compress in every turn; give strokes = 2"
+        )
+    compressing = sum(source.compresses for source in sources)
+    if gas.mechanical_efficiency is not None and 0 < compressing < len(sources):
+        yield Problem(
+            "gas.mechanical_efficiency",
+            "has no meaning where some cylinders drive and others compress; leave it out",
+        )
+    yield from _check_rod_diameters(parts, bores, rods)
+
+
+def _check_ends(source: _Source) -> Iterator[Problem]:
+    """Check the keys of the gas in both ends of a cylinder."""
+    head = source.gas
+    if source.table:
+        yield from (Problem(source.place, fault) for fault in head.contradictions())
+        if not (head.has("cycle") or head.has("indicator")):
+            yield Problem(source.place, "has no gas; give cycle or indicator")
+    faults = [*head.list_compressor_faults()]
+    for key, fault in faults:
+        yield Problem(f"{source.place}.{key}".removesuffix("."), fault)
+    end = take_crank_end(head)
+    of_end = [] if end is None else [*end.list_compressor_faults()]
+    for key, fault in of_end:
+        if (key, fault) not in faults:  # a key of the head end, which it takes
+            yield Problem(f"{source.place}.crank_end.{key}".removesuffix("."), fault)
+
+
+def _check_rod_diameters(
+    parts: Parts, bores: Sequence[float], rods: Sequence[float]
+) -> Iterator[Problem]:
+    """Check that the first piston rod that is too thick is below its bore."""
+    for number, bore, rod in zip(parts.numbers, bores, rods, strict=True):
+        if bore and rod >= bore:
+            own = parts.override(number, "piston_rod_diameter") is not None
+            path = f"cylinder.{number}.piston_rod_diameter" if own else "piston.rod_diameter"
+            yield Problem(path, f"{rod:g} mm is not below the bore of {bore:g} mm")
+            return
+
+
+def _check_numbers_of(parts: Parts, gas: Gas) -> Iterator[Problem]:
+    """Check that every [[gas.of]] names cylinders of the engine that no other table names, and that
+    these have no gas keys of their own.
+    """
+    tables = dict[int, int]()
+    for k, table in enumerate(gas.of, 1):
+        path = f"gas.of.{k}.cylinders"
+        for number in table.cylinders:
+            if number not in parts.numbers:
+                listed = ", ".join(map(str, sorted(parts.numbers)))
+                yield Problem(path, f"{number} is no cylinder of this engine; there are {listed}")
+            elif number in tables:
+                other = tables[number]
+                told = f"has cylinder {number}, and so does gas.of.{other}; give it in one of them"
+                yield Problem(path, told)
+            tables[number] = k
+    for number, override in parts.model.cylinder.items():
+        for key in ("indicator", "heat"):
+            if number in tables and getattr(override, key) is not None:
+                told = f"cylinder {number} has its gas in gas.of.{tables[number]}; give {key} there"
+                yield Problem(f"cylinder.{number}.{key}", told)
+
+
+def _list_contradictions(
+    parts: Parts, gas: Gas, bores: Sequence[float], rods: Sequence[float]
+) -> Iterator[Problem]:
     """Yield the contradictions between [gas], keys of single cylinders and the engine."""
     two_stroke = parts.model.layout.strokes == 2
     yield from (Problem("gas", fault) for fault in gas.contradictions())  # from varied figures
-    if bore is None:
+    yield from _list_pump_mistakes(parts, gas, bores, rods)
+    if not all(bores):
         yield Problem.of_missing("piston.bore", "the gas force needs it, such as bore = 86")
     if not two_stroke and parts.order is None and len(parts.numbers) > 1:
         told = "it sets in which of two turns each cylinder fires; example: [1, 3, 4, 2]"
         yield Problem.of_missing("layout.firing_order", told)
     for number, table in parts.model.cylinder.items():
-        if gas.cycle is None and table.heat is not None:
+        if gas.cycle in (None, COMPRESSOR) and table.heat is not None:
             told = "belongs to a computed cycle, and [gas] has none; give an indicator diagram"
             yield Problem(f"cylinder.{number}.heat", told)
         for key in sorted(gas.keys_of_points & table.model_fields_set):
@@ -340,6 +505,8 @@ def _list_contradictions(parts: Parts, gas: Gas, bore: float | None) -> Iterator
             )
             yield Problem(f"cylinder.{number}.{key}", told)
     own = any(table.indicator is not None for table in parts.model.cylinder.values())
+    own = own or any(table.indicator is not None for table in gas.of)
+    own = own or (gas.crank_end is not None and gas.crank_end.has("indicator"))
     for key in () if own or gas.has("indicator") else DIAGRAM_KEYS:
         if gas.has(key):
             yield Problem(f"gas.{key}", "has no meaning without an indicator diagram; leave it out")
@@ -388,6 +555,110 @@ def _read_harmonics(
 
     breaks = np.array([0.0, strokes * np.pi])
     return GasTorque(piston, breaks, resolved(torque, breaks))
+
+
+# ------------------------------------------------------------------ ends of a cylinder
+class _EndMaker(NamedTuple):
+    """Makes the gas in the ends of a cylinder.
+
+    Attributes:
+        piston: Piston of the cylinder.
+        read: Function that returns the columns of a file by its name and headings.
+        strokes: 4 or 2.
+        list_heads: Function that returns the heads of the columns of a file.
+        doubts: List to which warnings are added.
+        overfed: List to which warnings of too much heat are added.
+        fires: Whether the highest pressure is expected near the dead centre at angle 0.
+    """
+
+    piston: GasPiston
+    read: Callable[[str, tuple[Head, ...]], NumberColumns]
+    strokes: int
+    list_heads: Callable[[str], list[str]]
+    doubts: list[Doubt]
+    overfed: list[Doubt]
+    fires: bool
+
+    def make_head(self, gas: Gas, source: _Source, *, at_least: bool) -> tuple[GasEnd, Array]:
+        """Return the gas of the head end, and the angles between which its pressure is smooth.
+
+        Raises:
+            InputError: The cycle is not possible, or the diagram has a mistake.
+        """
+        if source.indicator is not None:
+            head = self._read_end(gas, source.path, source.indicator, crank_end=False)
+            return head, head.pressure.breaks
+        if gas.cycle == COMPRESSOR:
+            head = self._compress(gas, source.place, crank_end=False)
+            return head, head.pressure.breaks
+        cycle = _compute_cycle(gas, source, self.piston, self.strokes, at_least=at_least)
+        self.overfed.extend(_doubt_heat(gas, source, self.piston, cycle))
+        return make_end(self.piston, cycle.pressure), cycle.breaks
+
+    def make_crank_end(self, gas: Gas, source: _Source) -> list[GasEnd]:
+        """Return the gas of the crank end in a list, which is empty for a single-acting cylinder.
+
+        Raises:
+            InputError: The cycle is not possible, or the diagram has a mistake.
+        """
+        end = take_crank_end(gas)
+        if end is None:
+            return []
+        place = f"{source.place}.crank_end"
+        if end.indicator is not None:
+            path = f"{place}.indicator"
+            return [self._read_end(end, path, end.indicator, crank_end=True)]
+        if end.cycle == COMPRESSOR:
+            return [self._compress(end, place, crank_end=True)]
+        told = 'has no gas; give indicator, or cycle = "compressor" with its keys'
+        raise InputError([Problem(place, told)])
+
+    def _compress(self, gas: Gas, place: str, *, crank_end: bool) -> GasEnd:
+        expands = gas.expansion_index if gas.has("expansion_index") else gas.compression_index
+        process = Compression(
+            suction=(gas.suction or math.nan) * BAR,
+            discharge=(gas.discharge or math.nan) * BAR,
+            clearance=gas.clearance or math.nan,
+            compression_index=gas.compression_index,
+            expansion_index=expands,
+        )
+        try:
+            pressure = compress(self.piston, process, crank_end=crank_end)
+        except GasError as error:
+            raise InputError([Problem(f"{place}.{error.field}", str(error))]) from None
+        efficiency = process.volumetric_efficiency
+        return make_end(
+            self.piston, pressure, crank_end=crank_end, volumetric_efficiency=efficiency
+        )
+
+    def _read_end(self, gas: Gas, path: str, name: str, *, crank_end: bool) -> GasEnd:
+        try:
+            heads = choose_heads(self.list_heads(name))
+            columns = self.read(name, heads)
+            if heads is HEADS:
+                pressure, notes = build_diagram(gas, path, name, columns, self.strokes)
+            else:
+                notes = []
+                pressure = draw_card(
+                    gas,
+                    name,
+                    columns,
+                    find_absolute(gas, name, columns),
+                    self.piston,
+                    self.strokes,
+                    from_volume=heads[0].usual == "volume",
+                    crank_end=crank_end,
+                )
+        except BalcliError as error:
+            raise InputError([Problem(path, str(error))]) from None
+        if heads is not HEADS and gas.has("phase"):
+            told = "has no meaning for a card over volume or stroke; leave it out"
+            raise InputError([Problem(f"{path.rpartition('.')[0]}.phase", told)])
+        end = make_end(self.piston, pressure, crank_end=crank_end)
+        imep = end.work / end.swept
+        doubts = list_doubts(gas, path, columns, pressure, imep, fires=self.fires)
+        self.doubts.extend([*notes, *doubts])
+        return end
 
 
 # ------------------------------------------------------------------ computed cycles

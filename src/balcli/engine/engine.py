@@ -204,6 +204,7 @@ class Engine:
             number, in the firing order; empty without a firing order.
         strokes: 2 or 4.
         bore_m: Cylinder bore; nan where the file gives none.
+        bores_m: Bore of each cylinder; empty if all have `bore_m`.
         throws_m: Position of each throw along the crank (the middle of its rods), shape (throws,
             *trailing).
         throw_radii_m: Crank radius of each throw, same shape.
@@ -242,6 +243,7 @@ class Engine:
     fires_deg: Mapping[int, Figure]
     strokes: int
     bore_m: Figure
+    bores_m: tuple[Figure, ...]
     throws_m: Array
     throw_radii_m: Array
     pins_m: Array
@@ -420,12 +422,23 @@ class Engine:
         return float(np.ravel(self.throw_radii_m)[near])
 
     @property
+    def compressing(self) -> list[CylinderNumber]:
+        """Numbers of the cylinders with a compressor cycle."""
+        if self.gas is None:
+            return []
+        pairs = zip(self.numbers, self.gas.cylinders, strict=True)
+        return [number for number, cylinder in pairs if cylinder.compresses]
+
+    @property
     def displacement_m3(self) -> Figure:
         """Swept volume, m3, of all cylinders except dummies, which the firing order leaves out."""
         if self.placed:
             return sum(one.engine.displacement_m3 for one in self.placed)
         stroke = find_travel(self.cylinders).stroke
-        burning = [row for row, n in enumerate(self.numbers) if n in (self.fires_deg or {n})]
+        works = {*self.fires_deg, *self.compressing}
+        burning = [row for row, n in enumerate(self.numbers) if not self.fires_deg or n in works]
+        if self.bores_m:
+            return sum(math.pi / 4 * self.bores_m[row] ** 2 * stroke[row] for row in burning)
         volume: Array = math.pi / 4 * self.bore_m**2 * stroke[burning].sum(axis=0)
         return volume if volume.ndim else float(volume)
 

@@ -32,8 +32,9 @@ class CylinderGas(NamedTuple):
             axis of the cylinder when it fires.
         share: Factor by which the gas force is multiplied; 0 is a misfire.
         heat: Heat supplied in a computed cycle, J; None if the file gives none.
-        like: Row of the first cylinder with an equal mechanism, diagram and heat. The gas of this
-            cylinder differs from the gas of that row at most in `nominal_deg` and `share`.
+        like: Row of the first cylinder with an equal mechanism, bore, diagram and heat. The gas of
+            this cylinder differs from the gas of that row at most in `nominal_deg` and `share`.
+        compresses: Whether the head end has a compressor cycle.
     """
 
     piston: GasPiston
@@ -42,6 +43,7 @@ class CylinderGas(NamedTuple):
     share: float
     heat: float | None
     like: int
+    compresses: bool = False
 
     @property
     def fires(self) -> float:
@@ -95,6 +97,16 @@ class EngineGas:
     def shares(self) -> Array:
         """Factor of each cylinder's gas force, shape (cylinders,)."""
         return np.array([cylinder.share for cylinder in self.cylinders])
+
+    @property
+    def has_pump_ends(self) -> bool:
+        """Whether any cylinder has a crank end or a compressor cycle."""
+        return any(each.compresses or each.torque.is_double_acting for each in self.cylinders)
+
+    @property
+    def swept(self) -> float:
+        """Swept volume of all ends, m3."""
+        return sum(end.swept for each in self.cylinders for end in each.torque.ends)
 
     @property
     def work(self) -> float:

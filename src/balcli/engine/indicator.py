@@ -7,7 +7,8 @@ other, their mean is used.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+import re
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -33,6 +34,8 @@ HEADS = (
     Head("angle_deg", ANGLE, symbols=ANGLE_SYMBOLS),
     Head("pressure_bar", PRESSURE, tuple(f"pressure_{unit}" for unit in _OTHERS), _SYMBOLS),
 )
+# Columns in place of the angle, for cards over the volume or the stroke; any unit
+_CARDS = ("volume", "travel", "stroke")
 LOW_PRESSURE = 0.1  # lowest usual pressure, bar; a throttled engine draws in at 0.3
 ASK_GAUGE = '; is it a gauge pressure? Then give pressure = "gauge"'
 NEAR_DEG = 45.0  # usual largest distance of the highest pressure from the firing dead centre, deg
@@ -55,15 +58,9 @@ def build_diagram(
     Raises:
         BalcliError: The first mistake in the diagram's file, with its line number.
     """
-    gauge = gas.pressure == "gauge" or columns.units[1] in GAUGE_UNITS
     period = 180.0 * strokes
     angle = np.array(columns.column(0))
-    pressure = np.array(columns.column(1)) * BAR
-    pressure += ATMOSPHERE if gauge else 0.0
-    for below in np.flatnonzero(pressure < 0).tolist():
-        found = f"line {columns.lines[below]}: the pressure is {columns.as_written(below, 1)}"
-        right = "that is below a vacuum" if gauge else f"give 0 or more{ASK_GAUGE}"
-        raise BalcliError(f"{name}: {found}: {right}")
+    pressure = find_absolute(gas, name, columns)
     angle, pressure, count = _average_cycles(angle, pressure, period)
     for row, message in find_diagram_mistakes(angle, pressure, strokes=strokes):
         line = "" if row is None else f"line {columns.lines[row]}: "
@@ -82,6 +79,37 @@ def build_diagram(
         )
         doubts.append(Doubt(path, told))
     return curve, doubts
+
+
+def choose_heads(heading: Sequence[str]) -> tuple[Head, ...]:
+    """Return the heads of the columns of a diagram: those with the angle, or those of a card with
+    volume, travel or stroke.
+
+    Args:
+        heading: Heads of the columns of the file.
+    """
+    words = re.split(r"[^a-z]+", " ".join(heading).lower())
+    kind = next((kind for kind in _CARDS if kind in words), None)
+    if kind is None or "angle" in words:
+        return HEADS
+    return Head(kind, any_unit=True), HEADS[1]
+
+
+def find_absolute(gas: Gas, name: str, columns: NumberColumns) -> Array:
+    """Return the absolute pressures of the rows of a diagram, Pa.
+
+    Raises:
+        BalcliError: A pressure is below zero.
+    """
+    gauge = gas.pressure == "gauge" or columns.units[1] in GAUGE_UNITS
+    pressure = np.array(columns.column(1)) * BAR
+    pressure += ATMOSPHERE if gauge else 0.0
+    for below in np.flatnonzero(pressure < 0).tolist():
+        found = f"line {columns.lines[below]}: the pressure is {columns.as_written(below, 1)}"
+        right = "that is below a vacuum" if gauge else f"give 0 or more{ASK_GAUGE}"
+        right += "; for a double-acting cylinder give each end its own diagram ([gas.crank_end])"
+        raise BalcliError(f"{name}: {found}: {right}")
+    return pressure
 
 
 def _name_unit(columns: NumberColumns) -> str:
@@ -175,7 +203,13 @@ def find_diagram_mistakes(
 
 
 def list_doubts(
-    gas: Gas, path: str, columns: NumberColumns, found: PiecewiseCurve, imep: float
+    gas: Gas,
+    path: str,
+    columns: NumberColumns,
+    found: PiecewiseCurve,
+    imep: float,
+    *,
+    fires: bool = True,
 ) -> Iterator[Doubt]:
     """Yield warnings of unlikely pressures in a diagram.
 
@@ -185,11 +219,12 @@ def list_doubts(
         columns: Columns of the diagram's file.
         found: Pressure over the cycle angle, Pa.
         imep: Indicated mean effective pressure, Pa.
+        fires: Whether the highest pressure is expected near the dead centre at angle 0.
     """
     unit = _name_unit(columns)
     scale = columns.scales[1] * BAR  # Pa
     top, value = find_highest(found)
-    if abs(math.degrees(top)) > NEAR_DEG:
+    if fires and abs(math.degrees(top)) > NEAR_DEG:
         told = (
             f"the highest pressure, {value / scale:.4g} {unit}, is at {math.degrees(top):.4g} deg "
             f"from the firing dead centre, where within {NEAR_DEG:g} is usual; are zero and phase "

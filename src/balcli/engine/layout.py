@@ -223,6 +223,7 @@ def _check_firing_order(
     layout = model.layout
     order = model.layout.firing_order
     silent = {number for number, own in model.cylinder.items() if own.gas == 0}
+    silent |= find_compressing(model, numbers)
     if order is None or (
         len({*order}) == len(order) and {*numbers} - silent <= {*order} <= {*numbers}
     ):
@@ -239,6 +240,15 @@ def _check_firing_order(
             'throws in turn, as in a boxer, give layout.rods = "alternating"'
         )
     yield Problem("layout.firing_order", told)
+
+
+def find_compressing(model: EngineFile, numbers: Sequence[int]) -> set[int]:
+    """Return the cylinders with a compressor cycle, which do not fire."""
+    if model.gas is None:
+        return set()
+    from ..file.gas_tables import list_compressing  # loaded only for files with [gas]
+
+    return list_compressing(model.gas, numbers)
 
 
 MOST_LETTERED_BANKS = 4  # as an X engine has; every way to give letters to banks is tried

@@ -37,12 +37,14 @@ class Head(NamedTuple):
             `usual` itself is accepted.
         others: Accepted heads that messages list in addition to `usual`.
         symbols: Other names of the quantity, as a regular expression.
+        any_unit: Whether `usual` may be followed by any unit, which is not converted.
     """
 
     usual: str
     dimension: Dimension = PLAIN
     others: tuple[str, ...] = ()
     symbols: str = ""
+    any_unit: bool = False
 
     def read(self, head: str, *, by_symbol: bool = False) -> tuple[str, float] | None:
         """Return the unit in a head, and the factor that converts numbers in this unit into the
@@ -52,6 +54,9 @@ class Head(NamedTuple):
             head: Head of a column, with its unit.
             by_symbol: Whether to compare the head with `symbols` instead of the name in `usual`.
         """
+        if self.any_unit:
+            found = re.fullmatch(rf"(?i){self.usual}(?:[\s_,(\[]+(.+?)[)\]]?)?", head)
+            return None if found is None else (found[1] or self.usual, 1.0)
         if self.dimension is PLAIN:
             return ("", 1.0) if head == self.usual else None
         name = rf"(?:{self.symbols})(?![^\W_])" if by_symbol else self.usual.partition("_")[0]

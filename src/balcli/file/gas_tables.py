@@ -4,16 +4,16 @@
 This module is imported only for files that have one of these tables (`names.CHAPTERS`).
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from itertools import pairwise
-from typing import Annotated
+from typing import Annotated, Any
 
 from pydantic import Field
 
-from ..limits import MOST_GAS_POINTS
+from ..limits import MOST_GAS_POINTS, MOST_LIST_VALUES
 from .assumed import Assumed, assume
 from .fields import Choice, FileName, Number, OneOf, join_words
-from .table import Angle, Distance, FileTable, GivenInertia, Heat, Mass, Size, Speed
+from .table import Angle, Distance, FileTable, GivenInertia, Heat, Mass, Numbers, Size, Speed
 from .units import ANGLE, PLAIN, PRESSURE
 
 Pressure = Annotated[float, Number(PRESSURE, least=0, most=1e6)]
@@ -21,6 +21,8 @@ PressureAbove0 = Annotated[float, Number(PRESSURE, above=0, most=1e6)]
 MeanPressure = Annotated[float, Number(PRESSURE, most=1e6)]
 CutOff = Annotated[float, Number(PLAIN, least=1, most=1000)]
 Duration = Annotated[float, Number(ANGLE, above=0, most=720)]
+Index = Annotated[float, Number(PLAIN, above=0, most=5)]
+Clearance = Annotated[float, Number(PLAIN, above=0, most=2)]
 NamedFile = Annotated[str, FileName()]
 Zero = Annotated[str, OneOf("firing", "gas-exchange")]
 Reference = Annotated[str, OneOf("absolute", "gauge")]
@@ -33,6 +35,9 @@ _CYCLE_KEYS = (
     *("exhaust_opens", "intake_closes", "bmep", "max_pressure", "cut_off", "heat"),
     *WIEBE_KEYS,
 )
+COMPRESSOR = "compressor"  # value of `cycle`
+COMPRESSOR_KEYS = ("suction", "discharge", "clearance")
+_OF_COMBUSTION = ("compression_ratio", "imep", *_CYCLE_KEYS[2:])
 _AT_DEAD_CENTRE = ("exhaust_opens", "intake_closes")  # keys whose default is lower dead centre
 
 
@@ -76,13 +81,37 @@ class GasPoint(FileTable):
     """gas.harmonics at this speed. Example: 'tangential_1000.csv'"""
 
 
-class Gas(FileTable):
-    """Pressure on the pistons over a cycle: measured, computed, or given by torque harmonics."""
+class CrankEnd(FileTable):
+    """Gas at the crank end of double-acting cylinders. A table with cycle or indicator stands for
+    itself; otherwise keys that it leaves out are those of the head end.
+    """
 
-    choices = (
-        Choice((("indicator",), ("cycle",), ("harmonics",)), required=True),
-        Choice((("at",), ("law", "rated_speed")), complete=("law", "rated_speed")),
-    )
+    choices = (Choice((("indicator",), ("cycle",))),)
+
+    indicator: NamedFile | None = None
+    """gas.indicator of this end; angles count as those of the head end. Example: 'crank_end.csv'"""
+    zero: Zero | None = None
+    """gas.zero of this end. Example: 'firing'"""
+    phase: Angle | None = None
+    """gas.phase of this end. Example: -0.5"""
+    pressure: Reference | None = None
+    """gas.pressure of this end. Example: 'gauge'"""
+    cycle: Annotated[str, OneOf("compressor")] | None = None
+    """gas.cycle of this end. Example: 'compressor'"""
+    suction: PressureAbove0 | None = None
+    """gas.suction of this end. Example: 1.0"""
+    discharge: PressureAbove0 | None = None
+    """gas.discharge of this end. Example: 4.0"""
+    clearance: Clearance | None = None
+    """gas.clearance of this end. Example: 0.15"""
+    compression_index: Index | None = None
+    """gas.compression_index of this end. Example: 1.3"""
+    expansion_index: Index | None = None
+    """gas.expansion_index of this end. Example: 1.25"""
+
+
+class GasKeys(FileTable):
+    """Keys of the gas of all cylinders ([gas]), or of some cylinders ([[gas.of]])."""
 
     indicator: NamedFile | None = None
     """A measured pressure diagram: CSV file next to the engine file, headed angle_deg,pressure_bar
@@ -96,16 +125,24 @@ class Gas(FileTable):
     pressure: Reference = "absolute"
     """Kind of the diagram's pressures; gauge: above an atmosphere of 1.01325 bar. Example: 'gauge'
     """
-    cycle: Annotated[str, OneOf("otto", "diesel", "dual", "wiebe")] | None = None
-    """Kind of combustion of a computed cycle. Example: 'wiebe'"""
+    cycle: Annotated[str, OneOf("otto", "diesel", "dual", "wiebe", "compressor")] | None = None
+    """Kind of a computed cycle: its combustion, or a compressor with ideal valves. Example: 'wiebe'
+    """
     compression_ratio: Annotated[float, Number(PLAIN, above=1, most=1000)] | None = None
     """Largest over smallest volume of the cylinder; with a measured diagram, only results that show
     volumes use it. Example: 10.5
     """
-    compression_index: Annotated[float, Number(PLAIN, least=1, most=5)] = 1.32
+    compression_index: Index = 1.32
     """Index n of the compression, p V^n = const. Example: 1.35"""
-    expansion_index: Annotated[float, Number(PLAIN, above=1, most=5)] = 1.28
-    """Index n of the expansion, p V^n = const, and of the burn. Example: 1.27"""
+    expansion_index: Index = 1.28
+    """Index n of the expansion, p V^n = const, and of the burn. In a compressor cycle, index of the
+    re-expansion; left out there: compression_index. Example: 1.27"""
+    suction: PressureAbove0 | None = None
+    """Absolute pressure while a compressor draws in. Example: 1.0"""
+    discharge: PressureAbove0 | None = None
+    """Absolute pressure while a compressor discharges. Example: 4.0"""
+    clearance: Clearance | None = None
+    """Clearance volume of a compressor end, divided by its swept volume. Example: 0.12"""
     intake: PressureAbove0 = 1.0
     """Absolute pressure while the cylinder fills. Example: 1.8"""
     exhaust: Pressure = 1.05
@@ -116,8 +153,6 @@ class Gas(FileTable):
     """
     bmep: MeanPressure | None = None
     """Brake mean effective pressure, with mechanical_efficiency, instead of imep. Example: 8.5"""
-    mechanical_efficiency: Annotated[float, Number(PLAIN, above=0, most=1)] | None = None
-    """Brake over indicated mean effective pressure. Example: 0.85"""
     max_pressure: Pressure | None = None
     """Highest absolute pressure of a computed cycle; in a dual cycle, the pressure of the second
     part of the burn. Example: 70
@@ -139,12 +174,36 @@ class Gas(FileTable):
     intake_closes: Annotated[float, Number(ANGLE, least=360, below=720)] | None = None
     """Four-stroke: cycle angle (from the firing dead centre) at which the intake closes; left out:
     lower dead centre. Example: 580"""
+    crankcase: Pressure = 1.0
+    """Absolute pressure under the pistons; with a crank end, pressure on the cross-section of the
+    piston rod. Example: 1.1"""
+    crank_end: CrankEnd | None = None
+    """Gas at the end towards the crank; present: the cylinders are double-acting."""
+
+
+class GasOf(GasKeys):
+    """Gas of some cylinders."""
+
+    choices = (Choice((("indicator",), ("cycle",))),)
+
+    cylinders: Numbers
+    """Numbers of these cylinders. Example: [2]"""
+
+
+class Gas(GasKeys):
+    """Pressure on the pistons over a cycle: measured, computed, or given by torque harmonics."""
+
+    choices = (
+        Choice((("indicator",), ("cycle",), ("harmonics",)), required=True),
+        Choice((("at",), ("law", "rated_speed")), complete=("law", "rated_speed")),
+    )
+
+    mechanical_efficiency: Annotated[float, Number(PLAIN, above=0, most=1)] | None = None
+    """Brake over indicated mean effective pressure. Example: 0.85"""
     harmonics: NamedFile | None = None
     """Table of harmonics from an engine builder: CSV file headed order,cos,sin, for the tangential
     pressure in bar (torque / (piston area * crank radius)) over the angle from the firing dead
     centre. Example: 'tangential.csv'"""
-    crankcase: Pressure = 1.0
-    """Absolute pressure under the pistons. Example: 1.1"""
     at: Annotated[tuple[GasPoint, ...], Field(max_length=MOST_GAS_POINTS)] = ()
     """Gas at two or more speeds; keys that [[gas.at]] gives must not be in [gas]."""
     law: Annotated[str, OneOf("propeller")] | None = None
@@ -152,6 +211,9 @@ class Gas(FileTable):
     and has its given value at rated_speed. Example: 'propeller'"""
     rated_speed: Speed | None = None
     """With law: speed at which the engine has the given imep or bmep. Example: 120"""
+    of: Annotated[tuple[GasOf, ...], Field(max_length=MOST_LIST_VALUES)] = ()
+    """Gas of some cylinders. Keys replace those of [gas] one by one; a table with cycle or
+    indicator takes only crankcase from [gas]."""
 
     @property
     def given(self) -> set[str]:
@@ -194,7 +256,9 @@ class Gas(FileTable):
             idle.update(self.goals)
         absent = GasPoint.model_fields.keys() - self.keys_of_points - {"speed"}
         idle.update(f"at.{k}.{key}" for k, _ in enumerate(self.at, 1) for key in absent)
-        if not computed:
+        if self.cycle == COMPRESSOR:
+            idle.update(_OF_COMBUSTION, ("expansion_index",))
+        elif not computed:
             idle.update(_CYCLE_KEYS, ("compression_ratio", "imep"))
         elif self.cycle != "wiebe":
             idle.update(WIEBE_KEYS)
@@ -208,7 +272,7 @@ class Gas(FileTable):
 
     def list_assumed(self, strokes: int, measured: bool, computed: bool) -> Iterator[Assumed]:
         """Yield the defaults on which results depend; arguments as for `list_idle_keys`."""
-        idle = self.list_idle_keys(strokes, measured, computed) | {*DIAGRAM_KEYS, "at"}
+        idle = self.list_idle_keys(strokes, measured, computed) | {*DIAGRAM_KEYS, "at", "of"}
         for key in type(self).model_fields:
             if self.has(key) or key in idle:
                 continue
@@ -245,6 +309,38 @@ class Gas(FileTable):
         elif self.law is not None and not any(map(self.has, MEAN_PRESSURES)):
             yield "has law without imep; give imep, or bmep, at rated_speed"
 
+    def list_compressor_faults(self) -> Iterator[tuple[str, str]]:
+        """Yield key (empty: the table) and message for each mistake in the keys of a compressor
+        cycle.
+        """
+        if self.cycle != COMPRESSOR:
+            for key in filter(self.has, COMPRESSOR_KEYS):
+                yield key, 'belongs to cycle = "compressor"; leave it out'
+            return
+        if others := [key for key in _OF_COMBUSTION if self.has(key)]:
+            yield "", f"has {join_words(others)}, which a compressor cycle does not have"
+        missing = [key for key in COMPRESSOR_KEYS if getattr(self, key) is None]
+        if missing:
+            yield "", f"needs {join_words(missing)} for a compressor cycle"
+        if self.suction is None or self.discharge is None:
+            return
+        if self.discharge <= self.suction:
+            lower = f"{self.discharge:g} bar is not above suction = {self.suction:g} bar"
+            yield "discharge", f"{lower}; give the higher of the two absolute pressures"
+
+    def _check_alone(self) -> Iterator[str]:
+        """Check that [[gas.at]], law and harmonics are not combined with ends or cylinders of their
+        own.
+        """
+        others = ["of"] * bool(self.of)
+        others += ["crank_end"] * (self.crank_end is not None)
+        others += ['cycle = "compressor"'] * (self.cycle == COMPRESSOR)
+        if others and (self.at or self.law is not None):
+            what = "[[gas.at]]" if self.at else "law"
+            yield f"has {what} with {join_words(others)}; give the gas of one speed"
+        if self.harmonics is not None and self.crank_end is not None:
+            yield "has harmonics with crank_end; give each end a diagram or a cycle"
+
     def _check_misplaced(self) -> Iterator[str]:
         """Check that keys of a computed cycle are given only with `cycle`."""
         others = [key for key in _CYCLE_KEYS if self.has(key)]
@@ -254,8 +350,12 @@ class Gas(FileTable):
 
     def _check_cycle(self) -> Iterator[str]:
         """Check that a computed cycle has all its keys, and exactly one key that sets the heat."""
-        if self.cycle is None:
+        if self.cycle is None or self.cycle == COMPRESSOR:
             return
+        for key, least in (("compression_index", "at least"), ("expansion_index", "above")):
+            index = getattr(self, key)
+            if index < 1 or (index == 1 and least == "above"):
+                yield f"has {key} = {index:g}; in a cycle with combustion it is {least} 1"
         wiebe = [key for key in WIEBE_KEYS if self.has(key)]
         if wiebe and self.cycle != "wiebe":
             yield f"has {join_words(wiebe)}, which only a wiebe cycle has"
@@ -271,6 +371,63 @@ class Gas(FileTable):
             yield "has bmep without mechanical_efficiency; give both, or imep"
         if self.compression_ratio is None:
             yield "needs compression_ratio for a computed cycle, such as compression_ratio = 10.5"
+
+
+def list_compressing(gas: Gas | None, numbers: Iterable[int]) -> set[int]:
+    """Return those of the cylinders whose head end has a compressor cycle.
+
+    Args:
+        gas: Table [gas]; None if the file has none.
+        numbers: Numbers of the cylinders.
+    """
+    if gas is None:
+        return set()
+    found = set(numbers) if gas.cycle == COMPRESSOR else set[int]()
+    for table in gas.of:
+        own = take_of(gas, table)
+        found -= {*table.cylinders}
+        if own.cycle == COMPRESSOR:
+            found |= {*table.cylinders}.intersection(numbers)
+    return found
+
+
+def take_of(gas: Gas, own: GasOf) -> Gas:
+    """Return the gas of the cylinders of a [[gas.of]] in the form of [gas]. If the table has a
+    cycle or an indicator, it takes only `crankcase` from [gas], otherwise all keys that it lacks.
+    """
+    given = {key: getattr(own, key) for key in own.model_fields_set - {"cylinders"}}
+    taken = {"crankcase", "mechanical_efficiency"}
+    if not (own.has("cycle") or own.has("indicator")):
+        taken = gas.model_fields_set - {"of", "at", "law", "rated_speed"}
+    kept = {key: getattr(gas, key) for key in taken & gas.model_fields_set}
+    ends = kept.get("crank_end"), given.get("crank_end")
+    merged = kept | given
+    if ends[0] is not None and ends[1] is not None and not stands_alone(ends[1]):
+        both = _list_given(ends[0]) | _list_given(ends[1])
+        merged["crank_end"] = CrankEnd.model_construct(**both)
+    return Gas.model_construct(**merged)
+
+
+def take_crank_end(gas: Gas) -> Gas | None:
+    """Return the gas of the crank end in the form of [gas]; None for single-acting cylinders. If
+    the crank end has no cycle and no indicator, keys that it lacks are those of the head end.
+    """
+    own = gas.crank_end
+    if own is None:
+        return None
+    kept = {"crankcase": gas.crankcase}
+    if not stands_alone(own):
+        kept |= {key: getattr(gas, key) for key in gas.model_fields_set & CrankEnd.keys().keys()}
+    return Gas.model_construct(**kept | _list_given(own))
+
+
+def stands_alone(end: CrankEnd) -> bool:
+    """Return whether a crank end takes no keys from the head end."""
+    return end.has("cycle") or end.has("indicator")
+
+
+def _list_given(table: FileTable) -> dict[str, Any]:
+    return {key: getattr(table, key) for key in table.model_fields_set}
 
 
 class Flywheel(FileTable):

@@ -167,6 +167,8 @@ class Piston(FileTable):
 
     bore: Size | None = None
     """Cylinder bore. Example: 86"""
+    rod_diameter: Distance = 0.0
+    """Diameter of the piston rod, which passes through the cover of the crank end. Example: 70"""
     mass: Mass | None = None
     """Piston, pin, rings and locks together. Example: 0.5"""
     piston: Mass | None = None
@@ -359,6 +361,10 @@ class Override(FileTable):
     burn. Example: 0"""
     indicator: Annotated[str, FileName()] | None = None
     """gas.indicator of this cylinder. Example: 'p_3.csv'"""
+    bore: Size | None = None
+    """piston.bore of this cylinder. Example: 240"""
+    piston_rod_diameter: Distance | None = None
+    """piston.rod_diameter of this cylinder. Example: 60"""
     stroke: Size | None = None
     """Stroke of this cylinder (twice the radius of its crank pin), if it differs from the stroke of
     its throw. Example: 85"""

@@ -38,8 +38,9 @@ class RodForces(NamedTuple):
     """Forces, N, each of shape (cylinders, angles); cylinders are in the order of `engine.numbers`.
 
     Attributes:
-        pressure: Absolute pressure in the cylinder, Pa.
+        pressure: Absolute pressure in the head end of the cylinder, Pa.
         gas: Gas force on the piston, positive towards the crank.
+        acceleration: Acceleration of the piston along u, m/s2.
         thrust: Force of the piston on the cylinder wall, positive along v.
         rod: Force along the rod at the piston pin, positive in compression.
         pin: Force of the rod on its crank pin or knuckle pin, u + i v. For a master rod, it
@@ -51,6 +52,7 @@ class RodForces(NamedTuple):
 
     pressure: Array
     gas: Array
+    acceleration: Array
     thrust: Array
     rod: Array
     pin: Complex
@@ -77,8 +79,8 @@ def compute_rod_forces(engine: Engine, crank_deg: Array) -> RodForces:
     for torque, rows in source.group_equal():
         if torque.pressure is None:
             raise BalcliError("loads of pins need pressures, but [gas] has only torque harmonics")
-        pressure[rows] = torque.pressure.at(angles[rows])
-        gas[rows] = torque.force_under(pressure[rows])
+        gas[rows] = torque.force_under(torque.pressure.at(angles[rows]))
+        pressure[rows] = torque.ends[0].pressure.at(angles[rows])
     gas *= as_rows(source.shares)
     masses = np.array(
         [(w.piston + w.crosshead, w.small_end, w.rotating) for w in engine.weighed], float
@@ -109,7 +111,7 @@ def compute_rod_forces(engine: Engine, crank_deg: Array) -> RodForces:
         pin[master] += np.conj(axis[master]) * loads.sum(axis=0) - 1j * held
     pressed = lean.real * along + lean.imag * across
     thrust = across - heads * aside
-    return RodForces(pressure, gas, thrust, pressed, pin, axis, throw, lean)
+    return RodForces(pressure, gas, up, thrust, pressed, pin, axis, throw, lean)
 
 
 def list_hung_rows(engine: Engine) -> dict[int, list[int]]:

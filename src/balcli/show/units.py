@@ -79,6 +79,18 @@ class System(NamedTuple):
             inertia = ShownUnit("kg·mm²", 1e-6)
         return {"kg": mass, "kg·m²": inertia, "m": self.length}
 
+    @property
+    def end_volume(self) -> ShownUnit:
+        """Unit of the swept volume of a compressor end."""
+        return ShownUnit("litre", 1e-3) if self is SI else self.volume
+
+    @property
+    def flow(self) -> ShownUnit:
+        """Unit of the capacity of a compressor."""
+        return (
+            ShownUnit("m³/h", 1 / 3600) if self is SI else ShownUnit("cfm", (12 * INCH) ** 3 / 60)
+        )
+
     def unit(self, kind: Kind) -> ShownUnit:
         """Return the unit of a kind of force or moment."""
         return self.force if kind.dimension == "force" else self.moment

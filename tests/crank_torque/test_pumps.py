@@ -1,0 +1,107 @@
+"""Compressors and double-acting cylinders: work in closed form, capacity, loads along the piston rod, cards."""
+
+import numpy as np
+import pytest
+from support.commands import ask, ask_json, refusal
+
+PUMP = """
+[crank]
+stroke = 250
+[rod]
+length = 625
+mass = 62
+cg = 220
+inertia = 5200000
+[piston]
+bore = 300
+mass = 40
+rod_diameter = 70
+[crosshead]
+mass = 25
+[layout]
+strokes = 2
+[operation]
+speed = 420
+[gas]
+cycle = "compressor"
+suction = 1
+discharge = 4
+clearance = 0.12
+compression_index = 1.3
+expansion_index = 1.25
+[gas.crank_end]
+clearance = 0.15
+"""
+SWEPT = {"head": np.pi / 4 * 0.3**2 * 0.25, "crank": np.pi / 4 * (0.3**2 - 0.07**2) * 0.25}
+
+
+@pytest.fixture
+def pump(tmp_path):
+    path = tmp_path / "pump.toml"
+    path.write_text(PUMP)
+    return path
+
+
+def closed_form(c: float, nc: float = 1.3, ne: float = 1.25) -> tuple[float, float]:
+    """Mean pressure (Pa) and volumetric efficiency of an end, with volumes over the swept volume."""
+    ps, pd = 1e5, 4e5
+    expanded = c * 4 ** (1 / ne)
+    compressed = (1 + c) * 4 ** (-1 / nc)
+    expansion = (pd * c - ps * expanded) / (ne - 1)
+    compression = (ps * (1 + c) - pd * compressed) / (nc - 1)
+    work = expansion + ps * (1 + c - expanded) + compression - pd * (compressed - c)
+    return work, 1 + c - expanded
+
+
+def test_work_and_capacity_in_closed_form(pump):
+    found = ask_json("torque", pump)
+    total = 0.0
+    for end, c in zip(found["ends"], (0.12, 0.15), strict=True):
+        work, efficiency = closed_form(c)
+        swept = SWEPT[end["end"]]
+        assert end["imep_Pa"] == pytest.approx(work, rel=1e-10)
+        assert end["volumetric_efficiency"] == pytest.approx(efficiency, rel=1e-12)
+        assert end["capacity_m3_per_s"] == pytest.approx(efficiency * swept * 7, rel=1e-12)
+        total += work * swept
+    assert found["power_W"] == pytest.approx(7 * total, rel=1e-10)
+    assert found["imep_Pa"] == pytest.approx(total / sum(SWEPT.values()), rel=1e-10)
+
+
+def test_loads_along_the_rod(pump):
+    """Inertia by hand at the dead centres; figures of the largest loads by an independent program."""
+    (rod,) = ask_json("torque", pump, "--loads", "rod")["loads"]["rod"]
+    largest = 65 * 0.125 * (np.pi * 14) ** 2
+    assert rod["inertia"]["tension_N"] == pytest.approx(largest * 1.2, rel=1e-9)
+    assert rod["inertia"]["compression_N"] == pytest.approx(largest * 0.8, rel=1e-9)
+    assert rod["pin"]["compression_N"] == pytest.approx(14015.85395331285, rel=1e-8)
+    assert rod["pin"]["tension_N"] == pytest.approx(11342.604290596342, rel=1e-8)
+    assert rod["reversal"]["longest_deg"] == pytest.approx(163.15515160630395, rel=1e-8)
+    assert rod["reversal"]["reverses"] is True
+    text = " ".join(ask("torque", pump, "--loads", "rod").split())
+    for words in ("absorbed", "Rod load", "reversal,", "it reverses", "Valves are ideal"):
+        assert words in text
+
+
+def test_a_card_has_the_area_of_its_polygon(tmp_path):
+    loop = np.array([[0, 9], [0.5, 9], [1, 3], [1, 2], [0.4, 1.2], [0.1, 4]])
+    area = 0.5 * abs(np.sum(loop[:, 0] * np.roll(loop[:, 1], -1) - np.roll(loop[:, 0], -1) * loop[:, 1]))
+    path = tmp_path / "steam.toml"
+    head, _, _ = PUMP.partition("[gas]")
+    path.write_text(head + '[gas]\nindicator = "card.csv"\n')
+    for column, scale in (("stroke", 1.0), ("volume_cm3", 40.0)):
+        rows = "\n".join(f"{scale * (x + 0.1 * (scale > 1))},{p}" for x, p in loop)
+        (tmp_path / "card.csv").write_text(f"{column},pressure_bar\n{rows}\n")
+        assert ask_json("torque", path)["imep_Pa"] == pytest.approx(1e5 * area, rel=1e-10)
+
+
+def test_what_is_refused(pump):
+    for old, new, told in (
+        ("discharge = 4", "discharge = 1", "gas.discharge: 1 bar is not above suction = 1 bar"),
+        ("suction = 1", "", "gas: needs suction for a compressor cycle"),
+        ("clearance = 0.12", "clearance = 0.5", "leaves no suction at a pressure ratio of 4"),
+        ("clearance = 0.12", "clearance = 0.12\nimep = 5", "gas: has imep"),
+        ("rod_diameter = 70", "rod_diameter = 300", "piston.rod_diameter: 300 mm is not below the bore"),
+        ("strokes = 2", "strokes = 4", "layout.strokes: is 4, but all cylinders compress"),
+    ):
+        pump.write_text(PUMP.replace(old, new, 1))
+        assert told in refusal("torque", pump)
