@@ -2,7 +2,8 @@
 
 import numpy as np
 import pytest
-from support.commands import ask, ask_json, refusal
+from support.commands import ask, ask_csv, ask_json, refusal
+from support.paths import ENGINES
 
 PUMP = """
 [crank]
@@ -105,3 +106,65 @@ def test_what_is_refused(pump):
     ):
         pump.write_text(PUMP.replace(old, new, 1))
         assert told in refusal("torque", pump)
+
+
+def test_torque_is_virtual_work_of_the_gas_and_the_moment_of_the_pin(pump):
+    """Two ways to the torque: pressures times the change of volume, and the force on the crank pin times its arm."""
+    rows = ask_csv("curves", pump, "--cylinder", "1", "--step", "5")
+    angle = np.radians([float(row["crank_deg"]) for row in rows])
+    read = {key: np.array([float(row[key]) for row in rows]) for key in rows[0]}
+    head = (read["pressure_Pa"] - 1e5) * SWEPT["head"] / 0.25
+    crank = (read["pressure_crank_end_Pa"] - 1e5) * SWEPT["crank"] / 0.25
+    assert read["gas_force_N"] == pytest.approx(head - crank, rel=1e-9, abs=1e-6)
+    moment = 0.125 * (np.cos(angle) * read["pin_y_N"] - np.sin(angle) * read["pin_x_N"])
+    assert read["torque_Nm"] == pytest.approx(moment, rel=1e-9, abs=1e-6)
+
+
+def test_loads_over_the_angle_are_those_of_the_table(pump):
+    rows = ask_csv("curves", pump, "--cylinder", "1", "--step", "0.05")
+    (rod,) = ask_json("torque", pump, "--loads", "rod")["loads"]["rod"]
+    for key, column in (("piston_rod", "rod_load_N"), ("pin", "pin_load_N")):
+        load = np.array([float(row[column]) for row in rows])
+        assert rod[key]["compression_N"] == pytest.approx(load.max(), rel=5e-4)
+        assert rod[key]["tension_N"] == pytest.approx(-load.min(), rel=5e-4)
+
+
+def test_an_end_that_is_missing_adds_no_columns(pump):
+    text = PUMP.partition("[gas.crank_end]")[0]
+    pump.write_text(text)
+    assert "pressure_crank_end_Pa" not in ask_csv("curves", pump, "--cylinder", "1", "--step", "90")[0]
+
+
+def test_a_rod_diameter_that_is_left_out_is_told(pump):
+    told = ask_json("torque", pump)["assumed"]
+    assert "piston.rod_diameter" not in {value["path"] for value in told}
+    pump.write_text(PUMP.replace("rod_diameter = 70\n", ""))
+    told = ask_json("torque", pump)["assumed"]
+    assert {"path": "piston.rod_diameter", "value": 0.0, "unit": "mm"} in told
+
+
+def test_a_second_stage_has_its_own_gas_and_bore(tmp_path):
+    """Keys that [[gas.of]] leaves out are those of [gas]; its crank end takes them first from [gas.crank_end]."""
+    found = ask_json("torque", ENGINES / "pumps" / "two_stage_compressor.toml")
+    ends = {(end["cylinder"], end["end"]): end for end in found["ends"]}
+    for (cylinder, name), clearance in {(1, "head"): 0.12, (1, "crank"): 0.14, (2, "crank"): 0.16}.items():
+        ratio = 3.6 if cylinder == 1 else 12.5 / 3.5
+        efficiency = 1 + clearance - clearance * ratio ** (1 / 1.35)
+        assert ends[cylinder, name]["volumetric_efficiency"] == pytest.approx(efficiency, rel=1e-12)
+    areas = [np.pi / 4 * (0.19**2 - d**2) for d in (0, 0.05)]
+    volumes = [ends[2, name]["swept_volume_m3"] for name in ("head", "crank")]
+    assert volumes == pytest.approx([area * 0.15 for area in areas], rel=1e-12)
+
+
+def test_pictures_have_both_ends(pump, tmp_path):
+    ask("plot", pump, tmp_path / "p.svg", "--what", "p-v")
+    picture = (tmp_path / "p.svg").read_text(encoding="utf-8")
+    assert "head end" in picture
+    assert "crank end" in picture
+
+
+def test_a_sheet_names_the_orders_as_packagers_do(pump):
+    sheet = ask("analyze", pump, "--format", "marine")
+    assert "Unbalanced forces and couples" in sheet
+    assert "1 (primary)" in sheet
+    assert "2 (secondary)" in sheet

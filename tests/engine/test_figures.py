@@ -62,6 +62,8 @@ IDLE = {  # nothing moves by them: one bank, one throw, articulated rods
     ("rotary", "crank.spacing"),
     ("vee", "counterweight.3.sector.density"),  # its thickness follows
     *((name, "operation.power") for name in FILES),  # for the power related unbalance
+    *((name, "piston.rod_diameter") for name in FILES),  # for gas at the crank end
+    *((name, f"cylinder.{n}.piston_rod_diameter") for name in FILES for n in (2, 3)),
 }
 
 
@@ -108,7 +110,7 @@ def figures(engine: Engine) -> dict[str, list[float]]:
         found |= {f.name: getattr(hung, f.name) for f in fields(hung) if f.name != "hung"}
     found |= {"numbers": engine.numbers, "bore": engine.bore_m, "throws": engine.throws_m}
     found |= {"speed": engine.speed_rpm, "fires": list(engine.fires_deg.values())}
-    found |= {"crank inertia": engine.crank_inertia}
+    found |= {"crank inertia": engine.crank_inertia, "bores": engine.bores_m}
     found |= {f"reference {k}": v for k, v in enumerate(engine.reference_m)}
     found |= {f"ripple {k}": v for line in engine.ripple for k, v in enumerate(line)}
     for number, device in enumerate(engine.devices):

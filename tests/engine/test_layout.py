@@ -14,7 +14,7 @@ from balcli.file.model import Crank, Layout
 
 def planned(throws=None, **layout):
     crank = Crank(stroke=100, throws=throws)
-    return plan_cylinders(SimpleNamespace(crank=crank, layout=Layout(**layout), cylinder={}))
+    return plan_cylinders(SimpleNamespace(crank=crank, layout=Layout(**layout), cylinder={}, gas=None))
 
 
 def where(found):

@@ -331,7 +331,25 @@ def _find_cylinder_gas(engine: Engine, row: int, crank_deg: Array) -> dict[str, 
         }
     inertia = torque_of_cylinders(EngineMotion(engine, crank_deg))[row]
     curves["torque_Nm"] = inertia + cylinder.share * cylinder.torque.curve.at(at)
+    if cylinder.torque.is_double_acting:
+        curves |= _find_crank_end(engine, row, crank_deg)
     return curves
+
+
+def _find_crank_end(engine: Engine, row: int, crank_deg: Array) -> dict[str, Array]:
+    """Return the pressure at the crank end (Pa) and the loads of piston rod and pin (N, positive in
+    compression; `forces.rod_loads`) of the cylinder in this row, each of shape (angles,).
+    """
+    cylinder = take_gas(engine).cylinders[row]
+    at = np.radians(crank_deg) - cylinder.fires
+    forces = compute_rod_forces(engine, crank_deg)
+    weighed = engine.weighed[row]
+    rod_load = forces.gas[row] + weighed.piston * forces.acceleration[row]
+    return {
+        "pressure_crank_end_Pa": cylinder.torque.ends[1].pressure.at(at),
+        "rod_load_N": rod_load,
+        "pin_load_N": rod_load + weighed.crosshead * forces.acceleration[row],
+    }
 
 
 def _settle(values: Array, most: float | None = None) -> Array:

@@ -95,6 +95,18 @@ class GasPiston:
         velocity = self.linkage.motion(psi, self.lam, self.eps).velocity[0]
         return np.asarray(-self.radius * velocity.reshape(angle.shape))
 
+    def end_volume(self, angle: ArrayLike, end: GasEnd) -> Array:
+        """Return the volume of one end, m3, in the shape of the angles; above its smallest volume
+        if the clearance is not known.
+
+        Args:
+            angle: Cycle angles, rad, any shape.
+            end: End of this cylinder.
+        """
+        travel = self.travel(np.asarray(angle, float))
+        swept = end.area * (self.stroke - travel if end.is_crank_end else travel)
+        return (end.clearance or 0.0) * end.swept + swept
+
     def clearance(self, compression_ratio: float) -> float:
         """Return the volume of the cylinder at the upper dead centre, m3."""
         return self.swept / (compression_ratio - 1)
@@ -158,17 +170,22 @@ def pistons(cylinders: Cylinders, area: ArrayLike, rod_area: ArrayLike = 0.0) ->
 
 
 # ---------------------------------------------------------------- pressure and torque
+HEAD_END = "head"
+CRANK_END = "crank"
+
+
 class GasEnd(NamedTuple):
     """Gas in one end of a cylinder.
 
     Attributes:
-        name: "head" (away from the crank) or "crank".
+        name: `HEAD_END` (away from the crank) or `CRANK_END`.
         pressure: Absolute pressure over the cycle angle, Pa.
         area: Area of the piston in this end, m2.
         swept: Swept volume of this end, m3.
         work: Work of the gas on the piston in one revolution of a compressor, or in one cycle of
             any other end, J.
         volumetric_efficiency: Volume drawn in over swept volume; None unless the end compresses.
+        clearance: Smallest volume of this end over swept volume; None if it is not known.
     """
 
     name: str
@@ -177,6 +194,12 @@ class GasEnd(NamedTuple):
     swept: float
     work: float
     volumetric_efficiency: float | None = None
+    clearance: float | None = None
+
+    @property
+    def is_crank_end(self) -> bool:
+        """Whether the end is the one towards the crank."""
+        return self.name == CRANK_END
 
     @property
     def turns(self) -> float:
@@ -263,6 +286,7 @@ def make_end(
     *,
     crank_end: bool = False,
     volumetric_efficiency: float | None = None,
+    clearance: float | None = None,
 ) -> GasEnd:
     """Return the gas in one end of a cylinder.
 
@@ -271,6 +295,7 @@ def make_end(
         pressure: Absolute pressure, Pa, over the cycle angle.
         crank_end: Whether the end is the one towards the crank.
         volumetric_efficiency: For a compressor, volume drawn in over swept volume.
+        clearance: Smallest volume of this end over swept volume; None if it is not known.
     """
     area = piston.back_area if crank_end else piston.area
     sense = -1 if crank_end else 1
@@ -279,8 +304,9 @@ def make_end(
         return sense * area * pressure.at(angle) * piston.rate(angle)
 
     work = resolved(work_rate, pressure.breaks).integral
-    name = "crank" if crank_end else "head"
-    return GasEnd(name, pressure, area, area * piston.stroke, work, volumetric_efficiency)
+    name = CRANK_END if crank_end else HEAD_END
+    swept = area * piston.stroke
+    return GasEnd(name, pressure, area, swept, work, volumetric_efficiency, clearance)
 
 
 def press_both(
@@ -337,7 +363,10 @@ def blend(first: GasTorque, second: GasTorque, share: float) -> GasTorque:
 
     pressure = first.pressure and second.pressure and mix(first.pressure, second.pressure)
     curve = mix(first.curve, second.curve)
-    ends = (make_end(first.piston, pressure),) if pressure else ()
+    ends: tuple[GasEnd, ...] = ()
+    if pressure:
+        clearance = first.ends[0].clearance if first.ends else None
+        ends = (make_end(first.piston, pressure, clearance=clearance),)
     return replace(first, breaks=breaks, curve=curve, pressure=pressure, ends=ends)
 
 

@@ -5,7 +5,6 @@ Curves are computed every half degree over one cycle, at the mean speed.
 
 from __future__ import annotations
 
-import math
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -74,19 +73,30 @@ def _draw_pressure(ax: Axes, engine: Engine, system: System, *, over_volume: boo
     cylinder = gas.cylinders[engine.numbers.index(number)]
     half = gas.cycle_deg / 2
     angle = _divide(-half, half, np.degrees(cylinder.torque.breaks))
-    volume = cylinder.piston.volume(np.radians(angle), gas.compression_ratio or math.inf)
-    pressure = cylinder.find_pressure(np.radians(angle))
-    s = system.pressure.fit(float(pressure.max()))
-    v = system.volume.fit(float(volume.max()))
-    ax.plot(volume / v.size if over_volume else angle, pressure / s.size, color=BLUE)
+    at = np.radians(angle)
+    ends = cylinder.torque.ends
+    pressures = [cylinder.find_end_pressure(end, at) for end in ends]
+    volumes = [cylinder.piston.end_volume(at, end) for end in ends]
+    s = system.pressure.fit(max(float(pressure.max()) for pressure in pressures))
+    v = system.volume.fit(max(float(volume.max()) for volume in volumes))
+    looks = ((BLUE, "-"), (RED, "--"))
+    for end, pressure, volume, (colour, style) in zip(
+        ends, pressures, volumes, looks, strict=False
+    ):
+        x = volume / v.size if over_volume else angle
+        label = f"{end.name} end"
+        ax.plot(x, pressure / s.size, color=colour, linestyle=style, label=label)
+    if len(ends) > 1:
+        put_legend_above(ax)
     ax.set(ylim=(0, None), ylabel=f"pressure, {s.name}")
     if over_volume:
-        base = " above the smallest" if gas.compression_ratio is None else ""
+        base = " above the smallest" if any(end.clearance is None for end in ends) else ""
         title = f"Indicator diagram of cylinder {number}"
         ax.set(xlim=(0, None), xlabel=f"volume{base}, {v.name}", title=title)
     else:
+        centre = "outer" if gas.has_pump_ends else "firing"
         ax.axvline(0, color=SOFT, linewidth=0.7)
-        set_crank_axis(ax, angle, "cycle angle from the firing dead centre, deg")
+        set_crank_axis(ax, angle, f"cycle angle from the {centre} dead centre, deg")
         ax.set_title(f"Pressure in cylinder {number}")
 
 

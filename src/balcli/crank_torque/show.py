@@ -141,7 +141,9 @@ def _list_work(result: TorqueAnalysis, system: System) -> Iterator[tuple[str, st
         if result.max_pressure_Pa is not None:
             size = _size(result.max_pressure_Pa, system.pressure)
             at = result.max_pressure_deg
-            yield "largest pressure", f"{size}, {degrees(at or 0.0)} deg after firing"
+            is_pump = engine.gas is not None and engine.gas.has_pump_ends
+            start = "the outer dead centre" if is_pump else "firing"
+            yield "largest pressure", f"{size}, {degrees(at or 0.0)} deg after {start}"
         yield from list_silent(engine.silent)
     for name, value, of in (
         ("mean pressure", result.imep_Pa, system.pressure),

@@ -593,7 +593,8 @@ class _EndMaker(NamedTuple):
             return head, head.pressure.breaks
         cycle = _compute_cycle(gas, source, self.piston, self.strokes, at_least=at_least)
         self.overfed.extend(_doubt_heat(gas, source, self.piston, cycle))
-        return make_end(self.piston, cycle.pressure), cycle.breaks
+        clearance = None if gas.compression_ratio is None else 1 / (gas.compression_ratio - 1)
+        return make_end(self.piston, cycle.pressure, clearance=clearance), cycle.breaks
 
     def make_crank_end(self, gas: Gas, source: _Source) -> list[GasEnd]:
         """Return the gas of the crank end in a list, which is empty for a single-acting cylinder.
@@ -628,7 +629,11 @@ class _EndMaker(NamedTuple):
             raise InputError([Problem(f"{place}.{error.field}", str(error))]) from None
         efficiency = process.volumetric_efficiency
         return make_end(
-            self.piston, pressure, crank_end=crank_end, volumetric_efficiency=efficiency
+            self.piston,
+            pressure,
+            crank_end=crank_end,
+            volumetric_efficiency=efficiency,
+            clearance=process.clearance,
         )
 
     def _read_end(self, gas: Gas, path: str, name: str, *, crank_end: bool) -> GasEnd:
@@ -654,7 +659,10 @@ class _EndMaker(NamedTuple):
         if heads is not HEADS and gas.has("phase"):
             told = "has no meaning for a card over volume or stroke; leave it out"
             raise InputError([Problem(f"{path.rpartition('.')[0]}.phase", told)])
-        end = make_end(self.piston, pressure, crank_end=crank_end)
+        clearance = None
+        if not crank_end and gas.compression_ratio is not None:
+            clearance = 1 / (gas.compression_ratio - 1)
+        end = make_end(self.piston, pressure, crank_end=crank_end, clearance=clearance)
         imep = end.work / end.swept
         doubts = list_doubts(gas, path, columns, pressure, imep, fires=self.fires)
         self.doubts.extend([*notes, *doubts])

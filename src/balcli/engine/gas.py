@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..core.cylinder_pressure import GasPiston, GasTorque
+from ..core.cylinder_pressure import GasEnd, GasPiston, GasTorque
 from ..core.phasors import Array
 from ..core.piecewise import PiecewiseCurve, polyline, resolved
 from ..errors import BalcliError
@@ -59,8 +59,15 @@ class CylinderGas(NamedTuple):
         """
         if self.torque.pressure is None:
             raise BalcliError("the file has harmonics of the torque, and no pressures")
+        return self._share_pressure(self.torque.pressure.at(angle))
+
+    def find_end_pressure(self, end: GasEnd, angle: Array) -> Array:
+        """Return the effective pressure in one end, Pa, as `find_pressure`."""
+        return self._share_pressure(end.pressure.at(angle))
+
+    def _share_pressure(self, pressure: Array) -> Array:
         under = self.torque.crankcase
-        return under + self.share * (self.torque.pressure.at(angle) - under)
+        return under + self.share * (pressure - under)
 
 
 @dataclass(frozen=True, eq=False)

@@ -143,6 +143,10 @@ def _list_gas_defaults(parts: Parts, gas: Gas) -> Iterator[Assumed]:
     measured = gas.has("indicator") or diagrams > 0
     computed = gas.cycle is not None and diagrams < len(parts.plan.cells)
     yield from gas.list_assumed(parts.model.layout.strokes, measured, computed)
+    piston = parts.model.piston
+    own_rods = (one.piston_rod_diameter is not None for one in parts.model.cylinder.values())
+    if gas.has_crank_ends and not piston.has("rod_diameter") and not any(own_rods):
+        yield assume("piston.rod_diameter", piston, piston.rod_diameter)
 
 
 def list_chapter_defaults(model: EngineFile) -> Iterator[Assumed]:

@@ -270,6 +270,11 @@ class Gas(GasKeys):
                 idle.add("crankcase")
         return idle
 
+    @property
+    def has_crank_ends(self) -> bool:
+        """Whether any cylinder is double-acting."""
+        return self.crank_end is not None or any(one.crank_end is not None for one in self.of)
+
     def list_assumed(self, strokes: int, measured: bool, computed: bool) -> Iterator[Assumed]:
         """Yield the defaults on which results depend; arguments as for `list_idle_keys`."""
         idle = self.list_idle_keys(strokes, measured, computed) | {*DIAGRAM_KEYS, "at", "of"}

@@ -340,9 +340,13 @@ def running(engine: Engine, system: System) -> Node:
     number = choose_firing_cylinder(engine)
     first = gas.cylinders[engine.numbers.index(number)]
     if first.torque.pressure is not None:
-        own = first.find_pressure(at - first.fires)
-        unit = system.pressure.fit(float(own.max()))
-        shown.append({"id": "pressure", "unit": unit.name, "total": _rounded(own / unit.size)})
+        ends = first.torque.ends
+        pressures = [first.find_end_pressure(end, at - first.fires) for end in ends]
+        unit = system.pressure.fit(max(float(pressure.max()) for pressure in pressures))
+        curve: Node = {"id": "pressure", "unit": unit.name}
+        for name, pressure in zip(("total", "crank_end"), pressures, strict=False):
+            curve[name] = _rounded(pressure / unit.size)
+        shown.append(curve)
     return {"cycle": gas.cycle_deg, "step": _STEP, "cylinder": number, "curves": shown}
 
 

@@ -358,8 +358,9 @@ const Page = (() => {
   function drawFileCurves() {
     const running = read("running"), motion = read("motion");
     const lineOf = (curve) => [
-      { name: curve.gas ? "total" : curve.title || "pressure", kind: curve.gas ? "sum" : "now", values: curve.total },
+      { name: curve.gas ? "total" : curve.crank_end ? "head end" : curve.title || "pressure", kind: curve.gas ? "sum" : "now", values: curve.total },
       ...curve.gas ? [{ name: "gas", kind: "gas", values: curve.gas }, { name: "mean", kind: "before", values: curve.gas.map(() => curve.mean) }] : [],
+      ...curve.crank_end ? [{ name: "crank end", kind: "gas", values: curve.crank_end }] : [],
     ];
     for (const [data, end] of [[running, running?.cycle], [motion, 360]]) {
       for (const curve of data?.curves || []) Charts.drawCurves(byId(`${curve.id}-curve`), { end, unit: curve.unit, lines: lineOf(curve) });
