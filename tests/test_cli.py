@@ -116,7 +116,7 @@ def test_json_of_analyze_has_the_keys_of_the_contract():
     document = ask_json("analyze", V8, "--orders", "1-4")
     vector = {"forward", "backward", "major", "minor", "axis_deg", "balanced", "x", "y"}
     scalar = {"cos", "sin", "amplitude", "peak_deg", "balanced"}
-    assert [*document] == [*HEAD, "verdict", "peak", "sizing", "ladder"]
+    assert [*document] == [*HEAD, "assumed", "verdict", "peak", "sizing", "ladder"]
     assert set(document["engine"]) == {"name", "cylinders", "displacement_m3"}
     assert [entry["order"] for entry in document["orders"]] == [1, 2, 3, 4]
     figures = dict.fromkeys(("force_N", "moment_Nm"), vector)

@@ -145,7 +145,7 @@ def test_a_rod_diameter_that_is_left_out_is_told(pump):
 
 def test_a_second_stage_has_its_own_gas_and_bore(tmp_path):
     """Keys that [[gas.of]] leaves out are those of [gas]; its crank end takes them first from [gas.crank_end]."""
-    found = ask_json("torque", ENGINES / "pumps" / "two_stage_compressor.toml")
+    found = ask_json("torque", ENGINES / "pumps" / "compressor.toml")
     ends = {(end["cylinder"], end["end"]): end for end in found["ends"]}
     for (cylinder, name), clearance in {(1, "head"): 0.12, (1, "crank"): 0.14, (2, "crank"): 0.16}.items():
         ratio = 3.6 if cylinder == 1 else 12.5 / 3.5
