@@ -5,16 +5,24 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from numpy.testing import assert_allclose
 from support.commands import ask
 from support.engines import build_text
 from support.gas_engines import FOUR, WIEBE, draw_engine
 from support.in_time import run_in_time
 from support.paths import ENGINES
 
+from balcli import load
 from balcli.core.phasors import Phasors
-from balcli.errors import BalcliError
+from balcli.errors import BalcliError, InputError
 from balcli.forces import crankshaft as in_bearings
-from balcli.forces.crankshaft import compute_forces_along, compute_inner_loads, compute_loads_with_gas, place_bearings
+from balcli.forces.crankshaft import (
+    compute_forces_along,
+    compute_inner_loads,
+    compute_loads,
+    compute_loads_with_gas,
+    place_bearings,
+)
 from balcli.forces.spectrum import compute_device_force
 
 DEVICES = """
@@ -54,17 +62,17 @@ def solve_statics(found, angles):
     loads = compute_forces_along(found, np.degrees(angles))[0]
     weights = [d.z for d in found.devices if d.order == 1 and not d.place and not d.backward]
     z = np.array([*np.ravel(found.cylinders.z), *weights])
-    span = place_bearings(found.throws_m)
+    span = place_bearings(found)
     sections = np.unique([*z, *span, *(d.z for d in found.devices)])
     bearings = np.zeros((len(span), len(angles)), complex)
     shear = np.zeros((len(sections), len(angles)), complex)
     bending = np.zeros_like(shear)
-    for place, load in zip(z, loads, strict=True):
+    for place, press in zip(z, loads, strict=True):
         left = min(max(np.searchsorted(span, place, side="right") - 1, 0), len(span) - 2)
         levers = np.array([[1.0, 1.0], [span[left], span[left + 1]]])
-        held = np.linalg.solve(levers, np.array([load, place * load]))
+        held = np.linalg.solve(levers, np.array([press, place * press]))
         bearings[left : left + 2] += held
-        forces = ((place, load), (span[left], -held[0]), (span[left + 1], -held[1]))
+        forces = ((place, press), (span[left], -held[0]), (span[left + 1], -held[1]))
         for row, section in enumerate(sections):
             before = [(at, force) for at, force in forces if at <= section]
             shear[row] += sum(force for _, force in before)
@@ -184,3 +192,44 @@ def test_throw_masses_load_bearings_at_uneven_speed_as_their_acceleration_in_tim
     expected = -0.5 * 0.8 * np.fft.ifft(waves**2 * np.fft.fft(place))
     without, loads = (in_bearings.compute_bearing_loads(each, np.degrees(angles[::64]))[0] for each in engines)
     assert loads - without == pytest.approx(expected[::64], abs=1e-6 * np.abs(expected).max())
+
+
+# ------------------------------------------------------------------ bearings at given places
+def test_two_throws_between_given_bearings_share_by_lever():
+    """Four throws on three bearings: every bearing load is the lever sum over its spans."""
+    model = load(ENGINES / "i4.toml").to_dict()
+    engine = load(model | {"bearing": {"main_positions": [-195, 0, 195]}})
+    orders = np.array([1, 2, 4])
+    loads, z = compute_loads(engine, orders)
+    inner = compute_inner_loads(engine, orders)
+    front = np.clip((0 - z) / 0.195, 0, None) * (z < 0)
+    rear = np.clip(z / 0.195, 0, None) * (z > 0)
+    found = inner.bearings.phasors.forward
+    for place, shares in enumerate((front, 1 - front - rear, rear)):
+        assert_allclose(found[:, place], loads.forward @ shares, rtol=1e-12, atol=1e-9)
+    assert inner.bearings.z_m.tolist() == [-0.195, 0.0, 0.195]
+
+
+def test_given_bearings_make_the_loads_of_a_single_known():
+    """Beyond the last bearing, the last two bearings carry the load."""
+    single = load(ENGINES / "single.toml").to_dict()
+    engine = load(single | {"bearing": {"main_positions": [30, 90]}})
+    forces, _ = compute_loads(engine, np.array([1]))
+    found = compute_inner_loads(engine, np.array([1])).bearings.phasors.forward[0]
+    assert_allclose(found, [1.5 * forces.forward.sum(), -0.5 * forces.forward.sum()])
+
+
+@pytest.mark.parametrize(
+    ("places", "told"),
+    [
+        ([-195, 195, 0], "bearing.*main_positions = \\[-195, 195, 0\\]: 0 after 195"),
+        ([0], "main_positions = \\[0\\]: give two or more"),
+        ([-195, -50, 195], "bearing.main_positions.*-50 mm is the position of a throw"),
+    ],
+)
+def test_wrong_places_of_bearings_are_named(places, told):
+    model = load(ENGINES / "i4.toml").to_dict()
+    model["crank"] |= {"positions": [-150, -50, 50, 150]}
+    model["crank"].pop("spacing", None)
+    with pytest.raises(InputError, match=told):
+        load(model | {"bearing": {"main_positions": places}})

@@ -69,8 +69,7 @@ def find_journals(engine: Engine) -> tuple[Journal, ...]:
     Raises:
         BalcliError: The engine is rotary: its crank is at rest.
     """
-    places = engine.joined_throws_m
-    kinds = {"pin": places, "main": place_bearings(places)}
+    kinds = {"pin": engine.joined_throws_m, "main": place_bearings(engine)}
     torques = CrankTorques.of(engine)
     journals = []
     for (kind, place), weights in weigh_cylinders(engine).items():
@@ -93,17 +92,33 @@ def weigh_cylinders(engine: Engine) -> dict[tuple[str, int], Array]:
     """Return which share of each cylinder's torque every main journal and crank pin carries, shape
     (cylinders,). The keys run from the free end: ("main", 1), ("pin", 1), ("main", 2), ... Errors
     are those of `find_journals`.
+
+    The bearings that hold a crank pin on both sides share its load equally. Main bearings that the
+    file places may have several throws, or none, between them.
     """
     if engine.rotary:
         raise BalcliError("journals: the crank of a rotary engine stands still")
     throws = np.array(engine.joined_throw_of_rows) + 1
-    last = int(throws.max())
     found = dict[tuple[str, int], Array]()
-    for k in range(1, last + 2):
-        found["main", k] = np.where(throws < k, 1.0, 0.0)
-        if k <= last:
-            found["pin", k] = np.where(throws < k, 1.0, 0.5 * (throws == k))
+    pin = 1
+    for main, before in enumerate(_count_throws_before_bearings(engine), 1):
+        while pin <= before:
+            found["pin", pin] = np.where(throws < pin, 1.0, 0.5 * (throws == pin))
+            pin += 1
+        found["main", main] = np.where(throws <= before, 1.0, 0.0)
+    for last in range(pin, int(throws.max()) + 1):
+        found["pin", last] = np.where(throws < last, 1.0, 0.5 * (throws == last))
     return found
+
+
+def _count_throws_before_bearings(engine: Engine) -> list[int]:
+    """Return the number of throws between the free end and each main bearing. Without positions,
+    there is a bearing on both sides of every throw.
+    """
+    places = engine.joined_throws_m
+    if engine.bearings is None or engine.bearings.main_positions_m is None:
+        return list(range(len(places) + 1))
+    return [int((places < bearing).sum()) for bearing in engine.bearings.main_positions_m]
 
 
 class CrankTorques(NamedTuple):

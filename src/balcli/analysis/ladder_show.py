@@ -35,6 +35,7 @@ _ROUNDING = 1e-12  # a smaller share of one cylinder's value is rounding
 _HARDLY = 0.05  # a smaller share of one cylinder's first order, %, would be printed as 0.0
 _HARDLY_ANYTHING = "<0.1 %"  # forces and moments below NEGLIGIBLE of one cylinder's
 _BEARINGS = "main bearing: inertia alone, with a bearing on both sides of every throw."
+_GIVEN_BEARINGS = "main bearing: inertia alone, with the bearings of the file."
 
 
 def ladder_grid(
@@ -63,7 +64,9 @@ def ladder_grid(
     columns.append(Column("shafts", [str(step.shafts or UNKNOWN) for step in steps]))
     masses = [_mass_cell(step, system) for step in steps]
     columns.append(Column(f"steel, {system.mass.name}", masses))
-    notes = [_BEARINGS] if has_loads else []
+    notes = []
+    if has_loads:
+        notes.append(_GIVEN_BEARINGS if engine.has_given_bearings else _BEARINGS)
     notes += _tell_loads(ladder, system)
     notes += filter(None, [_tell_left_out(out, ladder, system) for out in ladder.left_out])
     if ladder.of_locomotive:

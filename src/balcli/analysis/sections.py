@@ -49,10 +49,11 @@ _TOGETHER = (
     "bend crankshaft and block as a whole."
 )
 _BEHIND = "Values are those just behind each load, on its flywheel side."
-_CUT = (
+_ASSUMED = (
     "Main bearings are assumed half-way between throws, and at the same distance outside the end "
-    "throws. The crankshaft is treated as if cut in each bearing."
+    "throws."
 )
+_CUT = "The crankshaft is treated as if cut in each bearing."
 ORDERS_SHOWN = 6  # largest number of orders in a table, which has a column for each
 
 
@@ -99,7 +100,8 @@ def sheet_parts(inner: InnerLoads, system: System) -> Iterator[Grid | Facts | Te
     """
     with_gas = inner.with_gas is not None
     bending = f"{_TOGETHER} {_OPEN_END}" if with_gas else _OPEN_END
-    notes = {"shear": _BEHIND, "bending": bending, "bearing": _CUT, "main": _CUT}
+    cut = _CUT if inner.has_given_bearings else f"{_ASSUMED} {_CUT}"
+    notes = {"shear": _BEHIND, "bending": bending, "bearing": cut, "main": cut}
     moments = []
     for kind, along in list_loads(inner):
         title = capitalized(kind.label)

@@ -21,6 +21,7 @@ from ..analysis.parts import lay_out_parts
 from ..analysis.verdict_words import VerdictWords, name_orders
 from ..core.peaks import Peak
 from ..core.records import Node, list_figures, remove_unit, to_document, write_each
+from ..engine.engine import Engine
 from ..errors import MOMENTS_UNKNOWN, ArgumentError, name_option, tell
 from ..file.fields import join_words
 from ..forces.crankshaft import CrankLoads, find_crank_loads
@@ -81,7 +82,11 @@ def sheet(result: Balance, system: System) -> Sheet:
         usual = remedy.scheme == "auto"  # other schemes do not fit a step of the ladder
         parts.append(ladder_grid(result.ladder, engine, system, tell_fitted=usual))
     parts += lay_out_remedy(result, system)
-    changes = [*_orders(result, system), *_peaks(result, system), *_crank_loads(loads, system)]
+    changes = [
+        *_orders(result, system),
+        *_peaks(result, system),
+        *_crank_loads(loads, engine, system),
+    ]
     parts += changes or [Text("Before and after", ("Nothing changes by 1 % or more.",))]
     return Sheet(f"{engine.name or NAMELESS}: {_name_fitted(remedy)}", tuple(parts))
 
@@ -385,7 +390,9 @@ def _head_before_and_after(place: str) -> tuple[Column, ...]:
     )
 
 
-def _crank_loads(states: Sequence[CrankLoads | None], system: System) -> Iterator[Grid]:
+def _crank_loads(
+    states: Sequence[CrankLoads | None], engine: Engine, system: System
+) -> Iterator[Grid]:
     """Yield a table of those largest loads within the crankshaft that change."""
     rows = []
     for name, kind, key, place in (
@@ -406,9 +413,10 @@ def _crank_loads(states: Sequence[CrankLoads | None], system: System) -> Iterato
         rows.append(row)
     if rows:
         heads = _head_before_and_after(f"at z, {system.length.name}")
+        bearings = "" if engine.has_given_bearings else "; bearings half-way between throws"
         note = (
-            "Loads by inertia only; bearings half-way between throws. Where several places have "
-            "the largest value, the first is listed."
+            f"Loads by inertia only{bearings}. Where several places have the largest value, the "
+            "first is listed."
         )
         yield Grid.of_rows("Within the crankshaft", heads, rows, note)
 

@@ -73,10 +73,10 @@ class CycleLoads:
 def analyze_loads(engine: Engine, asked: Iterable[str] = ("pin", "main")) -> CycleLoads:
     """Return loads of pins, bearings and piston rods.
 
-    Main bearings are assumed half-way between neighbouring throws; the end bearings are the same
-    distance outside the end throws. The shaft is treated as cut at each bearing. If the positions
-    of bearings are unknown but loads of pins are requested as well, the result has the loads of
-    pins and, as `obstacle`, the reason.
+    Unless the file gives main bearings, they are assumed half-way between neighbouring throws, and
+    the end bearings the same distance outside the end throws. The shaft is treated as cut at each
+    bearing. If the positions of bearings are unknown but loads of pins are requested as well, the
+    result has the loads of pins and, as `obstacle`, the reason.
 
     Args:
         engine: Engine with gas.

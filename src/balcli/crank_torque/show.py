@@ -110,7 +110,7 @@ def sheet(result: TorqueAnalysis, system: System) -> Sheet:
     elif result.engine is not None:
         parts.append(Text("Flywheel", (_NO_INERTIA,)))
     if hasattr(result, "loads"):
-        parts += _make_load_tables(result.loads, system)
+        parts += _make_load_tables(result, result.loads, system)
     parts.append(_make_order_table(result, system))
     return Sheet(title, tuple(parts))
 
@@ -233,11 +233,15 @@ def _tell_rest(engine: Engine, turning: float, unit: ShownUnit) -> str:
     return f"including {number(unit.of(rest))} in {place}"
 
 
-def _make_load_tables(loads: CycleLoads, system: System) -> Iterator[Grid | Text]:
-    cut = (
-        "Bearings are assumed half-way between neighbouring throws; the end bearings are the same "
-        "distance outside the end throws. The shaft is treated as cut in each bearing."
-    )
+def _make_load_tables(
+    result: TorqueAnalysis, loads: CycleLoads, system: System
+) -> Iterator[Grid | Text]:
+    cut = "The shaft is treated as cut in each bearing."
+    if result.engine is None or not result.engine.has_given_bearings:
+        cut = (
+            "Bearings are assumed half-way between neighbouring throws; the end bearings are the "
+            f"same distance outside the end throws. {cut}"
+        )
     for title, word, loaded, note in (
         ("Crank pins", "cylinder", getattr(loads, "pin", ()), ""),
         ("Knuckle pins", "cylinder", loads.knuckle or (), ""),

@@ -94,7 +94,9 @@ def build(
         pin_m, main_m = (
             None if outer is None else (outer / 1e3, inner / 1e3) for outer, inner in rings
         )
-        bearings = Bearings(pin, main, pin_m, main_m)
+        mains = table.main_positions
+        mains_m = None if mains is None else tuple(place / 1e3 for place in mains)
+        bearings = Bearings(pin, main, pin_m, main_m, mains_m)
     return Engine(
         name=model.name,
         source=model.source,
@@ -210,6 +212,17 @@ def check_rods(parts: Parts) -> Iterator[Problem]:
         yield from one_end or check_rod_inertia(place, gear)
         if not place.articulated:
             yield from check_turning(place, gear, parts.find_radius(place.number))
+
+
+def check_main_bearings(parts: Parts) -> Iterator[Problem]:
+    """Check that no main bearing is at a throw."""
+    bearing = parts.model.bearing
+    places = () if bearing is None else bearing.main_positions or ()
+    throws = {round(1e3 * float(z), 9) for z in np.ravel(parts.places.throws)}
+    for place in places:
+        if round(place, 9) in throws:
+            told = f"{place:g} mm is the position of a throw; give the middle of each main bearing"
+            yield Problem("bearing.main_positions", told)
 
 
 def check_carriers(parts: Parts) -> Iterator[Problem]:
@@ -394,7 +407,7 @@ STANDSTILL = 1e-12  # speeds below this share of the mean speed count as 0
 RULES: tuple[tuple[Callable[[Parts], Iterator[Problem]], ...], ...] = (
     # plan and running gears
     (check_cylinders, check_articulation, check_rods, check_half_orders, check_speed),
-    (check_carriers,),
+    (check_carriers, check_main_bearings),
     (check_knuckles, check_shafts),  # pins and balancer shafts
     (check_numbering,),  # firing angles
     (check_samples,),  # cylinders

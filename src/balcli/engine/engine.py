@@ -45,12 +45,14 @@ class Bearings(NamedTuple):
         pin_m2: Projected area (diameter times width) of each crank pin's bearing, m2.
         main_m2: Projected area of each main bearing, m2.
         pin_m, main_m: Outer and inner diameter of each crank pin and of each main journal, m.
+        main_positions_m: Positions of the main bearings along the crank, m, ascending.
     """
 
     pin_m2: float | None = None
     main_m2: float | None = None
     pin_m: tuple[float, float] | None = None
     main_m: tuple[float, float] | None = None
+    main_positions_m: tuple[float, ...] | None = None
 
 
 class Rating(NamedTuple):
@@ -545,6 +547,11 @@ class Engine:
         if self.model is None or self.model.layout.firing_intervals or len(self.throws_m) == 1:
             return None
         return find_fitting_splay(self.model)
+
+    @property
+    def has_given_bearings(self) -> bool:
+        """Whether the file gives the positions of the main bearings."""
+        return self.bearings is not None and self.bearings.main_positions_m is not None
 
     # -------------------------------------------------------------- gas
     @property

@@ -13,7 +13,18 @@ from pydantic import Field
 from ..limits import MOST_GAS_POINTS, MOST_LIST_VALUES
 from .assumed import Assumed, assume
 from .fields import Choice, FileName, Number, OneOf, join_words
-from .table import Angle, Distance, FileTable, GivenInertia, Heat, Mass, Numbers, Size, Speed
+from .table import (
+    Angle,
+    Distance,
+    FileTable,
+    GivenInertia,
+    Heat,
+    Lengths,
+    Mass,
+    Numbers,
+    Size,
+    Speed,
+)
 from .units import ANGLE, PLAIN, PRESSURE
 
 Pressure = Annotated[float, Number(PRESSURE, least=0, most=1e6)]
@@ -453,10 +464,7 @@ class Flywheel(FileTable):
 class Bearing(FileTable):
     """Dimensions of the crankshaft's bearings, for bearing loads per area."""
 
-    choices = (
-        Choice((("pin_diameter", "pin_width"),), complete=True),
-        Choice((("main_diameter", "main_width"),), complete=True),
-    )
+    choices = (Choice((("main_diameter", "main_width"),), complete=True),)
 
     pin_diameter: Size | None = None
     """Diameter of the crank pins. Example: 48"""
@@ -464,12 +472,32 @@ class Bearing(FileTable):
     """Inner diameter of hollow crank pins. Example: 20"""
     pin_width: Size | None = None
     """Width of the big-end bearing of each rod. Example: 20"""
+    pin_length: Size | None = None
+    """Length of each crank pin between its two webs, needed with [[web]]. Example: 27"""
     main_diameter: Size | None = None
     """Diameter of the main journals. Example: 60"""
     main_bore: Distance = 0.0
     """Inner diameter of hollow main journals. Example: 20"""
     main_width: Size | None = None
     """Width of each main bearing. Example: 22"""
+    main_positions: Lengths | None = None
+    """Axial positions of all main bearings, ascending; left out: half-way between neighbouring
+    throws, and as far outside the end throws. Example: [-186, -93, 0, 93, 186]"""
+
+    def _check_pin_width(self) -> Iterator[str]:
+        if self.pin_width is not None and self.pin_diameter is None:
+            yield "has pin_width without pin_diameter; give both pin_diameter and pin_width"
+
+    def _check_main_positions(self) -> Iterator[str]:
+        places = self.main_positions or ()
+        if len(places) == 1:
+            yield f"main_positions = [{places[0]:g}]: give two or more places"
+        for before, after in pairwise(places):
+            if before >= after:
+                listed = ", ".join(f"{place:g}" for place in places)
+                told = f"{after:g} after {before:g}; give them ascending"
+                yield f"main_positions = [{listed}]: {told}"
+                break
 
     def _check_bores(self) -> Iterator[str]:
         """Check that a hollow journal has a diameter larger than its bore."""

@@ -85,15 +85,17 @@ class InnerLoads(NamedTuple):
     """Inertia loads: shear force (N) and bending moment (N m) just behind each load, and loads of
     the main bearings (N).
 
-    Bearings are assumed half-way between neighbouring throws, and outside the end throws. An end
-    bearing is as far from the end throw as the bearing on the other side of this throw. The shaft
-    is treated as cut in each bearing, so that every span is statically determinate. For a crank
-    with one throw, the positions of bearings are not known, and `bearings` is None.
+    The file gives the positions of the bearings (`bearing.main_positions`), or bearings are assumed
+    half-way between neighbouring throws, and outside the end throws. An assumed end bearing is as
+    far from the end throw as the bearing on the other side of this throw. The shaft is treated as
+    cut in each bearing, so that every span is statically determinate. For a crank with one throw
+    and without given positions, the positions are not known, and `bearings` is None.
 
     Attributes:
         with_gas: Loads of shaft, bearings and block by inertia and gas; None without gas, or if
             they are not known.
         obstacle: Reason why the loads with gas are not known.
+        has_given_bearings: Whether the file gives the positions of the bearings.
     """
 
     shear: AlongCrank
@@ -101,6 +103,7 @@ class InnerLoads(NamedTuple):
     bearings: AlongCrank | None
     with_gas: LoadsWithGas | None = None
     obstacle: str = ""
+    has_given_bearings: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -146,10 +149,13 @@ def compute_inner_loads(engine: Engine, orders: Array | None = None) -> InnerLoa
             "listed; give fewer orders"
         )
     bearings = None
-    if (span := place_bearings(engine.joined_throws_m)) is not None:
+    if (span := place_bearings(engine)) is not None:
         bearings = _with_peaks(span, compute_bearing_forces(loads, z, span), orders)
     return InnerLoads(
-        _with_peaks(sections, shear, orders), _with_peaks(sections, bending, orders), bearings
+        shear=_with_peaks(sections, shear, orders),
+        bending=_with_peaks(sections, bending, orders),
+        bearings=bearings,
+        has_given_bearings=engine.has_given_bearings,
     )
 
 
@@ -169,11 +175,14 @@ def find_crank_loads(engine: Engine) -> CrankLoads | None:
     return CrankLoads(main_N=main_N, main_mm=main_mm, inner_moment_Nm=moment, inner_mm=inner_mm)
 
 
-def place_bearings(throws_m: Array) -> Array | None:
-    """Return positions of main bearings (see `InnerLoads`), m, shape (bearings,); None if all
-    throws have the same position.
+def place_bearings(engine: Engine) -> Array | None:
+    """Return positions of main bearings (see `InnerLoads`), m, shape (bearings,); None if the file
+    gives none and all throws have the same position.
     """
-    places = list_places(throws_m)
+    bearings = engine.bearings
+    if bearings is not None and bearings.main_positions_m is not None:
+        return np.array(bearings.main_positions_m)
+    places = list_places(engine.joined_throws_m)
     if len(places) < 2:
         return None
     between = (places[1:] + places[:-1]) / 2
@@ -342,7 +351,7 @@ def place_main_bearings(engine: Engine) -> Array:
         raise BearingsUnknownError("the crank of a rotary engine stands still, clamped at its end")
     if not engine.places_known:
         raise BearingsUnknownError("crank.spacing is missing, so their positions are not known")
-    span = place_bearings(engine.joined_throws_m)
+    span = place_bearings(engine)
     if span is None:
         raise BearingsUnknownError("a crank with one throw does not determine their positions")
     return span

@@ -195,7 +195,7 @@ def _list_curves(
         curves = {"peak_moment_Nm": find_curve(new, "moment")}
     else:
         curves = {"peak_force_N": find_curve(new, "force")}
-    bearings = place_bearings(new.joined_throws_m) if new.places_known else None
+    bearings = place_bearings(new) if new.places_known else None
     if bearings is not None:
         with suppress(BalcliError):  # too many loads
             loads, z = compute_loads(new, find_relevant_orders(new))
