@@ -122,7 +122,7 @@ def test_verdict_and_ladder_offer_a_locomotive_no_shaft():
     note = "A locomotive has no room for shafts; `balcli locomotive` sizes the weights in its wheels."
     plain = " ".join(told.split())
     assert note in plain
-    assert "shaft" not in plain.replace(note, "").replace("weights shafts kg", "")
+    assert "shaft" not in plain.replace(note, "").replace("weights shafts steel", "")
     document = ask_json("analyze", DIVIDED, "--only", "verdict,ladder")
     first, second = document["verdict"]["matter"]
     assert [cure["ratio"] for cure in first["cures"]] == [1]
