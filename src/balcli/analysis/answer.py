@@ -46,6 +46,7 @@ from ..sizing.remedy import Remedy, fit_devices
 from ..sizing.residual import Scales, find_scales
 from ..sizing.room import assume_skirt
 from .crank_drive import find_journals, list_masses, relate_to_power
+from .other_speeds import add_at_most, find_other_speeds
 from .parts import find_parts
 from .records import (
     BalanceParts,
@@ -53,6 +54,7 @@ from .records import (
     CylinderShare,
     Journal,
     Masses,
+    PartAtOtherSpeed,
     PeaksAndOrders,
     PowerRelatedUnbalance,
     Stroke,
@@ -115,6 +117,8 @@ class Analysis(OrdersAndPeaks, Result):
         journals: Torque in main journals and crank pins.
         masses: Masses of pistons, rods and throws.
         parts: Bearing loads of balancer shafts and shapes of counterweights.
+        other_speeds: Parts without a fixed phase to the crank, such as those behind a belt, which
+            are no part of the orders; left out if there are none.
         power_related_unbalance: Free moments divided by the power.
         why: Whether the orders shown are balanced by symmetry or by chance.
         stars: Phasor stars of the cylinders, for the requested orders (default: 1 and 2).
@@ -139,6 +143,7 @@ class Analysis(OrdersAndPeaks, Result):
     journals: Asked[tuple[Journal, ...]] = Asked('only=["journals"]')
     masses: Asked[tuple[Masses, ...]] = Asked('only=["masses"]')
     parts: Asked[BalanceParts] = Asked('only=["parts"]')
+    other_speeds: tuple[PartAtOtherSpeed, ...] | None = None
     power_related_unbalance: Asked[PowerRelatedUnbalance] = Asked('only=["pru"]')
     why: Asked[Symmetry] = Asked("why=True")
     stars: Asked[tuple[Star, ...]] = Asked("why=True")
@@ -265,6 +270,7 @@ def analyze(
     has_linkage = engine.cylinders.linkage is not None and not engine.placed
     model = take_model(engine) if "parts" in wanted else None
     provable = shown if engine.places_known else shown - {"moment"}
+    others = find_other_speeds(engine)
     ladder = find_ladder(engine, small) if wanted.intersection(("sizing", "ladder")) else None
     return Analysis(
         engine=engine,
@@ -272,7 +278,7 @@ def analyze(
         spectra=visible,
         assumed=_list_assumed(engine, wanted, ladder),
         verdict=_judge(engine, visible, small) if visible.vectors() else None,
-        peak=find_peaks(everything) if peaked else None,
+        peak=add_at_most(find_peaks(everything), others) if peaked else None,
         sizing=_size(engine, ladder, asked, wanted) if ladder and "sizing" in wanted else None,
         ladder=ladder if "ladder" in wanted else None,
         cylinders=_analyze_cylinders(engine, visible.orders, shown) if by == "cylinder" else None,
@@ -286,6 +292,7 @@ def analyze(
         power_related_unbalance=relate_to_power(engine) if "pru" in wanted else None,
         journals=find_journals(engine) if "journals" in wanted else None,
         masses=list_masses(engine) if "masses" in wanted else None,
+        other_speeds=others or None,
         parts=find_parts(engine, model.shaft, model.counterweight) if model else None,
     )
 

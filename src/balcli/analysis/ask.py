@@ -78,7 +78,9 @@ def answer(
     find, renderer = _choose_result(asked, for_people)
 
     def find_one(path: str) -> tuple[str, str, object]:
-        engine = read_engine(path, rpm, words, over=asked.speeds_rpm or None).engine
+        speeds = asked.speeds_rpm or None
+        lists_drifting = not asked.marine
+        engine = read_engine(path, rpm, words, over=speeds, lists_drifting=lists_drifting).engine
         if "textbook" in asked.parts:
             refuse_geared(engine)
         result = find(silence_cylinders(engine, asked.misfires, path))

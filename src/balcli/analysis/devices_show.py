@@ -60,7 +60,7 @@ def _tell_turns(device: DeviceTable) -> str:
         case Counterweight():
             return "1"
         case Shaft():
-            return f"{device.ratio:+d}"
+            return f"{device.ratio:+g}"
         case Slider():
             return str(device.order)
 

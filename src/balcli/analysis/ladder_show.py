@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from ..core.records import list_figures, remove_unit, to_document
+from ..engine.half_orders import list_half_orders, list_shafts_of_order
 from ..file.fields import join_words
 from ..forces.kinds import FORCE, MOMENT, Kind
 from ..forces.power import LIKELY
@@ -26,6 +27,7 @@ from ..show.sheet import (
     size_text,
 )
 from ..sizing.ladder import NO_SHAFTS, SINGLE_SHAFTS, Ladder, LeftOut, Step
+from .verdict_words import name_order, tell_own_shafts
 
 if TYPE_CHECKING:
     from ..engine.engine import Engine
@@ -71,6 +73,7 @@ def ladder_grid(
     notes += filter(None, [_tell_left_out(out, ladder, system) for out in ladder.left_out])
     if ladder.of_locomotive:
         notes.append(sentence(NO_SHAFTS))
+    notes += _tell_half_orders(engine)
     notes += _tell_roll(ladder, system)
     if tell_fitted:
         notes.append(" ".join(_tell_fitted(ladder)))
@@ -186,6 +189,13 @@ def _percent_below(size: float, limit: float) -> str:
     """Return a size below a limit, both in %, with as many digits as show that it is below."""
     digits = f"{size:.1f}" if round(size, 1) < limit else f"{size:.3g}"
     return f"{digits} %"
+
+
+def _tell_half_orders(engine: Engine) -> Iterator[str]:
+    """Yield a sentence on each half order that shafts of the engine cause; no step cancels it."""
+    for order in list_half_orders(engine):
+        causes = tell_own_shafts(list_shafts_of_order(engine, order))
+        yield f"{name_order(order)} {causes}."
 
 
 def _tell_roll(ladder: Ladder, system: System) -> Iterator[str]:

@@ -204,7 +204,12 @@ def peak_facts(
     for kind, peak in result.peaks:
         known = kind is not MOMENT or result.moments_known
         least = NEGLIGIBLE * (single or {}).get(kind.name, 0.0)
-        pairs.append((kind.name, _peak(peak, system.unit(kind), least) if known else UNKNOWN))
+        text = _peak(peak, system.unit(kind), least) if known else UNKNOWN
+        at_most = result.peak.at_most.get(kind.name)
+        if at_most is not None:
+            size = size_text(at_most, system.unit(kind), 5)
+            text = f"{text}; with the parts at other speeds at most {size}"
+        pairs.append((kind.name, text))
     return Facts(tuple(pairs), title)
 
 

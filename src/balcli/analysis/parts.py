@@ -279,7 +279,7 @@ def list_columns(
 
 def _tell_shaft(shaft: BalancerShaft, system: System) -> str:
     """Return in words ratio, bending, inertia and drag of a shaft."""
-    words = [f"ratio {shaft.ratio:+d}"]
+    words = [f"ratio {shaft.ratio:+g}"]
     if shaft.bending_Nm is not None:
         bending = f"bending {size_text(shaft.bending_Nm, system.moment)}"
         if shaft.bending_position_mm is not None:

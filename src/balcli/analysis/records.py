@@ -486,7 +486,7 @@ class BalancerShaft(NamedTuple):
     """
 
     name: str
-    ratio: int
+    ratio: float
     inertia_at_crank_kg_m2: float
     bearings: tuple[ShaftBearing, ...] | None = None
     bending_Nm: float | None = None
@@ -562,6 +562,27 @@ class BalanceParts(NamedTuple):
                     f"has a clearance of {gap} to the lowest piston; make its outer radius smaller"
                 )
                 yield Doubt(f"counterweight.{number}", told)
+
+
+class PartAtOtherSpeed(NamedTuple):
+    """A part that turns at another speed than a multiple of half the crank speed. Sizes are
+    amplitudes, because it has no fixed phase to the crank.
+
+    Attributes:
+        name: Name of the shaft.
+        ratio: Speed over crank speed; negative: against the crank.
+        frequency_Hz: Turns per second.
+        force_N: Centrifugal force.
+        moment_Nm: Moment of this force; left out if the positions of the throws are not known.
+        couple_Nm: Couple of this force about the direction of the crankshaft.
+    """
+
+    name: str
+    ratio: float
+    frequency_Hz: float
+    force_N: float
+    moment_Nm: float | None = None
+    couple_Nm: float = 0.0
 
 
 class RelatedMoment(NamedTuple):

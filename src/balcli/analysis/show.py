@@ -43,6 +43,7 @@ from .order_tables import (
     peak_facts,
     textbook_tables,
 )
+from .other_speeds import lay_out_other_speeds, list_other_rows
 from .overview import (
     find_orders_that_matter,
     roll_and_peaks,
@@ -103,6 +104,9 @@ def _parts(result: Analysis, system: System, view: View) -> Iterator[Part]:
         spectra = share.with_moment_if(result.moments_known)
         yield from cylinder_tables(f"{title} alone", spectra, system, about_crank=about_crank)
     yield from _further_parts(result, system)
+    is_listed = not view.parts or view.whole or "parts" in view.parts
+    if result.other_speeds is not None and is_listed:
+        yield lay_out_other_speeds(result.other_speeds, system)
     if hasattr(result, "ladder"):
         yield ladder_grid(result.ladder, result.engine, system)
     if hasattr(result, "sizing"):
@@ -300,6 +304,8 @@ def _further_rows(result: Analysis, system: System) -> Iterator[FigureRow]:
     yield from _record_rows(result)
     if hasattr(result, "parts"):
         yield from list_part_rows(result.parts)
+    if result.other_speeds is not None:
+        yield from list_other_rows(result.other_speeds)
     if hasattr(result, "why"):
         yield from sections.list_symmetry(result.why)
 

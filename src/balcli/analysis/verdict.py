@@ -17,6 +17,7 @@ from ..core.cylinders import Device, DeviceKind
 from ..core.phasors import Phasors
 from ..engine.engine import Engine
 from ..engine.figures import find_first_largest
+from ..engine.half_orders import list_shafts_of_order
 from ..file.fields import order_number
 from ..forces.spectrum import Spectra
 from ..limits import SMALL
@@ -70,11 +71,14 @@ class Finding(NamedTuple):
             small; left out at half orders and at uneven speed, where compensators take the place
             of shafts, and where only a shaft would cancel them but the engine is that of a
             locomotive, which has no room for one.
+        shafts: At half orders, the shafts that cause it and have to be balanced themselves; else
+            left out.
     """
 
     order: float
     large: tuple[VectorKind, ...]
     cures: tuple[Cure, ...] | None = None
+    shafts: tuple[str, ...] | None = None
 
 
 class Compensated(NamedTuple):
@@ -194,7 +198,7 @@ def judge(
                 cures = _mark_taken_back(cures, by_kind, row, engine)
             if needs is not None and order <= 2:  # compensators take the place of shafts
                 cures = None
-            matter.append(Finding(order, kinds, cures))
+            matter.append(Finding(order, kinds, cures, _find_causes(order, engine)))
         elif all(phasors.balanced[row] for phasors in by_kind.values()):
             balanced.append(order)
         small_parts += [Part(order, kind) for kind in by_kind if kind not in kinds]
@@ -320,6 +324,15 @@ def _find_cures(
     if engine is not None and engine.of_locomotive:
         return tuple(cure for cure in cures if cure.on_crank) or None
     return tuple(cures)
+
+
+def _find_causes(order: float, engine: Engine | None) -> tuple[str, ...] | None:
+    """Return the names of the shafts that cause a half order; None for whole orders and without
+    such shafts.
+    """
+    if order % 1 == 0 or engine is None:
+        return None
+    return tuple(list_shafts_of_order(engine, order)) or None
 
 
 def _mark_taken_back(

@@ -373,6 +373,8 @@ def tell_cures(
         parts: Large force and moment of the order.
         with_shares: Whether to state how much of force and moment each of two devices cancels.
     """
+    if finding.shafts is not None:
+        return f"it {tell_own_shafts(finding.shafts)}"
     if finding.cures is None:
         return ""
     if finding.order > 2:
@@ -440,6 +442,18 @@ def _list_turning(cure: Cure, parts: Sequence[_PartInWords]) -> list[_PartInWord
     """Return the force and moment of which a part worth naming turns as the device does."""
     turning = [part for part in parts if not part.is_whole(-cure.sense)]
     return turning or [part for part in parts if part.find_vector(cure.sense)]
+
+
+def tell_own_shafts(names: Sequence[str]) -> str:
+    """Return in words that a half order comes from shafts of the engine, which no device cancels:
+    `comes from shaft 'cam'; balance that shaft`.
+    """
+    if not names:
+        return "comes from shafts of the file; balance these shafts"
+    quoted = join_words([name if name.startswith("shaft ") else f"'{name}'" for name in names])
+    if len(names) > 1:
+        return f"comes from shafts {quoted}; balance these shafts"
+    return f"comes from shaft {quoted.removeprefix('shaft ')}; balance that shaft"
 
 
 def name_cure(cure: Cure) -> str:

@@ -157,7 +157,7 @@ class Device(NamedTuple):
             crank like a counterweight but is fitted to drive an axle.
     """
 
-    order: int
+    order: float
     forward: complex | Complex
     backward: complex | Complex
     place: complex | Complex

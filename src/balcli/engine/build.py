@@ -40,7 +40,7 @@ from ..file.fields import counted
 from ..file.model import EngineFile
 from ..file.read import Draft
 from ..limits import MOST_SAMPLES, NEAREST_TO_LOCK
-from .devices import build_devices, check_shafts
+from .devices import build_devices, check_drifting, check_shafts
 from .engine import Bearings, Engine, Rating
 from .figures import column, divide, find_wheel, value_or
 from .firing.rules import check_numbering
@@ -408,7 +408,7 @@ RULES: tuple[tuple[Callable[[Parts], Iterator[Problem]], ...], ...] = (
     # plan and running gears
     (check_cylinders, check_articulation, check_rods, check_half_orders, check_speed),
     (check_carriers, check_main_bearings),
-    (check_knuckles, check_shafts),  # pins and balancer shafts
+    (check_knuckles, check_shafts, check_drifting),  # pins and balancer shafts
     (check_numbering,),  # firing angles
     (check_samples,),  # cylinders
     (check_gas, check_locomotive),

@@ -13,7 +13,7 @@ from ..core.cylinders import Device, DeviceKind
 from ..core.phasors import Complex, Figure, unit
 from ..errors import InputError, Message, Problem
 from ..file.fields import shorten
-from ..file.model import Counterweight, Sector, Shaft, Slider
+from ..file.model import Counterweight, EngineFile, Sector, Shaft, Slider
 from ..file.table import label_table
 from .figures import AS_GIVEN, FileFigures, divide, or_zero, place_in_plane, value_or
 
@@ -31,6 +31,8 @@ def build_devices(parts: Parts) -> Iterator[Device]:
     first_axis_deg = parts.pins.axes_deg[1]
     yield from _build_coupling_pins(parts, first_axis_deg)
     for path, table in parts.model.tables():
+        if isinstance(table, Shaft) and table.drifts:
+            continue
         if isinstance(table, (Counterweight, Shaft, Slider)):
             yield build_device(table, first_axis_deg, parts.figures, path)
 
@@ -218,6 +220,38 @@ def group_eccentrics(shafts: Iterable[Shaft]) -> list[tuple[str, dict[int, Shaft
         key = table.name, 0 if table.name else number
         groups.setdefault(key, {})[number] = table
     return [(name or f"shaft {number}", entries) for (name, number), entries in groups.items()]
+
+
+def check_drifting(parts: Parts) -> Iterator[Problem]:
+    """Check that shafts without a fixed phase to the crank have no key that needs one."""
+    yield from list_drifting_problems(parts.model)
+
+
+def list_drifting_problems(model: EngineFile) -> Iterator[Problem]:
+    """Yield the shafts without a fixed phase to the crank that have a key that needs one."""
+    uneven = bool(model.operation.speed_ripple)
+    for number, shaft in enumerate(model.shaft, 1):
+        if not shaft.drifts:
+            continue
+        for is_wrong, cause in (
+            (uneven, "operation.speed_ripple"),
+            (shaft.to_fit, 'unbalance = "fit"'),
+            (shaft.role == "compensator", 'role = "compensator"'),
+        ):
+            if is_wrong:
+                yield refuse_drifting(f"shaft.{number}", shaft, cause)
+
+
+def refuse_drifting(path: str, shaft: Shaft, cause: str) -> Problem:
+    """Return the problem of a shaft whose ratio does not go together with another key.
+
+    Args:
+        path: Dotted name of its table.
+        shaft: The shaft.
+        cause: The other key, such as `role = "compensator"`.
+    """
+    told = f"{shaft.ratio:g} does not go together with {cause}; give a multiple of 1/2"
+    return Problem(f"{path}.ratio", told)
 
 
 def check_shafts(parts: Parts) -> Iterator[Problem]:

@@ -21,7 +21,7 @@ from ..core.speed_ripple import RippleLine
 from ..errors import MOMENTS_UNKNOWN, BalcliError, wrong_type
 from ..file.assumed import Assumed, join_assumed, select_assumed
 from ..file.doubt import Doubt, name_files
-from ..file.doubts import find_suspicious
+from ..file.doubts import doubt_drifting, find_suspicious
 from ..file.fields import join_words
 from ..file.model import EngineFile
 from ..file.plain_tables import list_tables
@@ -302,7 +302,7 @@ class Engine:
             of_files = name_files((one.file, one.engine.unlikely) for one in self.placed)
             if self.model is None:
                 return of_files
-            return (*of_files, *self.doubt_clearances())
+            return (*of_files, *doubt_drifting(self.model), *self.doubt_clearances())
         of_gas = () if self.gas is None else self.gas.doubts
         if self.model is None:
             return of_gas
@@ -382,8 +382,12 @@ class Engine:
 
     @property
     def cycle_revolutions(self) -> int:
-        """Number of revolutions after which a cylinder's forces repeat, gas included."""
-        half_orders = any(line.order % 1 for line in self.ripple)
+        """Number of revolutions after which the forces repeat, gas and devices included."""
+        orders = [
+            *(line.order for line in self.ripple),
+            *(each.order for each in self.every_device),
+        ]
+        half_orders = any(order % 1 for order in orders)
         return 2 if half_orders or (self.gas is not None and self.strokes == 4) else 1
 
     def find_turning_inertia(self, *, beyond_pins: bool = False) -> TurningInertia:

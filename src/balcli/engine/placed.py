@@ -22,7 +22,7 @@ from ..file.model import Counterweight, EngineFile, Shaft, Slider
 from ..file.read import Draft
 from ..file.toml import read_bytes
 from ..limits import MOST_ENGINES
-from .devices import build_device
+from .devices import build_device, list_drifting_problems
 from .engine import Engine, Placed, Rating
 from .figures import AS_GIVEN, FileFigures, find_wheel, place_in_plane, select_varied
 from .gas import CylinderGas, EngineGas, GasLaw
@@ -151,6 +151,7 @@ def build_geared(
         own = dict(select_varied(changes, k))
         with _collecting(problems, k, table.file):
             engines.append(build(crank, own or None))
+    problems += list_drifting_problems(model)
     if problems:
         raise InputError(list(dict.fromkeys(problems)))
     figures = FileFigures(changes, model)
@@ -167,6 +168,7 @@ def build_geared(
         build_fitted(table, whole, figures, path)
         for path, table in model.tables()
         if isinstance(table, Counterweight | Shaft | Slider)
+        and not (isinstance(table, Shaft) and table.drifts)
     )
     return replace(
         whole,

@@ -12,7 +12,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from .doubt import Doubt, Figure, doubt_figures, walk_figures
-from .fields import count_lambda_digits
+from .fields import count_lambda_digits, join_words
 from .model import EngineFile
 from .plain_tables import list_tables
 from .ranges import (
@@ -100,6 +100,7 @@ def find_suspicious(model: EngineFile) -> list[Doubt]:
             figures.append(Figure(path, value, *PRESSURES[key], question))
     figures += find_unusual(list_ranges(model))
     doubts = [
+        *doubt_drifting(model),
         *_find_missing(model),
         *doubt_figures(figures),
         *doubt_losses("torsion", model.torsion),
@@ -110,6 +111,24 @@ def find_suspicious(model: EngineFile) -> list[Doubt]:
             told = f"{value:.4g} deg is a round part of a turn in radians; {RADIANS}"
             doubts.append(Doubt(path, told))
     return doubts
+
+
+def doubt_drifting(model: EngineFile) -> Iterator[Doubt]:
+    """Yield one warning that names the shafts without a fixed phase to the crank, such as those
+    behind a belt, which only `analyze` lists.
+    """
+    paths = {}
+    for number, shaft in enumerate(model.shaft, 1):
+        if shaft.drifts:
+            paths[f"shaft.{number}"] = f"{shaft.name or f'shaft {number}'} ({shaft.ratio:g})"
+    if paths:
+        first, *others = paths
+        names = join_words(list(dict.fromkeys(paths.values())))
+        message = (
+            f"{names}: a speed that is no multiple of half the crank speed has no fixed phase to "
+            "the crank, so it is left out here; analyze lists it"
+        )
+        yield Doubt(f"{first}.ratio", message, tuple(others))
 
 
 def doubt_losses(path: str, tables: object) -> Iterator[Doubt]:

@@ -302,6 +302,26 @@ class Whole(_Field):
         return kind | limits | ({} if self.zero else {"not": {"const": 0}})
 
 
+class SpeedRatio(_Field):
+    """A speed over crank speed: any number but 0, positive or negative. Whole numbers are ints."""
+
+    def __init__(self, most: int) -> None:
+        self.most = most
+
+    def read(self, value: object) -> float:
+        wanted = f"a number from -{self.most} to {self.most}, not 0, is wanted"
+        if isinstance(value, str) and re.fullmatch(r"\s*[+-]?[0-9]{1,6}(\.[0-9]{0,15})?\s*", value):
+            value = float(value)
+        if isinstance(value, bool) or not isinstance(value, (int, float)) or value != value:
+            raise ValueError(f"{shorten(value)} is not a number; {wanted}")
+        if not SMALLEST_POSITIVE <= abs(value) <= self.most:
+            raise ValueError(f"{shorten(value)} is out of range; {wanted}")
+        return order_number(value)
+
+    def json(self) -> Node:
+        return {"type": "number", "minimum": -self.most, "maximum": self.most, "not": {"const": 0}}
+
+
 class OneOrEach:
     """A figure that holds for all members of a group, or a list with a figure for each member.
 

@@ -24,6 +24,7 @@ from .fields import (
     Number,
     OneOf,
     OneOrEach,
+    SpeedRatio,
     Whole,
     counted,
     join_words,
@@ -486,8 +487,9 @@ class Shaft(Device):
     name: Name = ""
     """Name of the shaft: entries with the same name are eccentrics of one shaft. Example:
     'left'"""
-    ratio: Annotated[int, Whole(least=-HIGHEST_SHAFT_ORDER, most=HIGHEST_SHAFT_ORDER, zero=False)]
-    """Speed over crank speed; negative: against the crank. Example: -2"""
+    ratio: Annotated[float, SpeedRatio(HIGHEST_SHAFT_ORDER)]
+    """Speed over crank speed; negative: against the crank. Shafts at multiples of 1/2 (camshafts,
+    pumps) have a fixed phase to the crank; others (belts) are listed separately. Example: -2"""
     angle: Angle = 0.0
     """Angle of the eccentric at crank angle 0, from the x axis. Example: 90"""
     at: Place = (0.0, 0.0)
@@ -507,6 +509,11 @@ class Shaft(Device):
     """The gear that drives the shaft."""
     drag: Annotated[float, Number(TORQUE, least=0, most=1e12)] = 0.0
     """Friction torque on the shaft, which its gear transmits. Example: 0.2"""
+
+    @property
+    def drifts(self) -> bool:
+        """Whether the shaft has no fixed phase to the crank: its ratio is no multiple of 1/2."""
+        return 2 * self.ratio % 1 != 0
 
     def _check_sector(self) -> Iterator[str]:
         yield from check_sector(self, self.sector)

@@ -428,7 +428,7 @@ def check_orders(orders: Iterable[float], engines: Collection[Engine] = ()) -> A
         raise BalcliError(f"orders must be multiples of 1/2 from 0 to {HIGHEST_ORDER}, not {named}")
     halves = ", ".join(f"{n:g}" for n in asked if n % 1)
     if halves and engines and all(engine.cycle_revolutions == 1 for engine in engines):
-        told = "half orders need [gas] and four strokes; ask for whole orders"
+        told = "half orders need [gas] and four strokes, or a shaft at a half order"
         raise BalcliError(f"orders {halves}: {told}")
     return np.array(asked, float)
 
@@ -451,16 +451,18 @@ def split_order(text: str) -> tuple[float | None, str]:
 
 def find_relevant_orders(engine: Engine) -> Array:
     """Return the orders 1 .. n, shape (orders,); above n, all amplitudes are below rounding errors.
-    At uneven speed, return 0 .. n, with half orders if the speed has some.
+    Half orders are those of shafts. At uneven speed, return 0 .. n, with all half orders if the
+    speed or a shaft has some.
     """
     if engine.placed:
         return merge_orders(*(find_relevant_orders(one.engine) for one in engine.cranks))
     of_devices = [device.order for device in engine.devices]
     highest = max([engine.cylinders.find_highest_order(), *of_devices])
     if not engine.ripple:
-        return np.arange(1.0, highest + 1)
+        halves = [order for order in of_devices if order % 1]
+        return merge_orders(np.arange(1.0, highest + 1), halves)
     lines = [line.order for line in engine.ripple]
-    return dense_orders(highest + 2 * max(lines), lines)
+    return dense_orders(highest + 2 * max(lines), [*lines, *of_devices])
 
 
 def list_gas_orders(engine: Engine, highest: float = HIGHEST_GAS_ORDER_UNASKED) -> Array:

@@ -127,6 +127,8 @@ def _list_obstacles(engine: Engine) -> Iterator[str]:
         yield "it has moment compensators"
     if engine.ripple:
         yield "its speed is uneven"
+    if any(shaft.ratio % 1 for shaft in model.shaft):
+        yield "a shaft turns at another speed than a whole multiple of crank speed"
 
 
 def describe_engine(model: EngineFile, engine: Engine, text: str) -> Node:

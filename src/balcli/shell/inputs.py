@@ -56,6 +56,7 @@ def read_engine(
     asked: Collection[str] | None = None,
     prepare: Callable[[EngineFile], EngineFile] = lambda model: model,
     over: Sequence[float] | None = None,
+    lists_drifting: bool = False,
 ) -> LoadedEngine:
     """Read one file (`-`: standard input), with warnings about suspicious values on standard error.
 
@@ -66,6 +67,8 @@ def read_engine(
             none of these results includes moments, unknown moments cause no warning.
         prepare: Function that changes the file before the engine is built.
         over: Speeds for which results are computed, rpm; None: the engine's own speed.
+        lists_drifting: Whether the command lists shafts without a fixed phase to the crank, so that
+            no warning is needed.
 
     Raises:
         BalcliError: The file has mistakes (the error lists all), or a moment or gas was requested
@@ -74,6 +77,7 @@ def read_engine(
     if path in WORDS_OF_ONLY and not os.path.exists(path):
         raise BalcliError(f"{path}: no such file; was --only force,{path} meant?")
     from ..engine import load, parse
+    from ..file.doubts import doubt_drifting
 
     text = read_bytes(path)
     model = parse.parse(text, name_file(path))
@@ -90,7 +94,11 @@ def read_engine(
         turned = engine.model and engine.model.with_table("operation", speed=speed_rpm)
         engine = replace(engine.at_speed(speed_rpm), model=turned)
     speeds = [float(engine.speed_rpm)] if over is None else over
-    warn_each((*engine.unlikely, *engine.doubt_speeds(speeds)), name_file(path))
+    unlikely = engine.unlikely
+    if lists_drifting:
+        listed = {each.message for file in (model, *model.cranks) for each in doubt_drifting(file)}
+        unlikely = tuple(doubt for doubt in unlikely if doubt.message not in listed)
+    warn_each((*unlikely, *engine.doubt_speeds(speeds)), name_file(path))
     return LoadedEngine(text, model, engine)
 
 

@@ -138,10 +138,21 @@ class Peaks(NamedTuple):
     Attributes:
         force: Free force, N.
         moment: Free moment, N·m.
+        force_at_most_N: Free force with the parts at other speeds, which have no fixed phase to the
+            crank: the sum of all sizes; left out without such parts.
+        moment_at_most_Nm: Free moment with these parts; also left out if moments are not known.
     """
 
     force: Annotated[Peak, Reached("force_N", "force_deg"), INLINE]
     moment: Annotated[Peak, Reached("moment_Nm", "moment_deg"), INLINE]
+    force_at_most_N: float | None = None
+    moment_at_most_Nm: float | None = None
+
+    @property
+    def at_most(self) -> dict[str, float]:
+        """Sizes with the parts at other speeds, by the name of the kind; only those known."""
+        both = {FORCE.name: self.force_at_most_N, MOMENT.name: self.moment_at_most_Nm}
+        return {name: size for name, size in both.items() if size is not None}
 
 
 class EngineSize(NamedTuple):
@@ -203,7 +214,7 @@ class OrdersAndPeaks:
         """Each kind whose peak was computed, with its peak."""
         if not hasattr(self, "peak"):
             return []
-        return list(zip((FORCE, MOMENT), self.peak, strict=True))
+        return [(FORCE, self.peak.force), (MOMENT, self.peak.moment)]
 
 
 class FigureRow(NamedTuple):
@@ -363,6 +374,11 @@ def figure_rows(
     for kind, peak in result.peaks:
         if kind not in unknown:
             yield from peak_rows(kind.name, peak, system.unit(kind))
+    for kind in (FORCE, MOMENT):
+        at_most = result.peak.at_most.get(kind.name) if result.peaks else None
+        if at_most is not None:
+            unit = system.unit(kind)
+            yield FigureRow(0, kind.name, None, "peak_at_most", unit.of(at_most), unit.name)
 
 
 def record_rows(

@@ -13,11 +13,12 @@ import numpy as np
 
 from ..core import least_squares
 from ..core.phasors import Array, unit
+from ..engine.devices import refuse_drifting
 from ..engine.engine import Engine, refuse_geared
 from ..engine.placed import build_fitted
-from ..errors import MOMENTS_UNKNOWN, NO_GAS, ArgumentError, BalcliError
+from ..errors import MOMENTS_UNKNOWN, NO_GAS, ArgumentError, BalcliError, InputError
 from ..file.fields import join_words
-from ..file.model import EngineFile
+from ..file.model import EngineFile, Shaft
 from ..forces.kinds import ROLL_TOTAL
 from ..forces.spectrum import compute_spectra
 from .fitting import find_effects
@@ -82,6 +83,12 @@ def size_fit(engine: Engine, model: EngineFile, targets: Sequence[str] | None = 
     refuse_geared(engine)
     chosen = _check_targets(engine, targets)
     named = list_to_fit(model)
+    drifting = []
+    for name, table in named:
+        if isinstance(table, Shaft) and table.drifts:
+            drifting.append(refuse_drifting(name, table, 'unbalance = "fit"'))
+    if drifting:
+        raise InputError(drifting)
     fitted: dict[str, DeviceTable] = {}
     notes: list[str] = []
     unknowns = rank = 0
@@ -132,7 +139,7 @@ def _check_targets(engine: Engine, targets: Sequence[str] | None) -> tuple[str, 
 
 
 def _set_up(
-    engine: Engine, order: int, tables: Iterable[DeviceTable], targets: Sequence[str]
+    engine: Engine, order: float, tables: Iterable[DeviceTable], targets: Sequence[str]
 ) -> tuple[list[Array], Array]:
     """Return the effect of each device of an order, shape (values, unknowns), and the values to
     cancel, shape (values,). Values are real and imaginary parts of the targets as shares of one

@@ -54,7 +54,7 @@ def fit_steps(engine: Engine, ladder: Ladder, options: SchemeOptions) -> Remedy:
     steps = [ladder.find_step(name) for name in ladder.list_fitted(options.step)]
     _refuse_idle(options, remedy)
     start = Fitting.start(ignore_compensators(engine), remedy.scheme)
-    ratios = {shaft.ratio for shaft in remedy.shafts}
+    ratios = {int(shaft.ratio) for shaft in remedy.shafts}  # the ladder fits orders 1 and 2
     places = _assign(options, _sort_ratios(ratios))
     placed = [_place_step(start, step, options, places) for step in steps]
     joined = join_remedies(remedy.scheme, placed)
@@ -177,7 +177,7 @@ def _place_step(start: Fitting, step: Step, options: SchemeOptions, places: _Pla
         due = [sense for sense, crank in carriers.items() if crank.name in names]
         return _add_weights(start, options, start.find_residual(1), due).remedy
     if places.given or places.along:
-        ratios = dict.fromkeys(shaft.ratio for shaft in own.shafts)
+        ratios = dict.fromkeys(int(shaft.ratio) for shaft in own.shafts)
         return _place_shafts(start, [start.find_residual(step.order)], ratios, places).remedy
     return own
 

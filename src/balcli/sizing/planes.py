@@ -184,7 +184,7 @@ def round_figures(device: DeviceTable) -> DeviceTable:
     return device.model_copy(update=figures)
 
 
-def find_order(device: DeviceTable) -> int:
+def find_order(device: DeviceTable) -> float:
     """Return the number of turns or oscillations of a device per turn of the crank."""
     match device:
         case Counterweight():
@@ -204,7 +204,7 @@ def find_free(devices: Sequence[DeviceTable]) -> tuple[bool, ...]:
     """Return whether each device belongs to a shaft that may be anywhere: the eccentrics of the
     shaft together make a moment but no force, and x and y are not given.
     """
-    shafts: dict[int, list[Shaft]] = {}  # by speed ratio
+    shafts: dict[float, list[Shaft]] = {}  # by speed ratio
     for device in devices:
         if isinstance(device, Shaft) and not any(device.at):
             shafts.setdefault(device.ratio, []).append(device)

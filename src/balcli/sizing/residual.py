@@ -7,7 +7,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
-from typing import Literal, NamedTuple
+from typing import Literal, NamedTuple, cast
 
 import numpy as np
 
@@ -195,7 +195,7 @@ def hold_steady(engine: Engine) -> Engine:
     return replace(engine, ripple=())
 
 
-def find_residual(engine: Engine, order: int) -> Residual:
+def find_residual(engine: Engine, order: float) -> Residual:
     """Return the residual of an order for an engine with its devices, at its mean speed. Moments
     that are not known are 0.
     """
@@ -213,7 +213,9 @@ def find_residual(engine: Engine, order: int) -> Residual:
         noise[part] = float(np.broadcast_to(phasors.noise, vector.shape)[0]) / newtons_per_kg_m
     if spectra.roll:
         parts[ROLL] = 2 * complex(spectra.roll.forward[0]) / newtons_per_kg_m
-    return Residual(order, parts, noise, ReferencePoint(complex(x, y), float(z)), newtons_per_kg_m)
+    reference = ReferencePoint(complex(x, y), float(z))
+    number = cast("int", order)  # only devices with "fit" may be at half orders
+    return Residual(number, parts, noise, reference, newtons_per_kg_m)
 
 
 def choose_residual(

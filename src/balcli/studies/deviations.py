@@ -216,6 +216,8 @@ def _list_devices(model: EngineFile, within: Tolerances) -> Iterator[Source]:
     }
     for kind, tables in kinds.items():
         for number, table in enumerate(tables, 1):
+            if isinstance(table, Shaft) and table.drifts:
+                continue
             path = f"{kind}.{label_table(table, number)}"
             figures = {f"{path}.{key}": value for key, value in _find_weight(table).items()}
             if any(figures.values()):

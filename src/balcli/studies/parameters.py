@@ -95,8 +95,11 @@ def find_places(model: EngineFile) -> dict[str, Place]:
         idle.add("layout.bank_angle")
     if not plan.in_rows:  # a row angle would renumber the cylinders
         idle.add("layout.row_angle")
+    drifting = [path for path, table in tables.items() if isinstance(table, Shaft) and table.drifts]
     varied = {}
     for path, place in numbers.items():
+        if path.rpartition(".")[0] in drifting:  # no quantity depends on it
+            continue
         alone = (place.table, place.key) in _SHOWN_ALONE
         if not (path in idle or alone or re.match(_FIXED, path)):
             varied[path] = place
