@@ -2,14 +2,20 @@
 promised; the package index, citations and hooks say what is so.
 """
 
+import ast
 import re
+import struct
 import tomllib
+from html import unescape
 from pathlib import Path
 from types import SimpleNamespace
 
 import docs_site
 import mutants
 import pytest
+from pygments import highlight as pygmentize
+from pygments.formatters import HtmlFormatter
+from pygments.lexers import get_lexer_by_name
 from support.paths import PACKAGE, ROOT
 
 import balcli
@@ -34,7 +40,8 @@ def test_index_links_of_the_readme_lead_into_the_repository():
     readme = metadata["readme"]["text"]
     links = re.findall(r"\]\(([^)]+)\)", readme)
     assert "https://example.org/x/blob/v1.2/docs/theory.md" in links
-    assert "https://example.org/x/raw/v1.2/docs/i3_ladder.svg" in links
+    pictures = re.findall(r'(?:src|srcset)="([^"]+)"', readme)
+    assert pictures == [f"https://example.org/x/raw/v1.2/docs/first_screen{dark}.png" for dark in ("_dark", "")]
     assert not [link for link in links if not link.startswith(("https://", "#"))]
     assert metadata["urls"]["Issues"] == "https://example.org/x/issues"
     stay = "[a](#b) [c](https://example.org/d) [e](mailto:f@g)"
@@ -46,6 +53,8 @@ def test_where_the_project_lives_is_said_in_one_place():
     owner = re.match(r"https://[^/]+/[^/]+/", addresses["repository"])[0]
     written = filter(Path.is_file, [*ROOT.glob("*.*"), *ROOT.glob("docs/**/*.md"), *ROOT.glob(".github/**/*.*")])
     assert [file.name for file in written if owner in file.read_text("utf-8", "replace")] == ["pyproject.toml"]
+    live = set(re.findall(r'https://[^/]+\.github\.io/[^")]*', text("README.md")))
+    assert live == {f"{addresses['documentation']}/"}  # a reader of the README cannot follow a link to a made page
 
 
 def test_the_workflow_tests_the_versions_that_are_promised():
@@ -75,6 +84,51 @@ def test_site_shows_every_document():
     written = {file.relative_to(ROOT / "docs").as_posix() for file in ROOT.glob("docs/**/*.md")}
     notebooks = {f"notebooks/{notebook.stem}.md" for notebook in docs_site.NOTEBOOKS}
     assert set(listed) == written | notebooks | {*docs_site.PAGES.values(), "api.md"}
+
+
+def test_copy_buttons_of_console_blocks_copy_commands_alone():
+    shown = highlight("$ balcli engines i3 'i3 a.toml'\n$ balcli analyze <i3>\nin-line three\n", "console")
+    html = docs_site.on_page_content(f"<p>x</p>{shown}{highlight('a = 1', 'toml')}")
+    (copied,) = re.findall(r'data-copy="([^"]*)"', html)
+    assert unescape(copied) == "balcli engines i3 'i3 a.toml'\nbalcli analyze <i3>"
+    assert html.replace(f' data-copy="{copied}"', "") == f"<p>x</p>{shown}{highlight('a = 1', 'toml')}"
+
+
+def highlight(text, language):
+    lines = HtmlFormatter(nowrap=True)
+    return f'<div class="highlight"><pre><span></span><code>{pygmentize(text, get_lexer_by_name(language), lines)}</code></pre></div>'
+
+
+def test_the_reference_must_have_every_public_name():
+    entries = [f'<h2 id="balcli.{name}">' for name in balcli.__all__]
+    assert docs_site.find_missing_names("".join(entries)) == []
+    assert docs_site.find_missing_names("".join(entries[1:])) == [balcli.__all__[0]]
+
+
+def test_the_public_names_are_a_literal_list():
+    """The tool that writes the reference reads the source, and does not run it."""
+    tree = ast.parse(text("src/balcli/__init__.py"))
+    (names,) = (node.value for node in tree.body if isinstance(node, ast.Assign) and node.targets[0].id == "__all__")
+    assert ast.literal_eval(names) == balcli.__all__
+
+
+def test_the_former_place_of_the_live_page_forwards_with_its_address():
+    assert 'location.replace("index.html" + location.search + location.hash)' in docs_site.FORWARD
+
+
+def test_other_sites_show_a_picture_and_words_beside_a_link():
+    config = SimpleNamespace(
+        site_url="https://example.org/docs/",
+        site_name="balcli",
+        site_description="About.",
+        extra={"repository": "https://example.org/x"},
+    )
+    site = docs_site.describe_site(config)
+    assert dict(site.tags)["og:image"] == "https://example.org/docs/first_screen_card.png"
+    assert [word for word, _ in site.links] == ["Docs", "Install", "Source"]
+    theme = text("tools/site_theme/main.html")
+    assert all(f'property="{name}"' in theme for name, _ in site.tags)
+    assert (ROOT / "docs" / "first_screen_card.png").read_bytes()[16:24] == struct.pack(">2I", 1200, 630)
 
 
 def test_gallery_shows_what_its_commands_write():

@@ -34,6 +34,7 @@ LEFT_OUT = "…"
 WIDTH = patch.dict(os.environ, {"COLUMNS": "80"})
 FUNCTION = (
     f'balcli() {{ "{sys.executable}" -m balcli "$@"; }}; python() {{ "{sys.executable}" "$@"; }}\n'
+    'uvx() { "$@"; }\n'
 )
 ENVIRONMENT = os.environ | {
     "PYTHONPATH": str(ROOT / "src"),

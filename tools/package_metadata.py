@@ -42,4 +42,5 @@ def link_absolutely(text: str, base: str) -> str:
     """
     raw = base.replace("/blob/", "/raw/")
     text = re.sub(r"(!\[[^\]]*\])\((?![a-z]+:)([^)\s]+)\)", rf"\1({raw}/\2)", text)
+    text = re.sub(r'\b(src|srcset)="(?![a-z]+:)([^"]+)"', rf'\1="{raw}/\2"', text)
     return re.sub(r"\]\((?!#|[a-z]+:)([^)\s]+)\)", rf"]({base}/\1)", text)

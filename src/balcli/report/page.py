@@ -11,6 +11,7 @@ from dataclasses import replace
 from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
+from urllib.parse import quote
 
 import numpy as np
 import tomli_w
@@ -165,13 +166,32 @@ def _warning(chapter: str) -> Iterator[None]:
         warn(f"the page does not show the {chapter}: {error.tell(name_option)}")
 
 
+class Site(NamedTuple):
+    """What a page of a site has beyond one that is kept as a file.
+
+    Attributes:
+        docs: Address of the documentation, to which the name of the program links.
+        links: Words and addresses of further links in the header.
+        tags: Names and contents of the tags by which other sites show a link to the page.
+    """
+
+    docs: str
+    links: tuple[tuple[str, str], ...] = ()
+    tags: tuple[tuple[str, str], ...] = ()
+
+
+def load_asset(name: str) -> str:
+    """Return the text of a file of the page."""
+    return (FOLDER / name).read_text(encoding="utf-8").strip()
+
+
 def page(
     found: Answers,
     system: System,
     live: Node | None = None,
     file: str = "",
     small: float = SMALL,
-    docs: str = "",
+    site: Site | None = None,
 ) -> str:
     """Return the page of an engine: forces and moments, devices of a balance scheme, vibration on
     mounts, torsional vibration, and gas. All text from the engine file is escaped.
@@ -182,7 +202,7 @@ def page(
         live: Data for changing numbers, from `live.make_book`; None: nothing can be changed.
         file: Name of the engine file; empty if unknown.
         small: Share of one cylinder's first order below which a force or moment is ignored.
-        docs: Address of the documentation, to which the name of the program links; empty: no link.
+        site: Site of which the page is a part; None: the page is a file of its own.
 
     Raises:
         BalcliError: The engine does not have the cylinder whose piston is wanted.
@@ -196,7 +216,8 @@ def page(
         still=explain_still(engine),
         title=engine.name or NAMELESS,
         version=__version__,
-        docs=docs,
+        site=site,
+        icon=quote(load_asset("icon.svg")),
         file=Path(file).name or "the file",
         parts=lay_out(result, balanced, system),
         data=describe_page(engine, system, file, small),
