@@ -135,7 +135,8 @@ def test_links_lead_to_files_and_headings_that_exist(document: Path) -> None:
         file, _, heading = target.partition("#")
         there = document.parent / file if file else document
         assert there.exists(), target
-        assert not heading or heading in anchors(there), target
+        if heading and there.suffix == ".md":  # only-dark of a picture names no heading
+            assert heading in anchors(there), target
 
 
 def anchors(document: Path) -> set[str]:
