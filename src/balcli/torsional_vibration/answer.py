@@ -35,7 +35,15 @@ from .build import NO_DAMPERS
 from .chain_file import describes_chain, read_chain_tables
 from .dampers import FIGURES, WIDE_SWING, DamperAsked, SizedDamper, size_damper
 from .load import Source, make_chain_source, make_source
-from .modes import Critical, NaturalMode, find_criticals, find_natural_modes, tabulate_holzer
+from .modes import (
+    Critical,
+    NaturalMode,
+    OutsideCritical,
+    find_criticals,
+    find_criticals_outside,
+    find_natural_modes,
+    tabulate_holzer,
+)
 from .response import TorsionResponse, find_barred, find_response
 from .system import TorsionalSystem
 
@@ -157,6 +165,8 @@ class TorsionAnalysis(Result):
         criticals: Critical speeds in the range of speeds, sorted by falling work. Without a range,
             they are listed up to one and a half times the file's speed, or all of them if the file
             gives no speed. Left out without an excitation.
+        criticals_outside: Critical speeds in the 20 % below and above the range of speeds, by
+            rising speed; left out without speeds.
         holzer: Holzer's tables; left out if none was requested.
         response: Forced vibration; left out without speeds.
         damper: Sized damper, included in the other results; left out if none was requested.
@@ -175,6 +185,7 @@ class TorsionAnalysis(Result):
     modes: tuple[NaturalMode, ...]
     orders: Asked[tuple[float, ...]] = Asked(_EXCITED)
     criticals: Asked[tuple[Critical, ...]] = Asked(_EXCITED)
+    criticals_outside: Asked[tuple[OutsideCritical, ...]] = Asked("speeds=[1500, 2000]")
     holzer: tuple[HolzerTable, ...] | None = None
     response: Asked[TorsionResponse] = Asked("speeds=[1500, 2000]")
     damper: Asked[SizedDamper] = Asked('damper="viscous", speeds=[1500, 2000]')
@@ -276,12 +287,14 @@ def _analyze_system(
     chain = system.chain
     excitation = system.excitation
     span = (0.0, BEYOND * system.rated_rpm) if system.rated_rpm else None
+    outside = None
     response = None
     barred = None
     if speeds is not None:
         span = float(speeds[0]), float(speeds[-1])
         response = find_response(system, speeds, tell)
         barred = find_barred(system, speeds)
+        outside = find_criticals_outside(system.require_excitation(), modes, span)
     return TorsionAnalysis(
         name=system.name or None,
         no_gas_in=system.silent.without_gas or None,
@@ -292,6 +305,7 @@ def _analyze_system(
         modes=modes,
         orders=None if excitation is None else tuple(map(order_number, excitation.orders.tolist())),
         criticals=None if excitation is None else find_criticals(excitation, modes, span),
+        criticals_outside=outside,
         holzer=tuple(_tabulate(system, modes, asked) for asked in question.holzer) or None,
         response=response,
         barred_rpm=barred,

@@ -8,6 +8,7 @@ Holzer's table lists angles and torques of a chain at one frequency, node by nod
 
 from __future__ import annotations
 
+from operator import attrgetter
 from typing import Annotated, NamedTuple
 
 import numpy as np
@@ -212,6 +213,24 @@ class Critical(NamedTuple):
     work: Annotated[float, HIDDEN]
 
 
+class OutsideCritical(NamedTuple):
+    """Critical speed just outside the range of speeds.
+
+    Attributes:
+        mode: Number of the mode, from 1.
+        order: Order of the excitation.
+        speed_rpm: Critical speed.
+        phase_sum: As for a critical speed in the range.
+        work: As for a critical speed in the range.
+    """
+
+    mode: int
+    order: float
+    speed_rpm: float
+    phase_sum: float
+    work: Annotated[float, HIDDEN]
+
+
 def find_natural_modes(system: TorsionalSystem) -> tuple[NaturalMode, ...]:
     """Return the modes in which shafts twist, lowest first."""
     modes = find_chain_modes(system.chain)
@@ -293,6 +312,37 @@ def find_criticals(
         for m, k in np.argwhere(counted)
     ]
     return tuple(sorted(found, key=lambda each: -each.work))
+
+
+_OUTSIDE = 0.2  # share of the first and last speed up to which criticals outside are listed
+
+
+def find_criticals_outside(
+    excitation: Excitation, modes: tuple[NaturalMode, ...], range_rpm: tuple[float, float]
+) -> tuple[OutsideCritical, ...]:
+    """Return the critical speeds in the 20 % below and above a range of speeds, by rising speed.
+
+    Args:
+        excitation: Orders and torques.
+        modes: Natural modes.
+        range_rpm: First and last speed, rpm.
+    """
+    first, last = range_rpm
+    inside = find_criticals(excitation, modes, range_rpm)
+    near = find_criticals(excitation, modes, (first * (1 - _OUTSIDE), last * (1 + _OUTSIDE)))
+    within = {(critical.mode, critical.order) for critical in inside}
+    outside = []
+    for critical in near:
+        if (critical.mode, critical.order) not in within:
+            shown = OutsideCritical(
+                mode=critical.mode,
+                order=critical.order,
+                speed_rpm=critical.speed_rpm,
+                phase_sum=critical.phase_sum,
+                work=critical.work,
+            )
+            outside.append(shown)
+    return tuple(sorted(outside, key=attrgetter("speed_rpm")))
 
 
 class Holzer(NamedTuple):

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 import numpy as np
 
@@ -102,6 +102,9 @@ def _add_resonances(system: TorsionalSystem, rpm: Real) -> Real:
     return np.unique(np.clip(np.append(rpm, about), rpm[0], rpm[-1]))
 
 
+Edge = Literal["first", "last"]
+
+
 class OrderTorque(NamedTuple):
     """Torque of one order.
 
@@ -124,12 +127,15 @@ class WorstTorque:
         half_peak_to_peak_Nm: Half of the peak-to-peak torque, all orders added with their phases.
         stress_Pa: Stress at that speed; left out without a diameter.
         orders: Torque by order at that speed.
+        edge: End of the range of speeds at which this torque occurs, so that it may be larger
+            outside; left out elsewhere, and for a single speed.
     """
 
     speed_rpm: float
     half_peak_to_peak_Nm: float
     stress_Pa: float | None = None
     orders: tuple[OrderTorque, ...]
+    edge: Edge | None = None
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -157,10 +163,13 @@ class WorstSwing(NamedTuple):
     Attributes:
         speed_rpm: Speed at which the largest swing occurs.
         half_swing_deg: Half of the peak-to-peak swing.
+        edge: End of the range of speeds at which this swing occurs, so that it may be larger
+            outside; left out elsewhere, and for a single speed.
     """
 
     speed_rpm: float
     half_swing_deg: float
+    edge: Edge | None = None
 
 
 class WorstPendulum(NamedTuple):
@@ -276,6 +285,7 @@ def find_response(
             half_peak_to_peak_Nm=float(value[k]),
             stress_Pa=float(value[k] * by_torque) if by_torque else None,
             orders=tuple(map(OrderTorque, named_orders, by_order[:, k].tolist())),
+            edge=_find_edge(speeds_rpm, at[k], value[k]),
         )
         shaft = ShaftResponse(
             name=name,
@@ -301,10 +311,27 @@ def find_response(
         imep_Pa=None if excitation.gas is None else excitation.gas.imep(speeds_rpm),
         shafts=tuple(shafts),
         free_end_deg=degrees[:, end],
-        free_end_worst=WorstSwing(float(at[end]), worst_deg[end]),
+        free_end_worst=WorstSwing(
+            float(at[end]), worst_deg[end], _find_edge(speeds_rpm, at[end], value[end])
+        ),
         dampers=dampers or None,
         pendulums=tuple(pendulums) or None,
     )
+
+
+def _find_edge(speeds_rpm: Real, at: float, value: float) -> Edge | None:
+    """Return the end of the range of speeds at which the largest value occurs.
+
+    Args:
+        speeds_rpm: Rising speeds, shape (speeds,).
+        at: Speed of the largest value, rpm.
+        value: Largest value; if it is 0, it occurs at no speed.
+    """
+    if len(speeds_rpm) == 1 or value == 0:
+        return None
+    if at <= speeds_rpm[0]:
+        return "first"
+    return "last" if at >= speeds_rpm[-1] else None
 
 
 # ------------------------------------------------------------------ barred speeds

@@ -40,13 +40,14 @@ from ..show.sheet import (
 from ..show.units import SI, ShownUnit, System
 from .answer import BEYOND, HolzerTable, TorsionAnalysis
 from .dampers import DAMPER_KEYS, FIGURES, SizedDamper
-from .response import TorsionResponse, WorstTorque
+from .response import Edge, TorsionResponse, WorstTorque
 from .system import TorsionalSystem
 
 _MOST_MODES = 5  # largest number of shapes in a table; more do not fit into a terminal
 _MOST_CRITICALS = 24  # largest number of listed criticals
 _LEAST_SHARE = 0.01  # least share of work of a listed critical speed
 _MOST_LISTED = 8  # largest number of orders, or shafts without a diameter, in one sentence
+_MOST_OUTSIDE = 3  # number of critical speeds that are named on each side of the range
 _MOST_ORDERS = 3  # number of orders that are listed for a shaft's torque
 _LEAST_AMPLITUDE = 1e-3  # least amplitude of a listed order, as a share of the largest one
 
@@ -111,6 +112,10 @@ def _list_lines(found: Node) -> Iterator[Line]:
         where = ("mode", "speed_rpm", "order")
         head = Line("critical", *(each[key] for key in where))
         yield from _put(head, list_figures(each, where))
+    for each in found.get("criticals_outside", ()):
+        where = ("mode", "speed_rpm", "order")
+        head = Line("critical_outside", *(each[key] for key in where))
+        yield from _put(head, list_figures(each, where))
     yield from _list_extras(found)
 
 
@@ -173,7 +178,10 @@ def _list_worst(response: Node) -> Iterator[Line]:
 def _put_swing(figure: str, node: str, worst: Node) -> Iterator[Line]:
     """Yield the line of the largest swing of the pendulums at a node, or of the free end."""
     head = Line("worst", None, worst["speed_rpm"], worst.get("order"), name=node)
-    yield from _put(head, [Figure(figure, worst["half_swing_deg"], "deg")])
+    figures = [Figure(figure, worst["half_swing_deg"], "deg")]
+    if "edge" in worst:
+        figures.append(Figure("edge", worst["edge"], ""))
+    yield from _put(head, figures)
 
 
 # ------------------------------------------------------------------ for people
@@ -283,8 +291,10 @@ def _show_criticals(result: TorsionAnalysis) -> Grid | Text:
         title += f", {_name_span(result.response.speeds_rpm)}"
     scope = _name_scope(result)
     criticals = result.criticals
+    outside = _name_outside(result)
     if not criticals:
-        return Text(title, (f"None: no order meets a mode that it drives. {scope}",))
+        none = f"None: no order meets a mode that it drives. {scope}{outside}"
+        return Text(title, (none,))
     large = [critical for critical in criticals if critical.work_share >= _LEAST_SHARE]
     shown = large[:_MOST_CRITICALS]
     heads = [
@@ -306,7 +316,26 @@ def _show_criticals(result: TorsionAnalysis) -> Grid | Text:
         rows.append(row)
     note = f"Sorted by work. Share: part of all work done on that mode. {scope}"
     note += _count_in_json(len(criticals) - len(shown), "critical speed")
-    return Grid.of_rows(title, heads, rows, note)
+    return Grid.of_rows(title, heads, rows, note + outside)
+
+
+def _name_outside(result: TorsionAnalysis) -> str:
+    """Return a note on the critical speeds with most work just outside the range of speeds."""
+    if not hasattr(result, "criticals_outside"):
+        return ""
+    first = float(result.response.speeds_rpm[0])
+    below = [each for each in result.criticals_outside if each.speed_rpm < first]
+    above = [each for each in result.criticals_outside if each.speed_rpm > first]
+    named = []
+    for side in (below, above):
+        for critical in sorted(side, key=attrgetter("work"))[-_MOST_OUTSIDE:]:
+            named.append(critical)
+    named.sort(key=attrgetter("speed_rpm"))
+    told = []
+    for critical in named:
+        order = order_name(critical.order)
+        told.append(f"{number(critical.speed_rpm)} rpm (mode {critical.mode}, order {order})")
+    return f" Just outside: {', '.join(told)}." if told else ""
 
 
 def _name_scope(result: TorsionAnalysis) -> str:
@@ -391,7 +420,7 @@ def _show_response(
     span = _name_span(response.speeds_rpm)
     worst = _describe_worst(result, response, system)
     if not response.shafts:
-        return Text(f"Vibration, {span}", (worst,))
+        return Text(f"Vibration, {span}", (worst + _describe_edges(result, response),))
     unit = system.moment.fit(max(_add_amplitudes(shaft.worst) for shaft in response.shafts))
     stress = system.stress.fit(0.0)
     with_stress = any(result.system.stress_by_torque)
@@ -410,7 +439,7 @@ def _show_response(
         row = [
             shaft.name,
             number(unit.of(most.half_peak_to_peak_Nm)),
-            number(most.speed_rpm),
+            f"{_MARKS[most.edge]}{number(most.speed_rpm)}",
             number(unit.of(_add_amplitudes(most))),
         ]
         if with_stress:
@@ -421,8 +450,31 @@ def _show_response(
         "±: half of peak to peak at the worst speed, all orders added with their phases. sum: sum "
         f"of their amplitudes, too large because orders do not peak together. {worst}"
         f"{_name_gas(result, ' The gas torque is the same at every speed.')}"
+        f"{_describe_edges(result, response)}"
     )
     return Grid.of_rows(f"Vibratory torque, {span}", heads, rows, note)
+
+
+# What the speed of a largest value is marked with at an end of the range.
+_MARKS: dict[Edge | None, str] = {None: "", "first": "< ", "last": "> "}
+
+
+def _describe_edges(result: TorsionAnalysis, response: TorsionResponse) -> str:
+    """Return sentences on the shafts whose largest value is at an end of the range of speeds."""
+    edges = [(shaft.name, shaft.worst.edge) for shaft in response.shafts]
+    edges.append((f"swing of {result.system.free_end}", response.free_end_worst.edge))
+    sentences = ""
+    for end, place, side in (("first", "lowest", "below"), ("last", "highest", "above")):
+        names = [name for name, edge in edges if edge == end]
+        if names:
+            speed = number(float(response.speeds_rpm[0 if end == "first" else -1]))
+            if len(names) > _MOST_LISTED:
+                names[_MOST_LISTED:] = ["..."]
+            sentences += (
+                f" {', '.join(names)}: the largest value is at {speed} rpm, the {place} speed; it "
+                f"may be larger {side}. Widen --speeds."
+            )
+    return sentences
 
 
 def _add_amplitudes(torque: WorstTorque) -> float:
