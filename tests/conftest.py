@@ -1,5 +1,6 @@
 """What all tests share: hypothesis repeats itself and has no deadline (machines are shared)."""
 
+import gc
 import os
 import shutil
 import sys
@@ -30,6 +31,18 @@ def pytest_configure(config):
     if not config.getoption("numprocesses", None):  # who starts workers does not change what they inherit
         os.environ["PYTHONPYCACHEPREFIX"] = config.byte_code
         del os.environ["PYTHONDONTWRITEBYTECODE"]
+
+
+def pytest_collection(session):
+    """Nothing becomes garbage while modules are imported: the collector would walk through all of them in vain."""
+    gc.disable()
+
+
+def pytest_collection_finish(session):
+    """Modules and tests stay to the end: the collector leaves them alone from now on."""
+    gc.collect()
+    gc.freeze()
+    gc.enable()
 
 
 @pytest.hookimpl(optionalhook=True)  # of pytest-xdist
