@@ -20,6 +20,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from contextlib import suppress
+from functools import lru_cache
 from itertools import combinations, product
 from math import sqrt
 from typing import NamedTuple
@@ -103,6 +104,7 @@ def find_optimum(design: str, criterion: str, engine_force: str, lam: float) -> 
     return Optimum(design, criterion, engine_force, float(x[0]), float(x[1]), largest, mean)
 
 
+@lru_cache(16)  # a comparison of schemes asks for it once a design
 def find_optima(lam: float) -> tuple[Optimum, ...]:
     """Return the optima of both designs by both criteria for both forces. The first optimum is
     design a with the smallest peak for orders 1 and 2.
@@ -170,9 +172,10 @@ def _evaluate(c: Array, theta: Array, derivative: int = 0) -> Array:
     """Return the values of the n-th derivative of a series (n = `derivative`; -1: its integral) at
     the angles, shape (angles,), or (angles, 2) if `c` has two series in rows.
     """
-    rate = (np.where(_ORDERS, _ORDERS, np.inf) if derivative < 0 else _ORDERS) ** float(derivative)
-    angle = np.multiply.outer(theta, _ORDERS) + derivative * np.pi / 2
-    values: Array = np.cos(angle) @ (rate * c).T
+    orders = np.flatnonzero(np.atleast_2d(c).any(axis=0))  # most of the high ones are 0
+    rate = (np.where(orders, orders, np.inf) if derivative < 0 else orders) ** float(derivative)
+    angle = np.multiply.outer(theta, orders) + derivative * np.pi / 2
+    values: Array = np.cos(angle) @ (rate * c[..., orders]).T
     return values
 
 
