@@ -139,9 +139,9 @@ def find_swing(orders: ArrayLike, phasors: Complex) -> Swing:
     Raises:
         ValueError: An order is no multiple of 1/2, is negative or comes twice.
     """
-    sides = (phasors[..., None], -phasors[..., None])
-    top, bottom = (_search(orders, side, squared=False) for side in sides)
-    return Swing(top, CyclePeak(-bottom.value, bottom.angle))
+    both = np.stack([phasors, -phasors], axis=1)[..., None]  # the lowest is the highest of -F
+    values, angles = _search(orders, both, squared=False)
+    return Swing(CyclePeak(values[0], angles[0]), CyclePeak(-values[1], angles[1]))
 
 
 def find_longest(orders: ArrayLike, phasors: Complex) -> CyclePeak:
@@ -224,7 +224,8 @@ def _find_tops(
     high = samples.max(axis=1, keepdims=True)
     swing = high - (0 if squared else samples.min(axis=1, keepdims=True))
     here = samples >= high - (1 - np.cos(np.pi / _SAMPLES) ** 2) * swing
-    here &= (samples > np.roll(samples, 1, axis=1)) & (samples >= np.roll(samples, -1, axis=1))
+    rises = samples > np.roll(samples, 1, axis=1)
+    here &= rises & ~np.roll(rises, -1, axis=1)
     here[np.arange(len(parts)), samples.argmax(axis=1)] = True
     curve, at = np.nonzero(here)
     step = _TURN / samples.shape[1]
