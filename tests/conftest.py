@@ -39,9 +39,12 @@ def pytest_collection(session):
 
 
 def pytest_collection_finish(session):
-    """Modules and tests stay to the end: the collector leaves them alone from now on."""
+    """Modules and tests stay to the end: the collector leaves them alone from now on, and looks more seldom at what
+    tests keep for each other.
+    """
     gc.collect()
     gc.freeze()
+    gc.set_threshold(10_000, 10, 100)
     gc.enable()
 
 

@@ -32,17 +32,16 @@ def seen(curve: Phasors, theta: np.ndarray) -> np.ndarray:
 def smallest_of_points(points: np.ndarray) -> float:
     """Radius by all triples, in exact fractions: the largest of the smallest circles around three points (Helly)."""
 
-    def square(p, q) -> Fraction:
-        return (p[0] - q[0]) ** 2 + (p[1] - q[1]) ** 2
+    exact = [(Fraction(p.real), Fraction(p.imag)) for p in points.tolist()]
+    squares = {(p, q): (p[0] - q[0]) ** 2 + (p[1] - q[1]) ** 2 for p, q in itertools.combinations(exact, 2)}
 
     def around(a, b, c) -> Fraction:
-        short, middle, long = sorted((square(a, b), square(b, c), square(c, a)))
+        short, middle, long = sorted((squares[a, b], squares[b, c], squares[a, c]))
         if short + middle <= long:  # obtuse, or in line
             return long / 4
         area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
         return short * middle * long / (4 * area**2)
 
-    exact = [(Fraction(p.real), Fraction(p.imag)) for p in points.tolist()]
     return math.sqrt(max(around(*triple) for triple in itertools.combinations(exact, 3)))
 
 

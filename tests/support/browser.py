@@ -46,6 +46,7 @@ class Browser:
             os.close(end)
         self._in = os.fdopen(ours_in, "rb")
         self._out = os.fdopen(ours_out, "wb")
+        self._unread = b""
         self._count = 0
         self._session = ""
         self.complaints: list[str] = []
@@ -108,11 +109,12 @@ class Browser:
 
     def _next(self) -> dict[str, Any]:
         """The next message, noted if it is a complaint or a request."""
-        data = bytearray()
-        while (byte := self._in.read(1)) != b"\0":
-            if not byte:
+        while b"\0" not in self._unread:
+            more = os.read(self._in.fileno(), 1 << 20)
+            if not more:
                 raise EOFError("the browser has gone")
-            data += byte
+            self._unread += more
+        data, _, self._unread = self._unread.partition(b"\0")
         message: dict[str, Any] = json.loads(data)
         params = message.get("params", {})
         match message.get("method"):
