@@ -59,9 +59,9 @@ def _report_fault(error: Exception) -> None:
         import traceback
 
         say("".join(traceback.format_exception(error)).rstrip("\n"))
-    what = ": ".join(filter(None, (type(error).__name__, str(error))))
+    fault = ": ".join(filter(None, (type(error).__name__, str(error))))
     say(
-        f"balcli: internal error ({what}); this is a fault of balcli, do not trust its figures: "
+        f"balcli: internal error ({fault}); this is a fault of balcli, do not trust its figures: "
         "please report it with the command and its files (BALCLI_TRACEBACK=1 prints a traceback)"
     )
 

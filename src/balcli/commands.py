@@ -91,11 +91,11 @@ def engines(
         write_file(own, target)
 
 
-def _list(found: list[examples.Example]) -> str:
+def _list(listed: list[examples.Example]) -> str:
     """Return the listing of examples: one line for each engine, under the name of its class."""
     width = max(map(len, examples.names()))
     parts = []
-    for group, members in groupby(found, key=lambda example: example.group):
+    for group, members in groupby(listed, key=lambda example: example.group):
         lines = [f"{example.name:{width}}  {example.lesson}" for example in members]
         parts.append("\n".join([group, "─" * len(group), *lines]))
     return "\n\n".join(parts)
@@ -164,11 +164,11 @@ def describe_document(name: str) -> Node:
     """
     from .file.schema import DIALECT  # pydantic
 
-    found = describe_record(import_name(DOCUMENTS[name]))
-    properties = {"version": {"type": "string"}} | found["properties"]
+    record = describe_record(import_name(DOCUMENTS[name]))
+    properties = {"version": {"type": "string"}} | record["properties"]
     head = {"$schema": DIALECT, "$id": f"urn:balcli:schema:{name}:1"}
-    changed = {"properties": properties, "required": ["version", *found["required"]]}
-    return head | found | changed | {"title": f"balcli.{name}/1"}
+    changed = {"properties": properties, "required": ["version", *record["required"]]}
+    return head | record | changed | {"title": f"balcli.{name}/1"}
 
 
 def bench(form: FormatOption = None, output: Output = None) -> None:

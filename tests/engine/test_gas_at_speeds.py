@@ -59,7 +59,7 @@ def hold(speed: float, **keys: object) -> dict[str, object]:
 
 def read_torques(engine: Engine) -> np.ndarray:
     """Gas torque of every cylinder by order, shape (orders, cylinders)."""
-    return compute_spectra(engine, ORDERS, ["gas"], each=True)["gas"].x
+    return compute_spectra(engine, ORDERS, ["gas"], by_cylinder=True)["gas"].x
 
 
 def assert_follows(text: str, exact: dict[float, np.ndarray]) -> None:

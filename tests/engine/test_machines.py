@@ -141,7 +141,7 @@ def test_harmonic_motion_is_the_limit_of_a_long_rod():
 
 def test_an_offset_piston_in_harmonic_motion_has_a_couple_and_even_strokes():
     made = engine(**harmonic({"motion": "harmonic"}, offset=5))
-    each = compute_spectra(made, [1], ["couple"], each=True)["couple"].major[0]
+    each = compute_spectra(made, [1], ["couple"], by_cylinder=True)["couple"].major[0]
     assert each == pytest.approx(2.2 * 0.005 * 0.045 * float(made.omega) ** 2, rel=1e-12)
     travel = find_travel(made.cylinders)
     assert travel.stroke == pytest.approx(0.09, rel=1e-15)

@@ -102,7 +102,7 @@ def test_each_cylinder_is_what_it_is_alone(name):
     layout = "firing_order = [1, 3, 4, 2]" if name == "ripple" else ""
     ripple = "speed_ripple = [{order = 2, amplitude = 0.02, angle = 30}]\n"
     subject = inline_engine([0, 180, 180, 0], layout, ripple) if name == "ripple" else load(ENGINES / f"{name}.toml")
-    together = spectrum.compute_spectra(subject, ORDERS, each=True)
+    together = spectrum.compute_spectra(subject, ORDERS, by_cylinder=True)
     for row, number in enumerate(subject.numbers):
         for quantity, single in spectrum.compute_spectra(alone(subject, number), ORDERS).items():
             one = together.select_place(row)

@@ -106,7 +106,7 @@ def test_equal_cylinders_that_fire_evenly_leave_multiples_of_their_number_alone(
     found = build_text(text + WIEBE)
     per_cycle = len(firing) * 2 / strokes
     total = compute_spectra(found, ORDERS, ["gas"])["gas"]
-    each = compute_gas_torque(found, ORDERS, each=True)
+    each = compute_gas_torque(found, ORDERS, by_cylinder=True)
     alone = ORDERS % per_cycle == 0
     assert total.balanced.tolist() == (~alone).tolist()
     sum_of_sizes = len(firing) * np.abs(scalar(each)[:, 0])
@@ -122,7 +122,7 @@ def test_a_misfire_leaves_what_the_cylinder_would_have_made():
     whole = build_text(FOUR + WIEBE)
     missing = build_text(FOUR + WIEBE + "[cylinder.3]\ngas = 0\n")
     row = whole.numbers.index(3)
-    gone = compute_gas_torque(whole, ORDERS, each=True).forward[:, row]
+    gone = compute_gas_torque(whole, ORDERS, by_cylinder=True).forward[:, row]
     left = compute_gas_torque(missing, ORDERS).forward
     assert left == pytest.approx(compute_gas_torque(whole, ORDERS).forward - gone, abs=1e-11)
     assert np.all(explain_symmetry(missing, [0.5, 1], ["gas"]).reasons[0].size > 0.9)

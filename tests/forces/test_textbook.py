@@ -103,7 +103,7 @@ def test_units_of_an_engine_whose_first_cylinder_is_articulated_are_its_masters(
     orders = np.array([1.0, 2.0, 4.0])
     units = find_textbook_units(vee, orders)
     alone = with_reciprocating_only(vee)
-    each = compute_spectra(alone, orders, ["force"], each=True)["force"]
+    each = compute_spectra(alone, orders, ["force"], by_cylinder=True)["force"]
     of_master = each.major[:, vee.numbers.index(2)]
     assert units.cylinder == 2
     assert [units.size(FORCE, n) for n in orders] == pytest.approx(list(of_master), rel=1e-12)

@@ -374,7 +374,7 @@ def _analyze_cylinders(
     most = MOST_RESULTS_BY_CYLINDER // len(engine.numbers)
     if count > MOST_RESULTS_BY_CYLINDER:
         raise BalcliError(f"by cylinder: {count} results; give at most {most} orders")
-    own = compute_spectra(engine, orders, kinds, each=True)
+    own = compute_spectra(engine, orders, kinds, by_cylinder=True)
     shares = []
     for number in engine.rising_numbers:
         shares.append(CylinderShare(number, own.select_place(engine.numbers.index(number))))

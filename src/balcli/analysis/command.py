@@ -118,10 +118,10 @@ def compare(
     engines = [read_engine(path, rpm, chosen).engine for path in paths]
     names = name_engines([engine.name for engine in engines], paths)
     least = parse_small(small)
-    found = compare_engines(
+    comparison = compare_engines(
         *engines, names=names, orders=asked, only=chosen, all=whole, small=least
     )
-    show([found], RENDERER, form, output, units)
+    show([comparison], RENDERER, form, output, units)
 
 
 def _refuse_parts(words: Sequence[str], paths: Sequence[str]) -> None:
@@ -175,11 +175,11 @@ def curves(
     step_deg = read_figure("step", step, ANGLE)
     engine = read_engine(path, parse_speed(speed), None if cylinder is None else ()).engine
     number = None if cylinder is None else parse_cylinder(cylinder)
-    found = chapter.compute_curves_by_step(engine, number, step_deg, asked)
+    curves = chapter.compute_curves_by_step(engine, number, step_deg, asked)
     if form is Format.CSV:
-        text = csv_text([chapter.rows(found)])
+        text = csv_text([chapter.rows(curves)])
     else:
-        text = json_text(chapter.RENDERER.document(found))
+        text = json_text(chapter.RENDERER.document(curves))
     emit(text, output)
 
 
@@ -203,10 +203,10 @@ def piston(
     form = text_format(output, form)
     from . import piston as chapter
 
-    found = chapter.piston(read_engine(path, parse_speed(speed), ()).engine)
+    motion = chapter.piston(read_engine(path, parse_speed(speed), ()).engine)
     if cylinder is not None:
-        found = chapter.choose_cylinder(found, cylinder)
-    show([found], chapter.RENDERER, form, output, units)
+        motion = chapter.choose_cylinder(motion, cylinder)
+    show([motion], chapter.RENDERER, form, output, units)
 
 
 Phase = Annotated[

@@ -352,8 +352,8 @@ def sheet(result: Comparison, system: System) -> Sheet:
         result: Comparison of the engines.
         system: System of units.
     """
-    told = [tell_speed(engine) for engine in result.compared]
-    speeds = ("speeds", "; ".join(told)) if len(set(told)) > 1 else ("speed", told[0])
+    texts = [tell_speed(engine) for engine in result.compared]
+    speeds = ("speeds", "; ".join(texts)) if len(set(texts)) > 1 else ("speed", texts[0])
     parts: list[Facts | Grid | Text] = [Facts((speeds,)), *assumed_facts(result.assumed)]
     nothing: list[str] = []
     for kind in dict.fromkeys(line.kind for line in result.figures):

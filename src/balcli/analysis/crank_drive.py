@@ -99,16 +99,16 @@ def weigh_cylinders(engine: Engine) -> dict[tuple[str, int], Array]:
     if engine.rotary:
         raise BalcliError("journals: the crank of a rotary engine stands still")
     throws = np.array(engine.joined_throw_of_rows) + 1
-    found = dict[tuple[str, int], Array]()
+    shares = dict[tuple[str, int], Array]()
     pin = 1
     for main, before in enumerate(_count_throws_before_bearings(engine), 1):
         while pin <= before:
-            found["pin", pin] = np.where(throws < pin, 1.0, 0.5 * (throws == pin))
+            shares["pin", pin] = np.where(throws < pin, 1.0, 0.5 * (throws == pin))
             pin += 1
-        found["main", main] = np.where(throws <= before, 1.0, 0.0)
+        shares["main", main] = np.where(throws <= before, 1.0, 0.0)
     for last in range(pin, int(throws.max()) + 1):
-        found["pin", last] = np.where(throws < last, 1.0, 0.5 * (throws == last))
-    return found
+        shares["pin", last] = np.where(throws < last, 1.0, 0.5 * (throws == last))
+    return shares
 
 
 def _count_throws_before_bearings(engine: Engine) -> list[int]:
@@ -140,7 +140,7 @@ class CrankTorques(NamedTuple):
         steady = replace(engine, ripple=())
         orders = find_relevant_orders(steady)
         orders = orders[orders > 0]
-        each = compute_spectra(steady, orders, ("torque",), each=True)["torque"].x
+        each = compute_spectra(steady, orders, ("torque",), by_cylinder=True)["torque"].x
         return cls(orders, each, engine.gas)
 
     def measure(self, weights: Array) -> JournalTorque:

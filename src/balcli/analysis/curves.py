@@ -298,10 +298,10 @@ def _find_gas_torque(engine: Engine, crank_deg: Array) -> dict[str, Array]:
     gas torque on the loads of the cranks; the frame carries the opposite of the second one.
     """
     at = np.radians(crank_deg)
-    each = [c.share * c.torque.curve.at(at - c.fires) for c in take_gas(engine).cylinders]
+    torques = [c.share * c.torque.curve.at(at - c.fires) for c in take_gas(engine).cylinders]
     senses = [one.load_sense for one in engine.cranks for _ in one.engine.numbers]
-    borne = (sense * torque for sense, torque in zip(senses, each, strict=True))
-    return {GAS.key: sum(each, np.zeros(at.shape)), "borne": sum(borne, np.zeros(at.shape))}
+    borne = (sense * torque for sense, torque in zip(senses, torques, strict=True))
+    return {GAS.key: sum(torques, np.zeros(at.shape)), "borne": sum(borne, np.zeros(at.shape))}
 
 
 def _find_cylinder_gas(engine: Engine, row: int, crank_deg: Array) -> dict[str, Array]:

@@ -221,11 +221,11 @@ def holes_grid(
             drilled.append(figures)
     if tools.slug is None:
         title = f"Holes to drill, {drill}"
-        what = "Holes remove steel opposite to the weight that is needed. They are"
+        advice = "Holes remove steel opposite to the weight that is needed. They are"
     else:
         title = f"Holes for slugs of {number(tools.slug / 1e3)} g/cm³, {drill}"
-        what = "Slugs replace steel on the side of the weight that is needed. Holes are"
-    note = f"{what} radial, {rim} inwards, and side by side along the axis."
+        advice = "Slugs replace steel on the side of the weight that is needed. Holes are"
+    note = f"{advice} radial, {rim} inwards, and side by side along the axis."
     depths = [_length(figures.drill_depth_mm or 0.0, unit, 4) for figures in drilled]
     columns = [
         Column("for", names, words=True),

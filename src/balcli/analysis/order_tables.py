@@ -71,9 +71,9 @@ def order_tables(
     for kind, phasors in spectra.vectors():
         yield _vector_table(kind, phasors, system.unit(kind), every)
     inertia = f"{pivot} of inertia alone" if with_gas else pivot
-    for kinds, what, note in ((KINDS, inertia, roll), (GAS_KINDS, f"{pivot} with gas", "")):
+    for kinds, subject, note in ((KINDS, inertia, roll), (GAS_KINDS, f"{pivot} with gas", "")):
         if (part := spectra.only(kinds)).scalars():
-            yield _scalar_table(part, system.moment, note, what, every)
+            yield _scalar_table(part, system.moment, note, subject, every)
 
 
 def direction_tables(spectra: Spectra, system: System, *, every: bool = False) -> Iterator[Grid]:
@@ -202,9 +202,9 @@ def peak_facts(
     """
     pairs = []
     for kind, peak in result.peaks:
-        known = kind is not MOMENT or result.moments_known
+        is_known = kind is not MOMENT or result.moments_known
         least = NEGLIGIBLE * (single or {}).get(kind.name, 0.0)
-        text = _peak(peak, system.unit(kind), least) if known else UNKNOWN
+        text = _peak(peak, system.unit(kind), least) if is_known else UNKNOWN
         at_most = result.peak.at_most.get(kind.name)
         if at_most is not None:
             size = size_text(at_most, system.unit(kind), 5)
@@ -282,7 +282,7 @@ def _vector_table(kind: Kind, phasors: Phasors, unit: ShownUnit, every: bool) ->
     return _table(title, heads, [phasors], lambda k: write_vector(phasors, k, unit), every)
 
 
-def _scalar_table(spectra: Spectra, unit: ShownUnit, roll: str, what: str, every: bool) -> Grid:
+def _scalar_table(spectra: Spectra, unit: ShownUnit, roll: str, subject: str, every: bool) -> Grid:
     kinds, phasors = zip(*spectra.scalars(), strict=True)
     unit = fit_largest(unit, *phasors)
 
@@ -296,7 +296,7 @@ def _scalar_table(spectra: Spectra, unit: ShownUnit, roll: str, what: str, every
     heads: list[str] = []
     for kind in kinds:
         heads += [ROLL.name if roll and kind == ROLL else kind.label, "peak, deg"]
-    return _table(f"About {what}, {unit.name}", heads, phasors, cells, every, roll)
+    return _table(f"About {subject}, {unit.name}", heads, phasors, cells, every, roll)
 
 
 def fit_largest(unit: ShownUnit, *columns: Phasors) -> ShownUnit:

@@ -70,10 +70,10 @@ def tell_others(spectra: Spectra, shown: list[float], system: System, *, hints: 
         system: System of units.
         hints: Whether to name the option that shows more.
     """
-    there = np.zeros(spectra.orders.shape, bool)
+    present = np.zeros(spectra.orders.shape, bool)
     for _, phasors in spectra.items():
-        there |= phasors.major > 0
-    others = [float(order) for order in spectra.orders[there] if order not in shown]
+        present |= phasors.major > 0
+    others = [float(order) for order in spectra.orders[present] if order not in shown]
     if not others:
         return ""
     sizes = []

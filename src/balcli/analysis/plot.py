@@ -71,7 +71,7 @@ _MOST_TICKS = 12  # numbers on an axis of orders
 
 
 def draw_vector_bars(
-    ax: Axes, curve: Phasors, what: str, unit: ShownUnit, before: Phasors | None = None
+    ax: Axes, curve: Phasors, quantity: str, unit: ShownUnit, before: Phasors | None = None
 ) -> None:
     """Draw the largest value of each order as a bar of two parts: the vector that turns with the
     crank, and on top of it the vector that turns against the crank.
@@ -79,7 +79,7 @@ def draw_vector_bars(
     Args:
         ax: Axes to draw on.
         curve: Phasors of the vector, shape (orders,).
-        what: Name of the quantity.
+        quantity: Name of the quantity.
         unit: Unit of the quantity.
         before: Phasors of the same orders before balancing, whose largest values are drawn dashed;
             None if there are none.
@@ -96,7 +96,7 @@ def draw_vector_bars(
     width = 0.56 * gap
     ax.bar(orders, ahead, width, color=BLUE, label="with the crank")
     ax.bar(orders, against, width, bottom=ahead, color=BLUE, hatch="////", label="against it")
-    _finish_bars(ax, orders, f"{what}, {s.name}")
+    _finish_bars(ax, orders, f"{quantity}, {s.name}")
     _write_sizes(ax, orders, ahead + against)
 
 
@@ -184,7 +184,7 @@ def draw_curves(
     ax: Axes,
     crank: Array,
     lines: Mapping[str, Array],
-    what: str,
+    quantity: str,
     unit: ShownUnit,
     dashed: Mapping[str, Array] = MappingProxyType({}),
     looks: Sequence[_CurveLook] = _COMPONENTS,
@@ -195,7 +195,7 @@ def draw_curves(
         ax: Axes to draw on.
         crank: Crank angles, rad, shape (angles,).
         lines: Values by label, each of shape (angles,).
-        what: Name of the quantity.
+        quantity: Name of the quantity.
         unit: Unit of the quantity.
         dashed: Further values by label, drawn dashed, such as those before balancing.
         looks: Looks of the lines; default: two components, and their sum.
@@ -208,7 +208,7 @@ def draw_curves(
         ax.plot(crank, line / s.size, label=label, **look.of_line)
     ax.axhline(0, color=SOFT, linewidth=0.7)
     set_crank_axis(ax, crank)
-    ax.set_ylabel(f"{what}, {s.name}")
+    ax.set_ylabel(f"{quantity}, {s.name}")
     ax.locator_params(axis="y", nbins=5)
     put_legend_above(ax)
 
@@ -287,7 +287,7 @@ def draw_factors(
 
 
 def draw_along(
-    ax: Axes, curves: Sequence[AlongCrank], what: str, system: System, steps: str, over: str
+    ax: Axes, curves: Sequence[AlongCrank], quantity: str, system: System, steps: str, over: str
 ) -> None:
     """Draw the largest values at places along the crankshaft.
 
@@ -299,7 +299,7 @@ def draw_along(
         steps: matplotlib's drawstyle of the line between the places; empty: vertical lines.
         over: Span over which the largest values are taken, such as "the cycle".
     """
-    unit = system.force if what == "force" else system.moment
+    unit = system.force if quantity == "force" else system.moment
     values = [np.array([peak.value for peak in curve.peaks]) for curve in curves]
     s = unit.fit(float(max(map(np.max, values))))
     now: Look = {"color": BLUE, "linewidth": 2.2, "zorder": 3}
@@ -311,7 +311,7 @@ def draw_along(
             ax.plot(z, sizes / s.size, drawstyle=steps, label=label, **look)
         else:
             ax.vlines(z, 0, sizes / s.size, label=label, **look)
-    ax.set(ylabel=f"{what}, {s.name}", ylim=(0, None))
+    ax.set(ylabel=f"{quantity}, {s.name}", ylim=(0, None))
     put_legend_above(ax)
 
 

@@ -558,10 +558,10 @@ class BalanceParts(NamedTuple):
         for number, part in enumerate(self.counterweights, 1):
             if part.clearance_m is not None and part.clearance_m < 0:
                 gap = f"{1e3 * part.clearance_m:.4g} mm"
-                told = (
+                message = (
                     f"has a clearance of {gap} to the lowest piston; make its outer radius smaller"
                 )
-                yield Doubt(f"counterweight.{number}", told)
+                yield Doubt(f"counterweight.{number}", message)
 
 
 class PartAtOtherSpeed(NamedTuple):

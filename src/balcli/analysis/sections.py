@@ -184,9 +184,9 @@ def lay_out_guide(guide: GuideMoments, system: System) -> Grid:
         Column("H-type", write(guide.h)),
         Column("X-type", write(guide.x)),
     ]
-    what = "of inertia and gas" if guide.with_gas else _ALONE
+    causes = "of inertia and gas" if guide.with_gas else _ALONE
     note = define_guide_moments(guide.height_m, system)
-    return Grid(f"Guide-force moments {what}, {unit.name}", columns, note)
+    return Grid(f"Guide-force moments {causes}, {unit.name}", columns, note)
 
 
 def define_guide_moments(height_m: Array, system: System) -> str:

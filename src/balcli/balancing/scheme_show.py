@@ -98,9 +98,9 @@ def tell_best_factors(result: Balance, system: System) -> str:
     best = []
     for name, figures in remedy.details.get("best", {}).items():
         key = next(key for key in figures if key != "factor")
-        what = name.replace("_", " ")
+        load = name.replace("_", " ")
         size = size_text(figures[key], system.force if find_unit(key) == "N" else system.moment)
-        goal = f"peak {what}" if key.startswith("peak") else f"{what} load"
+        goal = f"peak {load}" if key.startswith("peak") else f"{load} load"
         best.append((percent(figures["factor"]), f"the smallest {goal} ({size})"))
     if not best:
         return ""

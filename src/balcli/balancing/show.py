@@ -170,8 +170,8 @@ def _name_fitted(remedy: Remedy) -> str:
 
 def _tell_left(result: Balance, system: System) -> str:
     """Return words on the forces and moments of orders 1 and 2 that steps of the ladder leave."""
-    known = result.after.moments_known
-    kinds = (FORCE, MOMENT) if known else (FORCE,)
+    moments_known = result.after.moments_known
+    kinds = (FORCE, MOMENT) if moments_known else (FORCE,)
     spectra = compute_spectra(result.after.engine, [1, 2], [kind.name for kind in kinds])
     left = []
     for k, order in enumerate((1, 2)):
@@ -183,7 +183,7 @@ def _tell_left(result: Balance, system: System) -> str:
             left.append(f"order {order}: {', '.join(sizes)}")
     if left:
         return f"Leaves {'; '.join(left)}."
-    return f"Leaves no {'force or moment' if known else 'force'} of orders 1 and 2."
+    return f"Leaves no {'force or moment' if moments_known else 'force'} of orders 1 and 2."
 
 
 def _tell_couple(result: Balance, system: System) -> str:
@@ -237,14 +237,14 @@ def _permitted(result: Balance, system: System) -> Iterator[Grid]:
     judge: Callable[[float, float], str]
     if remedy.needs:
         head = f"plane at z, {length.name}"
-        what = "missing"
+        figure = "missing"
         last = "of permitted"
         judge = _compare_with_permitted
         sizes = [abs(need.missing) for need in remedy.needs]
         names = [number(length.of(need.position_mm / 1e3)) for need in remedy.needs]
     else:
         head = "counterweight"
-        what = "unbalance"
+        figure = "unbalance"
         last = "tolerance"
         judge = _find_tolerance
         sizes = [find_unbalance(weight) for weight in remedy.counterweights]
@@ -252,7 +252,7 @@ def _permitted(result: Balance, system: System) -> Iterator[Grid]:
     unit = system.unbalance.fit(max(sizes))
     columns = [
         Column(head, names, words=True),
-        Column(f"{what}, {unit.name}", [number(unit.of(size)) for size in sizes]),
+        Column(f"{figure}, {unit.name}", [number(unit.of(size)) for size in sizes]),
         Column(f"permitted, {unit.name}", [number(unit.of(permitted))] * len(sizes)),
         Column(last, [judge(size, permitted) for size in sizes]),
     ]
@@ -292,10 +292,10 @@ def card_sheet(result: Balance, system: System) -> Sheet:
         )
     factor = remedy.card[0].factor
     rods = len(remedy.card[0].cylinders)
-    told = f"{percent(factor)} of all reciprocating mass on the pin"
+    factor_text = f"{percent(factor)} of all reciprocating mass on the pin"
     if rods > 1:
-        told += f" = {percent(factor * rods)} of {name_one_cylinder(engine)}"
-    parts: list[Grid | Facts | Text] = [Facts((("balance factor", told),))]
+        factor_text += f" = {percent(factor * rods)} of {name_one_cylinder(engine)}"
+    parts: list[Grid | Facts | Text] = [Facts((("balance factor", factor_text),))]
     parts += card_grids(remedy.card, SI.scales, IMPERIAL.scales)
     if remedy.devices:
         what = "Still missing on the crankshaft" if remedy.needs else "Counterweights"

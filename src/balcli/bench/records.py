@@ -175,10 +175,10 @@ def find_unbeaten(methods: Iterable[Measured]) -> tuple[str, ...]:
     return tuple(unbeaten)
 
 
-def _beats(one: Measured, other: Measured) -> bool:
-    slower = one.seconds.median / other.seconds.median
+def _beats(method: Measured, other: Measured) -> bool:
+    slower = method.seconds.median / other.seconds.median
     ratios = []
-    for mine, theirs in zip(one.errors, other.errors, strict=True):
+    for mine, theirs in zip(method.errors, other.errors, strict=True):
         ratios.append(max(mine.error, ROUNDING) / max(theirs.error, ROUNDING))
     if slower > _AS_QUICK or max(ratios) > _AS_EXACT:
         return False

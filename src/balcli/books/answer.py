@@ -74,12 +74,12 @@ def _load(name: str) -> tuple[EngineFile, Engine]:
 
 def _row(name: str) -> Row:
     file, engine = _load(name)
-    found = find_textbook(engine, np.array(ORDERS, float), ("force", "moment"))
-    vectors = found.reciprocating.vectors()
+    textbook = find_textbook(engine, np.array(ORDERS, float), ("force", "moment"))
+    vectors = textbook.reciprocating.vectors()
     axes = []
     for k, order in enumerate(ORDERS):
         for kind, phasors in vectors:
-            unit = found.units.size(kind, order)
+            unit = textbook.units.size(kind, order)
             for axis in (phasors.major[k], phasors.minor[k]):
                 axes.append(float(axis / unit) if axis else 0.0)
     return (name, file.name, len(engine.numbers), *axes)

@@ -170,9 +170,9 @@ def _explain(
     for (kind, _, category), other in supposed:
         if not isinstance(other, (int, float)) or abs(other - value) <= 1e-9 * abs(value):
             continue
-        if (found := _derive(other, printed)) is not None:
+        if (cause := _derive(other, printed)) is not None:
             whose = "author's approximation: " if category == "approximation" else ""
-            return category, whose + kind + found
+            return category, whose + kind + cause
     unit = Decimal(f"1e{printed.as_tuple().exponent}")  # one unit of the last digit
     near = abs(round_like(value, printed) - printed) <= unit
     category, kind = ("rounding", "last digit") if near else ("misprint", "misprint")
@@ -292,13 +292,13 @@ def tabulate_statements(printed: Print, ranges: Ranges) -> Table:
     cells = [(source, place, *others) for source, place, _, *others in rows]
     words = [(source, place, wrong, None, None) for source, place, wrong, *_ in rows]
     errata = []
-    for i, (source, place, wrong, right, name, known) in enumerate(rows):
+    for i, (source, place, wrong, right, name, kind) in enumerate(rows):
         erratum = Erratum(
             row=i,
             column=STATEMENT,
             printed=wrong,
             exact=right,
-            kind=known,
+            kind=kind,
             label=f"{source}, {place}",
             category=cast("ErratumClass", name),
             place=place,
@@ -388,7 +388,7 @@ def parse_range(argument: str, text: str) -> tuple[str, ...]:
         ArgumentError: The text is neither a range nor a list of numbers, or has too many of them.
     """
     try:
-        found = [heading for item in text.split(",") for heading in _expand(*item.split(":"))]
+        headings = [heading for item in text.split(",") for heading in _expand(*item.split(":"))]
     except (ValueError, TypeError, ArithmeticError):
         raise ArgumentError(
             "{argument} {text!r} is no range: give START:STOP:STEP (0.20:0.40:0.01) or a list "
@@ -396,7 +396,7 @@ def parse_range(argument: str, text: str) -> tuple[str, ...]:
             argument=Argument(argument),
             text=text,
         ) from None
-    return tuple(dict.fromkeys(found))
+    return tuple(dict.fromkeys(headings))
 
 
 def parse_crank_ratios(text: str) -> tuple[str, ...]:
@@ -405,8 +405,8 @@ def parse_crank_ratios(text: str) -> tuple[str, ...]:
     Raises:
         ArgumentError: The range is wrong (see `parse_range`), or a mechanism in it cannot turn.
     """
-    found = parse_range("lambda_", text)
-    bad = next((heading for heading in found if not 0 < _read(heading) < 1), None)
+    headings = parse_range("lambda_", text)
+    bad = next((heading for heading in headings if not 0 < _read(heading) < 1), None)
     if bad is not None:
         raise ArgumentError(
             "{lambda_} {text!r}: lambda = {bad}, but a crank turns only with 0 < lambda < 1; give "
@@ -414,7 +414,7 @@ def parse_crank_ratios(text: str) -> tuple[str, ...]:
             text=text,
             bad=bad,
         )
-    return found
+    return headings
 
 
 def _read(text: str) -> Fraction:

@@ -104,11 +104,11 @@ def _list_rows(shown: list[Words], power: int) -> Iterator[tuple[Row, Words]]:
         p = int(exponent or 0)
         exact = {**GENERATED, **PRINTED}[function or ""](n, p).get(p, 0)
         yield (function, None if order is None else n, p, str(exact), source, equation), words
-    known = {words[:3] for words in shown}
+    printed = {words[:3] for words in shown}
     for name, generate in GENERATED.items():
         for n in range(power + 2):
             for p, c in generate(n, power).items():
-                if (name, str(n), str(p)) not in known:
+                if (name, str(n), str(p)) not in printed:
                     yield (name, n, p, str(c), None, None), (None,) * len(COLUMNS)
 
 

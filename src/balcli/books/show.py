@@ -241,39 +241,39 @@ def list_tables(tables: Sequence[Table], _system: System) -> Rows:
     return Rows([*entries[0]], [[*entry.values()] for entry in entries])
 
 
-def lay_out_source(found: SourceTables, _system: System) -> Sheet:
+def lay_out_source(book: SourceTables, _system: System) -> Sheet:
     """Return the tables of a source and its wrong statements, a line for each."""
-    key = found.source.key
+    key = book.source.key
     note = f"tables {key}-… shows a table, tables --errata {key} all errata"
     parts: list[Facts | Grid] = [
-        Facts((("source", found.source.citation),)),
-        _tabulate("Tables", found.tables, note),
+        Facts((("source", book.source.citation),)),
+        _tabulate("Tables", book.tables, note),
     ]
-    if found.statements:
+    if book.statements:
         names = ("place", "printed", "right")
         heads = [Column(name, words=True) for name in names]
-        wrong = [(e.place, e.printed, _write_exact(e)) for e in found.statements]
+        wrong = [(e.place, e.printed, _write_exact(e)) for e in book.statements]
         parts.append(Grid.of_rows("Wrong equations and sentences", heads, wrong))
-    return Sheet(f"{key}: {found.source.authors}", tuple(parts))
+    return Sheet(f"{key}: {book.source.authors}", tuple(parts))
 
 
-def describe_source(found: SourceTables) -> Node:
+def describe_source(book: SourceTables) -> Node:
     """Return tables and wrong statements of a source for JSON."""
     return {
         "format": "balcli.source/1",
-        "source": found.source.key,
-        "citation": found.source.citation,
-        "tables": describe_list(found.tables),
-        "statements": describe_errata([("statements", e) for e in found.statements]),
+        "source": book.source.key,
+        "citation": book.source.citation,
+        "tables": describe_list(book.tables),
+        "statements": describe_errata([("statements", e) for e in book.statements]),
     }
 
 
-def list_source(found: SourceTables, _system: System) -> Rows:
+def list_source(book: SourceTables, _system: System) -> Rows:
     """Return CSV with a line for each table, and one for each wrong statement."""
     lines: list[tuple[object, ...]] = []
-    for table in found.tables:
+    for table in book.tables:
         lines.append(("table", table.name, table.title, len(table.errata), None))
-    for erratum in found.statements:
+    for erratum in book.statements:
         right = _write_exact(erratum)
         lines.append(("statement", erratum.label, erratum.printed, None, right))
     return Rows(("kind", "name", "text", "errata", "right"), lines)

@@ -83,9 +83,9 @@ def _find_errors(approximate: Array, exact: Array) -> list[Array]:
     error = np.abs(approximate - exact)
     size = np.abs(exact)
     largest = error.max(axis=0)
-    there = np.where(error > largest * (1 - 1e-9), size, np.inf).min(axis=0)
+    smallest = np.where(error > largest * (1 - 1e-9), size, np.inf).min(axis=0)
     relative = (error / size).max(axis=0)
-    return [largest, 100 * largest / size.max(axis=0), 100 * largest / there, 100 * relative]
+    return [largest, 100 * largest / size.max(axis=0), 100 * largest / smallest, 100 * relative]
 
 
 def tabulate_mean_speeds(printed: Print, ranges: Ranges) -> Table:

@@ -147,7 +147,7 @@ def pistons(cylinders: Cylinders, area: ArrayLike, rod_area: ArrayLike = 0.0) ->
     kind = cylinders.linkage.hung if isinstance(cylinders.linkage, Rotary) else cylinders.linkage
     linkage = kind if isinstance(kind, Articulated) else None
     c = replace(cylinders, linkage=linkage)
-    found = []
+    gas_pistons = []
     figures = (c.lam, c.eps, area, *find_travel(c), c.radius, rod_area)
     lam, eps, *sizes = (np.broadcast_to(figure, c.count) for figure in figures)
     for row in range(c.count):
@@ -165,8 +165,10 @@ def pistons(cylinders: Cylinders, area: ArrayLike, rod_area: ArrayLike = 0.0) ->
         bore, stroke, top, bottom, radius, rod = (float(size[row]) for size in sizes)
         lower = math.radians(bottom + 180 - top)
         upper = math.radians(top)
-        found.append(GasPiston(bore, stroke, upper, lower, radius, lam[rows], eps[rows], own, rod))
-    return found
+        gas_pistons.append(
+            GasPiston(bore, stroke, upper, lower, radius, lam[rows], eps[rows], own, rod)
+        )
+    return gas_pistons
 
 
 # ---------------------------------------------------------------- pressure and torque

@@ -333,11 +333,11 @@ class _Cycle:
     def _refuse_beyond(self, name: str, value: float, lowest: float, highest: float) -> None:
         """Raise GasError if a value is outside the range that the cycle can reach."""
         size, unit = (1e5, " bar") if name in ("imep", "max_pressure") else (1.0, "")
-        told = f"is {value / size:g}{unit}: this cycle has"
+        message = f"is {value / size:g}{unit}: this cycle has"
         if value < lowest:
-            raise GasError(name, f"{told} at least {lowest / size:.4g}{unit}")
+            raise GasError(name, f"{message} at least {lowest / size:.4g}{unit}")
         if value > highest:
-            raise GasError(name, f"{told} at most {highest / size:.4g}{unit}")
+            raise GasError(name, f"{message} at most {highest / size:.4g}{unit}")
 
 
 def _hold(pressure: float) -> Function:

@@ -88,9 +88,9 @@ def find_peaks(curves: Phasors) -> tuple[Peak, ...]:
     """Return the largest |F| over a revolution at each place along the trailing axis."""
     values, angles = find_longest(curves.orders, _list_components(curves))
     orders = np.rint(2 * np.concatenate([curves.orders, -curves.orders])).astype(int)
-    there = np.concatenate([curves.forward, curves.backward]) != 0
+    present = np.concatenate([curves.forward, curves.backward]) != 0
     return tuple(
-        Peak(value, angle, _find_repeat(orders[there[:, place]])) if value else Peak(0.0, 0.0)
+        Peak(value, angle, _find_repeat(orders[present[:, place]])) if value else Peak(0.0, 0.0)
         for place, (value, angle) in enumerate(zip(values.tolist(), angles.tolist(), strict=True))
     )
 
@@ -176,18 +176,18 @@ def largest_of_ellipse(phasors: Complex) -> Real:
 def _search(orders: ArrayLike, phasors: Complex, *, squared: bool) -> CyclePeak:
     """Return the highest values (or, `squared`, lengths) and their first angles."""
     halves = 2 * np.asarray(orders, float)
-    there = np.any(phasors != 0, axis=tuple(range(1, phasors.ndim)))
-    there |= not np.any(there)
+    present = np.any(phasors != 0, axis=tuple(range(1, phasors.ndim)))
+    present |= not np.any(present)
     harmonics = np.rint(halves).astype(np.int64)
     if np.any(harmonics != halves) or np.any(harmonics < 0) or len(set(halves)) < len(halves):
         raise ValueError("orders have to be different multiples of 1/2, none below 0")
-    common = max(int(np.gcd.reduce(harmonics[there])), 1)  # shortens the cycle as far as possible
-    harmonics = harmonics[there] // common
+    common = max(int(np.gcd.reduce(harmonics[present])), 1)  # shortens the cycle as far as possible
+    harmonics = harmonics[present] // common
     shape = phasors.shape[1:-1]
     components = phasors.shape[-1]
-    parts = phasors[there].reshape(len(harmonics), -1, components).transpose(1, 2, 0)
+    parts = phasors[present].reshape(len(harmonics), -1, components).transpose(1, 2, 0)
     step = max(_AT_ONCE // (_SAMPLES * int(harmonics.max(initial=1)) * components), 1)
-    found = [np.zeros((2, 0))]
+    tops = [np.zeros((2, 0))]
     for start in range(0, len(parts), step):
         some = parts[start : start + step]
         size = np.sum(np.abs(some), axis=(1, 2))
@@ -198,8 +198,8 @@ def _search(orders: ArrayLike, phasors: Complex, *, squared: bool) -> CyclePeak:
         among = values >= (top - _EQUAL)[curve]
         first = np.minimum.reduceat(np.where(among, angles, _TURN), starts)
         first[at_zero >= top - _EQUAL] = 0.0
-        found.append(np.stack([(np.sqrt(top) if squared else top) * size, first * 2 / common]))
-    value, angle = np.concatenate(found, axis=1)
+        tops.append(np.stack([(np.sqrt(top) if squared else top) * size, first * 2 / common]))
+    value, angle = np.concatenate(tops, axis=1)
     return CyclePeak(value.reshape(shape), angle.reshape(shape))
 
 

@@ -70,9 +70,9 @@ def wrap_degrees(degrees: ArrayLike, turn: float) -> Array:
         degrees: Directions, deg, any shape.
         turn: 180 for lines, 360 for vectors.
     """
-    found = turn / 2 - np.remainder(turn / 2 - np.asarray(degrees, float), turn)
+    wrapped = turn / 2 - np.remainder(turn / 2 - np.asarray(degrees, float), turn)
     # The remainder of a barely negative number rounds to a whole turn.
-    return np.where(found <= -turn / 2, turn / 2, found)
+    return np.where(wrapped <= -turn / 2, turn / 2, wrapped)
 
 
 @dataclass(frozen=True, eq=False)

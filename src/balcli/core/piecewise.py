@@ -238,7 +238,7 @@ def resolved(function: Function, breaks: ArrayLike, widest: float = _WIDEST) -> 
     high = edges[1:]
     size = 0.0
     starts = []
-    found = []
+    pieces = []
     for halvings in range(_HALVINGS + 1):
         middle = (low + high) / 2
         values = function(middle + (high - low) / 2 * gauss(_TERMS)[0][:, None])
@@ -248,7 +248,7 @@ def resolved(function: Function, breaks: ArrayLike, widest: float = _WIDEST) -> 
         halve = last.max(axis=(0, 2)) > _RESOLVED * size
         halve &= halvings < _HALVINGS and len(low) < _EVERYWHERE * len(edges)
         starts.append(low[~halve])
-        found.append(series[:, ~halve])
+        pieces.append(series[:, ~halve])
         if not halve.any():
             break
         low = low[halve]
@@ -258,7 +258,7 @@ def resolved(function: Function, breaks: ArrayLike, widest: float = _WIDEST) -> 
         high = np.concatenate([middle, high])
     start = np.concatenate(starts)
     rising = np.argsort(start)
-    series = np.concatenate(found, axis=1)[:, rising]
+    series = np.concatenate(pieces, axis=1)[:, rising]
     return PiecewiseCurve(np.append(start[rising], edges[-1]), series)
 
 

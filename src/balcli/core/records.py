@@ -258,12 +258,14 @@ def to_document(record: Any) -> Node:
             lists and dicts of these.
     """
     document: Node = {}
-    for each in _list_attributes(record.__class__):
-        value = getattr(record, each.name, None)
-        if value is None and each.optional:
+    for attribute in _list_attributes(record.__class__):
+        value = getattr(record, attribute.name, None)
+        if value is None and attribute.optional:
             continue
-        written = write_each(value if each.make is None else each.make(value), each.split)
-        document |= written if each.inline else {each.key: written}
+        if attribute.make is not None:
+            value = attribute.make(value)
+        written = write_each(value, attribute.split)
+        document |= written if attribute.inline else {attribute.key: written}
     return document
 
 
@@ -365,25 +367,28 @@ def _describe_class(record: type, definitions: Node) -> Node:
     properties: Node = {}
     further: Node = {}
     required: list[str] = []
-    for each in _list_attributes(record):
-        for name, (kind_of_key, meaning) in each.keys.items():
-            node = _describe(kind_of_key, each, definitions)
+    for attribute in _list_attributes(record):
+        for name, (kind_of_key, meaning) in attribute.keys.items():
+            node = _describe(kind_of_key, attribute, definitions)
             properties[name] = {"description": _with_unit(meaning, name)} | node
-        if each.keys:
+        if attribute.keys:
             continue
-        kind = each.kind if each.make is None else get_type_hints(each.make)["return"]
-        node = _describe(kind, each, definitions)
-        if each.inline and "$ref" in node:
+        kind = attribute.kind
+        if attribute.make is not None:
+            kind = get_type_hints(attribute.make)["return"]
+        node = _describe(kind, attribute, definitions)
+        if attribute.inline and "$ref" in node:
             node = definitions[node["$ref"].rpartition("/")[2]]
-        elif each.inline and "properties" not in node:  # a dict of any keys
+        elif attribute.inline and "properties" not in node:  # a dict of any keys
             further |= node
             continue
-        for key, part in (node["properties"] if each.inline else {each.key: node}).items():
-            text = "" if each.inline else " ".join(texts.get(each.name, "").split())
+        parts = node["properties"] if attribute.inline else {attribute.key: node}
+        for key, part in parts.items():
+            text = "" if attribute.inline else " ".join(texts.get(attribute.name, "").split())
             text = _with_unit(text, key)
             properties[key] = {"description": text} | part if text else part
-        if not each.optional:
-            required += node.get("required", ()) if each.inline else (each.key,)
+        if not attribute.optional:
+            required += node.get("required", ()) if attribute.inline else (attribute.key,)
     return further | {
         "type": "object",
         "description": " ".join(summary.split()),
@@ -398,29 +403,29 @@ def _with_unit(text: str, key: str) -> str:
     return " ".join(filter(None, (text, unit and f"[{unit}]")))
 
 
-def _describe(kind: object, each: _Attribute, definitions: Node) -> Node:
+def _describe(kind: object, attribute: _Attribute, definitions: Node) -> Node:
     """Return the schema of a type within the annotation of an attribute."""
     origin = get_origin(kind)
     arguments = get_args(kind)
     if origin in (Annotated, Asked):
-        return _describe(arguments[0], each, definitions)
+        return _describe(arguments[0], attribute, definitions)
     if origin in (Union, UnionType):
-        kinds = [one for one in arguments if not (one is NoneType and each.optional)]
-        nodes = [_describe(one, each, definitions) for one in kinds]
+        kinds = [one for one in arguments if not (one is NoneType and attribute.optional)]
+        nodes = [_describe(one, attribute, definitions) for one in kinds]
         return nodes[0] if len(nodes) == 1 else {"anyOf": nodes}
     if origin is Literal:
         if len(arguments) == 1:
             return {"type": "string", "const": arguments[0]}
         return {"type": "string", "enum": [*arguments]}
     if origin is not None:
-        return _describe_many(origin, arguments, each, definitions)
-    return _describe_plain(kind, each, definitions)
+        return _describe_many(origin, arguments, attribute, definitions)
+    return _describe_plain(kind, attribute, definitions)
 
 
-def _describe_plain(kind: object, each: _Attribute, definitions: Node) -> Node:
+def _describe_plain(kind: object, attribute: _Attribute, definitions: Node) -> Node:
     """Return the schema of a number, word or record."""
-    if each.split is not None and kind is not NoneType:
-        properties = dict.fromkeys(each.split, _NUMBER)
+    if attribute.split is not None and kind is not NoneType:
+        properties = dict.fromkeys(attribute.split, _NUMBER)
         return {"type": "object", "properties": properties, "required": [*properties]}
     if isinstance(kind, type) and (is_dataclass(kind) or hasattr(kind, "_fields")):
         name = kind.__name__
@@ -436,17 +441,17 @@ def _describe_plain(kind: object, each: _Attribute, definitions: Node) -> Node:
 
 
 def _describe_many(
-    origin: type, arguments: tuple[object, ...], each: _Attribute, definitions: Node
+    origin: type, arguments: tuple[object, ...], attribute: _Attribute, definitions: Node
 ) -> Node:
     """Return the schema of an array, dict, tuple or list."""
     import numpy as np  # imported here, because schemas are rarely written
 
     if issubclass(origin, np.ndarray):
-        node = _describe(float, each, definitions)
-        for _ in range(each.axes):
+        node = _describe(float, attribute, definitions)
+        for _ in range(attribute.axes):
             node = {"type": "array", "items": node}
         return node
     if issubclass(origin, Mapping):
-        values = _describe(arguments[1], each, definitions)
+        values = _describe(arguments[1], attribute, definitions)
         return {"type": "object", "additionalProperties": values}
-    return {"type": "array", "items": _describe(arguments[0], each, definitions)}
+    return {"type": "array", "items": _describe(arguments[0], attribute, definitions)}

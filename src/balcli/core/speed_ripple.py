@@ -143,10 +143,10 @@ def count_in_time(curve: Phasors, timetable: Timetable, orders: Array) -> Phasor
     felt = np.fft.ifft(series, norm="forward") * timetable.stay
     waves = (np.exp(1j * order * timetable.clock) for order in orders)
     both = [(np.mean(felt * wave.conj()), np.mean(felt * wave)) for wave in waves]
-    found = np.array(both, complex).reshape(-1, 2).T
-    found[1, orders == 0] = 0
+    vectors = np.array(both, complex).reshape(-1, 2).T
+    vectors[1, orders == 0] = 0
     noise = np.full(orders.shape, 8 * EPS * np.sum(np.abs(curve.vectors)))
-    return Phasors(orders, found, noise).drop_noise()
+    return Phasors(orders, vectors, noise).drop_noise()
 
 
 def apply_speed(
@@ -341,10 +341,10 @@ def needed_inertia(
         if own + least.value <= 0:
             return math.inf
         try:
-            found = speed_variation(torque, lambda angle: own + course.at(angle), mean_speed)
+            variation = speed_variation(torque, lambda angle: own + course.at(angle), mean_speed)
         except StallError:
             return math.inf
-        return found.fluctuation - fluctuation
+        return variation.fluctuation - fluctuation
 
     guess = fluctuation * mean_speed**2 / max(energy_above, least.value * mean_speed**2)
     return 1 / find_zero(excess, guess, -fluctuation) - mean

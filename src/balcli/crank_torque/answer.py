@@ -103,11 +103,11 @@ def torque(
     tops = [find_highest(end.pressure) for torque in working for end in torque.ends]
     highest = max(tops, key=lambda extreme: extreme.value, default=None)
     spectra = compute_spectra(steady, shown, KINDS_OF_TORQUE)
-    single = compute_spectra(steady, shown, KINDS_OF_TORQUE, each=True).select_place(row)
+    single = compute_spectra(steady, shown, KINDS_OF_TORQUE, by_cylinder=True).select_place(row)
     idle = {"crank.inertia"} if wanted else {*STEADY}
     if engine.flywheel_inertia is not None:
         idle.discard("crank.inertia")
-    each = zip(spectra.orders, list_torques(spectra), list_torques(single), strict=True)
+    by_order = zip(spectra.orders, list_torques(spectra), list_torques(single), strict=True)
     return TorqueAnalysis(
         speed_rpm=float(engine.speed_rpm),
         no_gas_in=engine.silent.without_gas or None,
@@ -124,7 +124,7 @@ def torque(
         ends=list_ends(engine, gas),
         orders=tuple(
             TorqueOrder(order=write_whole(n), torques=all_of_it, one_cylinder=one)
-            for n, all_of_it, one in each
+            for n, all_of_it, one in by_order
         ),
         energy=measure_energy(above, gas.cycle, curves.gas.integral),  # inertia does no work
         flywheel=find_flywheel(

@@ -131,7 +131,7 @@ def torque(
         given = given_curve.read_curve(curve)
         warn_each(given_curve.doubt_period(given), str(curve))
         taken = None if load is None else given_curve.read_curve(load)
-        found = given_curve.analyze_curve(
+        result = given_curve.analyze_curve(
             curve.stem, given, taken, speed_rpm=rpm, inertia=own, fluctuation=allowed, orders=asked
         )
     else:
@@ -139,20 +139,20 @@ def torque(
         require_gas(source.engine, path or "")
         engine = named_by_file(source.engine, path or "")
         engine = silence_cylinders(engine, misfire or (), path or "")
-        found = answer.torque(
+        result = answer.torque(
             engine,
             asked,
             cylinder=None if cylinder is None else parse_cylinder(cylinder),
             fluctuation=allowed,
             loads=loads or (),
         )
-        if hasattr(found, "loads") and found.loads.obstacle:
-            warn(f"{name_file(path or '')}: main bearings: {found.loads.obstacle}")
+        if hasattr(result, "loads") and result.loads.obstacle:
+            warn(f"{name_file(path or '')}: main bearings: {result.loads.obstacle}")
         if write is not None:
-            write_uneven(path or "", source.text, found, write)
-    show([found], pages.RENDERER, form, output, units)
-    if hasattr(found, "flywheel") and found.flywheel.stall and fluctuation is None:
-        exit_on_errors([f"{name_file(path or str(curve))}: {found.flywheel.stall}"])
+            write_uneven(path or "", source.text, result, write)
+    show([result], pages.RENDERER, form, output, units)
+    if hasattr(result, "flywheel") and result.flywheel.stall and fluctuation is None:
+        exit_on_errors([f"{name_file(path or str(curve))}: {result.flywheel.stall}"])
 
 
 def _refuse_all(options: Mapping[str, object], needed: str) -> None:
@@ -182,8 +182,8 @@ def write_uneven(path: str, source: bytes, result: TorqueAnalysis, target: Path)
     text = set_speed(source.decode("utf-8-sig"), result.speed_rpm or 0.0, _NOTE)
     text = set_keys(text, "operation", {"speed_ripple": lines}, _NOTE)
     if result.no_gas_in and result.engine is not None and result.engine.placed:
-        told = "write [cylinder.N] gas = 0 into the file of the engine that misfires"
-        raise BalcliError(f"--write: geared engines cannot be written with a misfire; {told}")
+        message = "write [cylinder.N] gas = 0 into the file of the engine that misfires"
+        raise BalcliError(f"--write: geared engines cannot be written with a misfire; {message}")
     for number in result.no_gas_in or ():
         text = set_keys(text, f"cylinder.{number}", {"gas": 0}, _NOTE)
     write_file(text, target)

@@ -97,19 +97,19 @@ def find_flywheel(
             raise ArgumentError("{fluctuation} needs the mean speed; give it, such as {speed} 300")
         needed = course.mean + needed_inertia(torque, mean_speed, fluctuation, course.at)
     mean = (constant or 0.0) + course.mean
-    found = Flywheel(
+    flywheel = Flywheel(
         inertia_kg_m2=None if constant is None else mean,
         moving_parts_kg_m2=course.mean,
         needed_kg_m2=needed,
     )
     if constant is None or mean_speed is None:
-        return found
+        return flywheel
     try:
         speed = speed_variation(torque, lambda angle: constant + course.at(angle), mean_speed)
     except StallError as error:
-        return change_attributes(found, stall=str(error))
+        return change_attributes(flywheel, stall=str(error))
     return change_attributes(
-        found,
+        flywheel,
         fluctuation=speed.fluctuation,
         fluctuation_small=small_fluctuation(surplus, mean, mean_speed),
         speed_max_rpm=speed.highest.value / RPM,

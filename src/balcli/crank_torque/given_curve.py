@@ -74,8 +74,8 @@ def doubt_period(curve: PiecewiseCurve) -> Iterator[Doubt]:
     """
     turns = curve.period / (2 * np.pi)
     if min(abs(x - round(x)) / x for x in (turns, 2 / turns)) > _WHOLE:
-        told = f"its period is {360 * turns:g} deg; is the last row, which closes it, missing?"
-        yield Doubt("", told)
+        message = f"its period is {360 * turns:g} deg; is the last row, which closes it, missing?"
+        yield Doubt("", message)
 
 
 def analyze_curve(

@@ -93,8 +93,8 @@ def analyze_loads(engine: Engine, asked: Iterable[str] = ("pin", "main")) -> Cyc
     if "pin" in asked:
         # forces on crank or knuckle pins; the real part is outward along the cylinder's axis
         area = sizes and sizes.pin_m2
-        found = _measure(steady, lambda at: compute_rod_forces(steady, at).pin, area)
-        loads = [replace(f, cylinder=int(n)) for n, f in zip(engine.numbers, found, strict=True)]
+        forces = _measure(steady, lambda at: compute_rod_forces(steady, at).pin, area)
+        loads = [replace(f, cylinder=int(n)) for n, f in zip(engine.numbers, forces, strict=True)]
         loads.sort(key=lambda load: load.cylinder or 0)
         hung = {engine.numbers[row] for rows in list_hung_rows(engine).values() for row in rows}
         pin = tuple(load for load in loads if load.cylinder not in hung)
@@ -108,8 +108,8 @@ def analyze_loads(engine: Engine, asked: Iterable[str] = ("pin", "main")) -> Cyc
                 raise
             obstacle = error.reason
         else:
-            found = _measure(steady, vectors, sizes and sizes.main_m2)
-            each = enumerate(zip(places.tolist(), found, strict=True), 1)
+            forces = _measure(steady, vectors, sizes and sizes.main_m2)
+            each = enumerate(zip(places.tolist(), forces, strict=True), 1)
             main = tuple(replace(f, bearing=k, position_mm=z * 1e3) for k, (z, f) in each)
     return CycleLoads(pin=pin, knuckle=knuckle, main=main, rod=rod, obstacle=obstacle)
 

@@ -33,24 +33,24 @@ _BESIDE = 1e-7  # distance of the points on both sides of a jump, deg
 _COLUMNS = 7  # largest number of polar diagrams side by side
 
 
-def draw_gas(fig: Figure, engine: Engine, what: str, system: System) -> None:
+def draw_gas(fig: Figure, engine: Engine, page: str, system: System) -> None:
     """Draw a page of an engine with gas.
 
     Args:
         fig: Empty figure.
         engine: One engine, not an array of variants.
-        what: Name of the page: pressure, p-v, torque, pin or main.
+        page: Name of the page: pressure, p-v, torque, pin or main.
         system: Units.
 
     Raises:
         BalcliError: The engine has no gas, or lacks data for the page.
     """
     steady = replace(engine, ripple=())
-    if what in ("pressure", "p-v"):
-        _draw_pressure(fig.subplots(), steady, system, over_volume=what == "p-v")
-    elif what == "torque":
+    if page in ("pressure", "p-v"):
+        _draw_pressure(fig.subplots(), steady, system, over_volume=page == "p-v")
+    elif page == "torque":
         _draw_torque(fig.subplots(), steady, system.moment)
-    elif what == "pin":
+    elif page == "pin":
         _draw_pin(fig, steady, system.force)
     else:
         _draw_main(fig, steady, system.force)
@@ -141,15 +141,15 @@ def _draw_pin(fig: Figure, engine: Engine, unit: ShownUnit) -> None:
     on_pin = (master for master, hung in list_hung_rows(engine).items() if first in hung)
     row = next(on_pin, first)
     angle = _list_angles(engine)
-    found = compute_rod_forces(engine, angle)
-    pin = found.pin[row]
+    forces = compute_rod_forces(engine, angle)
+    pin = forces.pin[row]
     number = engine.numbers[row]
     limit = float(np.abs(pin).max())
     left, right = fig.subplots(1, 2)
-    _draw_polar(left, pin / found.throw[row], angle, unit, limit)
+    _draw_polar(left, pin / forces.throw[row], angle, unit, limit)
     left.set_title(f"Crank pin of cylinder {number}, seen from the crank", pad=6)
     left.set(xlabel="ahead of the throw", ylabel="along the throw, outward")
-    _draw_polar(right, pin / found.lean[row], angle, unit, limit)
+    _draw_polar(right, pin / forces.lean[row], angle, unit, limit)
     right.set_title("The same load, seen from the rod", pad=6)
     right.set(xlabel="across the rod", ylabel="along the rod, to the piston")
 

@@ -43,20 +43,20 @@ def evaluate_engine(engine: Engine, quantities: Sequence[TargetQuantity]) -> lis
         BalcliError: The fluctuation needs an inertia that the file does not give, or the crank
             stalls.
     """
-    found = dict[str, float]()
+    values = dict[str, float]()
     if any(q.name != "fluctuation" for q in quantities):
         curves = find_torque_curves(engine)
         lowest, highest = curves.total.extremes()
-        found |= {"torque.mean": curves.gas.mean, "torque.max": highest.value}
-        found["torque.min"] = lowest.value
+        values |= {"torque.mean": curves.gas.mean, "torque.max": highest.value}
+        values["torque.min"] = lowest.value
     if any(q.name == "fluctuation" for q in quantities):
         computed = torque(engine, [1])
         if not hasattr(computed, "flywheel"):
             raise BalcliError(NO_INERTIA)
         if not hasattr(computed.flywheel, "fluctuation"):
             raise BalcliError(computed.flywheel.stall or NO_INERTIA)
-        found["fluctuation"] = computed.flywheel.fluctuation
-    return [found[q.name] for q in quantities]
+        values["fluctuation"] = computed.flywheel.fluctuation
+    return [values[q.name] for q in quantities]
 
 
 Variants = partial(FiguresOfVariants, evaluate_engine)

@@ -49,30 +49,30 @@ def rows(result: TorqueAnalysis, system: System) -> Rows:
     return Rows(header, _list_rows(result, to_document(result), system))
 
 
-def _list_rows(result: TorqueAnalysis, found: Node, system: System) -> Iterator[FigureRow]:
+def _list_rows(result: TorqueAnalysis, document: Node, system: System) -> Iterator[FigureRow]:
     # In lines of an engine, "torque" is the inertia torque, as in `analyze`.
     names = {kind.key: kind.name for kind in (TORQUE, GAS, TORQUE_TOTAL)}
-    places: list[tuple[CylinderNumber, Any]] = [(0, found["orders"])]
+    places: list[tuple[CylinderNumber, Any]] = [(0, document["orders"])]
     if result.engine is None:
         names[TORQUE_TOTAL.key] = TORQUE.name
     else:
-        places.append((result.cylinder, [entry["one_cylinder"] for entry in found["orders"]]))
-    head = {key: value for key, value in found.items() if key not in ("format", *_PARTS)}
+        places.append((result.cylinder, [entry["one_cylinder"] for entry in document["orders"]]))
+    head = {key: value for key, value in document.items() if key not in ("format", *_PARTS)}
     for key in {"no_gas_in", "no_burning_in"} & head.keys():
         head[key] = " ".join(map(str, head[key]))
-    parts = [("engine", head), (names[TORQUE_TOTAL.key], found["torque"])]
-    parts += [(key, found.get(key, {})) for key in ("energy", "flywheel")]
-    for key, loads in found.get("loads", {}).items():
+    parts = [("engine", head), (names[TORQUE_TOTAL.key], document["torque"])]
+    parts += [(key, document.get(key, {})) for key in ("energy", "flywheel")]
+    for key, loads in document.get("loads", {}).items():
         if key == "obstacle":  # why there are no loads of main bearings, in words
             parts.append(("main", {key: loads}))
         else:
             parts += [(key, load) for load in loads]
-    parts += [(f"{end['end']} end", end) for end in found.get("ends", ())]
+    parts += [(f"{end['end']} end", end) for end in document.get("ends", ())]
     for quantity, part in parts:
         yield from _write(quantity, part, system)
     for cylinder, entries in places:
         for key, name in names.items():
-            for row, entry in zip(found["orders"], entries, strict=True):
+            for row, entry in zip(document["orders"], entries, strict=True):
                 if key in entry:
                     yield from order_rows(name, row["order"], entry[key], system.moment, cylinder)
 

@@ -189,8 +189,10 @@ def check_cylinders(parts: Parts) -> Iterator[Problem]:
     made = f"crank.throws and layout make {counted(len(parts.plan.cells), 'cylinder')}"
     strangers = [number for number in parts.model.cylinder if number not in parts.plan.numbers]
     if strangers:
-        told = f"there is no cylinder {', '.join(map(str, strangers))}"
-        yield Problem(f"cylinder.{strangers[0]}", f"{told}: {made}; put all throws in crank.throws")
+        message = f"there is no cylinder {', '.join(map(str, strangers))}"
+        yield Problem(
+            f"cylinder.{strangers[0]}", f"{message}: {made}; put all throws in crank.throws"
+        )
 
 
 def check_rods(parts: Parts) -> Iterator[Problem]:
@@ -229,8 +231,8 @@ def check_carriers(parts: Parts) -> Iterator[Problem]:
     """Check that no counterweight names an engine in a file without [[engine]]."""
     for number, weight in enumerate(parts.model.counterweight, 1):
         if weight.engine is not None:
-            told = f'"{weight.engine}": this file has no [[engine]]; leave it out'
-            yield Problem(f"counterweight.{number}.engine", told)
+            message = f'"{weight.engine}": this file has no [[engine]]; leave it out'
+            yield Problem(f"counterweight.{number}.engine", message)
 
 
 def check_articulation(parts: Parts) -> Iterator[Problem]:
@@ -244,15 +246,17 @@ def check_articulation(parts: Parts) -> Iterator[Problem]:
         return
     yield from _check_knuckle_angles(parts)
     if np.any(np.asarray(parts.figures.take("crank.splay", parts.model.crank.splay)) != 0):
-        told = "articulated rods have no crank pins to split: leave out splay or [articulation]"
-        yield Problem("crank.splay", told)
+        message = "articulated rods have no crank pins to split: leave out splay or [articulation]"
+        yield Problem("crank.splay", message)
     for number in parts.masters:
         if parts.override(number, "throw") is not None:
-            told = "its articulated rod is carried by the master rod: leave this out"
-            yield Problem(f"cylinder.{number}.throw", told)
+            message = "its articulated rod is carried by the master rod: leave this out"
+            yield Problem(f"cylinder.{number}.throw", message)
         if parts.override(number, "stroke") is not None:
-            told = "an articulated rod moves with its master's throw; set the stroke of the throw"
-            yield Problem(f"cylinder.{number}.stroke", told)
+            message = (
+                "an articulated rod moves with its master's throw; set the stroke of the throw"
+            )
+            yield Problem(f"cylinder.{number}.stroke", message)
 
 
 def _check_knuckle_angles(parts: Parts) -> Iterator[Problem]:
@@ -261,8 +265,8 @@ def _check_knuckle_angles(parts: Parts) -> Iterator[Problem]:
     for master, angles in zip(parts.find_master_places(), rows, strict=False):
         if np.any(np.asarray(angles[master - 1]) != 0):
             angle = max(np.ravel(angles[master - 1]), key=abs)
-            told = f"has {angle:g} for bank {master}, which carries the master rod; give 0"
-            yield Problem("articulation.knuckle_angles", told)
+            message = f"has {angle:g} for bank {master}, which carries the master rod; give 0"
+            yield Problem("articulation.knuckle_angles", message)
 
 
 def _find_no_place(masters: Sequence[int], plan: Plan) -> Problem | None:
@@ -274,11 +278,11 @@ def _find_no_place(masters: Sequence[int], plan: Plan) -> Problem | None:
     if banks < 2:
         return Problem("articulation", f"{needs}: give bank_angle, banks or radial")
     if plan.rods_on_throw < banks:
-        told = f'{needs}s with rods = "alternating", one rod a throw: give rods = "shared"'
-        return Problem("articulation", told)
+        message = f'{needs}s with rods = "alternating", one rod a throw: give rods = "shared"'
+        return Problem("articulation", message)
     if (master := max(masters)) > banks:
-        told = f"there is no bank {master}; this engine has banks 1 to {banks}"
-        return Problem("articulation.master", told)
+        message = f"there is no bank {master}; this engine has banks 1 to {banks}"
+        return Problem("articulation.master", message)
     return None
 
 
@@ -331,8 +335,10 @@ def check_half_orders(parts: Parts) -> Iterator[Problem]:
         return
     for number, line in enumerate(parts.model.operation.speed_ripple, 1):
         if line.order % 1:
-            told = f"{line.order:g} is not a whole number; half orders need four strokes and [gas]"
-            yield Problem(f"operation.speed_ripple.{number}.order", told)
+            message = (
+                f"{line.order:g} is not a whole number; half orders need four strokes and [gas]"
+            )
+            yield Problem(f"operation.speed_ripple.{number}.order", message)
 
 
 def check_speed(parts: Parts) -> Iterator[Problem]:
@@ -350,10 +356,13 @@ def check_speed(parts: Parts) -> Iterator[Problem]:
         slowest = find_slowest(list(map(RippleLine, orders, amplitudes, angles)))
         if slowest.value <= STANDSTILL:
             share = slowest.value if abs(slowest.value) > STANDSTILL else 0.0
-            told = f"the crank would {'turn back' if share else 'stop'}: at crank angle "
-            told += f"{math.degrees(slowest.theta):.4g} deg its speed is {share:.4g} of the mean: "
-            told += "make the amplitudes smaller; they are shares of the mean speed"
-            yield Problem("operation.speed_ripple", told)
+            turns = "turn back" if share else "stop"
+            message = (
+                f"the crank would {turns}: at crank angle {math.degrees(slowest.theta):.4g} deg "
+                f"its speed is {share:.4g} of the mean: make the amplitudes smaller; they are "
+                "shares of the mean speed"
+            )
+            yield Problem("operation.speed_ripple", message)
             return
 
 
@@ -366,9 +375,11 @@ def check_samples(parts: Parts) -> Iterator[Problem]:
         return
     different, samples = c.count_all_samples()
     if samples > MOST_SAMPLES:
-        told = f"{different} different mechanisms need {samples} samples of a revolution; at most "
-        told += f"{MOST_SAMPLES} are taken: make the shortest rods longer, or more of them equal"
-        yield Problem("cylinder", told)
+        message = (
+            f"{different} different mechanisms need {samples} samples of a revolution; at most "
+            f"{MOST_SAMPLES} are taken: make the shortest rods longer, or more of them equal"
+        )
+        yield Problem("cylinder", message)
 
 
 def check_locomotive(parts: Parts) -> Iterator[Problem]:
@@ -394,8 +405,8 @@ def check_gas(parts: Parts) -> Iterator[Problem]:
             for key in ("gas", "heat", "indicator"):
                 dummy = key == "gas" and own.gas == 0 and number not in order
                 if getattr(own, key) is not None and not dummy:
-                    told = "needs [gas], which describes the gas in all cylinders"
-                    yield Problem(f"cylinder.{number}.{key}", told)
+                    message = "needs [gas], which describes the gas in all cylinders"
+                    yield Problem(f"cylinder.{number}.{key}", message)
     elif not parts.rank:
         from .build_gas import build_gas  # loaded only for files with [gas]
 

@@ -116,22 +116,23 @@ def build_gas(parts: Parts) -> EngineGas:
         raise InputError(problems)
     areas = [math.pi / 4 * (bore / 1e3) ** 2 for bore in bores]
     rod_areas = [math.pi / 4 * (rod / 1e3) ** 2 for rod in rods]
-    found = pistons(parts.cylinders, np.array(areas), np.array(rod_areas))
+    gas_pistons = pistons(parts.cylinders, np.array(areas), np.array(rod_areas))
 
     @cache
     def read(name: str, heads: tuple[Head, ...]) -> NumberColumns:
         return read_columns(locate_beside(parts.model.folder, name), heads)
 
-    make = partial(_build_steady, parts, found, read)
+    make = partial(_build_steady, parts, gas_pistons, read)
     sources = [_find_source(parts, gas, number) for number in parts.numbers]
     rows = [row for row, one in enumerate(sources) if one.heat is None and one.indicator is None]
     if not gas.speeds or (gas.law and not rows):  # no cylinder follows the law
         return make(gas)
     strokes = parts.model.layout.strokes
-    return _follow_speed(gas, make, partial(_find_knees, gas, [found[k] for k in rows], strokes))
+    following = [gas_pistons[k] for k in rows]
+    return _follow_speed(gas, make, partial(_find_knees, gas, following, strokes))
 
 
-def _find_knees(gas: Gas, found: Sequence[GasPiston], strokes: int) -> list[Array]:
+def _find_knees(gas: Gas, gas_pistons: Sequence[GasPiston], strokes: int) -> list[Array]:
     """Return, for each piston, the speed (as a share of the rated speed) up to which the propeller
     law demands less imep than the cycle has without heat. For a dual cycle, a second array follows:
     the speeds up to which the law demands less imep than the cycle needs to reach `max_pressure`.
@@ -140,7 +141,7 @@ def _find_knees(gas: Gas, found: Sequence[GasPiston], strokes: int) -> list[Arra
     rated = _find_goal(gas, None).value
     kinds = ("otto", "dual") if gas.cycle == "dual" else (process.cycle,)
     processes = [replace(process, cycle=kind) for kind in kinds]
-    least = [[find_least_imep(piston, one) for piston in found] for one in processes]
+    least = [[find_least_imep(piston, one) for piston in gas_pistons] for one in processes]
     return [np.sqrt(np.maximum(each, 0.0) / rated) for each in least]
 
 
@@ -203,11 +204,11 @@ def _blend(nodes: Mapping[float, EngineGas], speed: float) -> EngineGas:
     if high == low or speed < low:
         return nodes[low]
     share = (speed - low) / (high - low)
-    one = nodes[low].cylinders
-    two = nodes[high].cylinders
-    rows = {cylinder.like for cylinder in one}
-    torques = {row: blend(one[row].torque, two[row].torque, share) for row in rows}
-    each = (cylinder._replace(torque=torques[cylinder.like]) for cylinder in one)
+    slower = nodes[low].cylinders
+    faster = nodes[high].cylinders
+    rows = {cylinder.like for cylinder in slower}
+    torques = {row: blend(slower[row].torque, faster[row].torque, share) for row in rows}
+    each = (cylinder._replace(torque=torques[cylinder.like]) for cylinder in slower)
     return replace(nodes[low], cylinders=tuple(each))
 
 
@@ -217,15 +218,15 @@ def _take_at(gas: Gas, speed: float) -> Gas:
     """
     if gas.rated_speed is not None:
         grown = (speed / gas.rated_speed) ** 2
-        found = {key: getattr(gas, key) * grown for key in MEAN_PRESSURES if gas.has(key)}
+        figures = {key: getattr(gas, key) * grown for key in MEAN_PRESSURES if gas.has(key)}
     else:
         nearest = min(gas.at, key=lambda point: abs(point.speed - speed))
-        found = {key: getattr(nearest, key) for key in gas.keys_of_points}
-        for key in filter(lambda key: isinstance(found[key], float), gas.keys_of_points):
+        figures = {key: getattr(nearest, key) for key in gas.keys_of_points}
+        for key in filter(lambda key: isinstance(figures[key], float), gas.keys_of_points):
             values = [getattr(point, key) for point in gas.at]
-            found[key] = float(np.interp(speed, gas.speeds, values))
+            figures[key] = float(np.interp(speed, gas.speeds, values))
     kept = gas.model_fields_set - {"at", "law", "rated_speed"}
-    return Gas.model_construct(**{key: getattr(gas, key) for key in kept} | found)
+    return Gas.model_construct(**{key: getattr(gas, key) for key in kept} | figures)
 
 
 def _locate_at_point(gas: Gas, number: int, path: str) -> str:
@@ -243,7 +244,7 @@ def _locate_at_point(gas: Gas, number: int, path: str) -> str:
 
 def _build_steady(
     parts: Parts,
-    found: Sequence[GasPiston],
+    gas_pistons: Sequence[GasPiston],
     read: Callable[[str, tuple[Head, ...]], NumberColumns],
     gas: Gas,
     *,
@@ -253,7 +254,7 @@ def _build_steady(
 
     Args:
         parts: Stages of the engine.
-        found: Piston of each row of the cylinders.
+        gas_pistons: Piston of each row of the cylinders.
         read: Function that returns the columns of a file by its name and headings.
         gas: Table of the gas.
         at_least: Whether the table may ask for too little imep. A dual cycle then need not reach
@@ -269,21 +270,21 @@ def _build_steady(
     keys = [
         (*mechanism, piston.area, piston.rod_area, source.indicator, source.heat, source.table)
         for mechanism, piston, source in zip(
-            parts.cylinders.mechanisms, found, sources, strict=True
+            parts.cylinders.mechanisms, gas_pistons, sources, strict=True
         )
     ]
     like = [keys.index(key) for key in keys]  # row of the first cylinder with an equal torque
     if (different := len(set(like))) > MOST_DIFFERENT_GAS:
         many = f"{different} cylinders differ in mechanism, heat or diagram; at most "
-        told = f"{MOST_DIFFERENT_GAS} are computed: give more of them the same figures"
-        raise InputError([Problem("gas", many + told)])
+        message = f"{MOST_DIFFERENT_GAS} are computed: give more of them the same figures"
+        raise InputError([Problem("gas", many + message)])
 
     torques = dict[int, GasTorque]()
     doubts: list[Doubt] = []
     overfed: list[Doubt] = []
     for row in sorted(set(like)):
         source = sources[row]
-        piston = found[row]
+        piston = gas_pistons[row]
         own = source.gas if source.table else gas
         name = source.indicator or own.harmonics
         if source.indicator is None and name is not None:
@@ -310,10 +311,10 @@ def _build_steady(
     given = [key for key in ("crankcase", "exhaust") if key in gas.model_fields_set & idle]
     doubts += overfed[:1]
     doubts += [Doubt(f"gas.{key}", "changes nothing in this engine") for key in given]
-    nominal = _find_nominal(parts, [piston.top for piston in found])
+    nominal = _find_nominal(parts, [piston.top for piston in gas_pistons])
     cylinders = (
         CylinderGas(piston, torques[row], angle, source.share, source.heat, row, source.compresses)
-        for piston, row, angle, source in zip(found, like, nominal, sources, strict=True)
+        for piston, row, angle, source in zip(gas_pistons, like, nominal, sources, strict=True)
     )
     return EngineGas(
         tuple(cylinders),
@@ -473,14 +474,18 @@ def _check_numbers_of(parts: Parts, gas: Gas) -> Iterator[Problem]:
                 yield Problem(path, f"{number} is no cylinder of this engine; there are {listed}")
             elif number in tables:
                 other = tables[number]
-                told = f"has cylinder {number}, and so does gas.of.{other}; give it in one of them"
-                yield Problem(path, told)
+                message = (
+                    f"has cylinder {number}, and so does gas.of.{other}; give it in one of them"
+                )
+                yield Problem(path, message)
             tables[number] = k
     for number, override in parts.model.cylinder.items():
         for key in ("indicator", "heat"):
             if number in tables and getattr(override, key) is not None:
-                told = f"cylinder {number} has its gas in gas.of.{tables[number]}; give {key} there"
-                yield Problem(f"cylinder.{number}.{key}", told)
+                message = (
+                    f"cylinder {number} has its gas in gas.of.{tables[number]}; give {key} there"
+                )
+                yield Problem(f"cylinder.{number}.{key}", message)
 
 
 def _list_contradictions(
@@ -493,17 +498,17 @@ def _list_contradictions(
     if not all(bores):
         yield Problem.of_missing("piston.bore", "the gas force needs it, such as bore = 86")
     if not two_stroke and parts.order is None and len(parts.numbers) > 1:
-        told = "it sets in which of two turns each cylinder fires; example: [1, 3, 4, 2]"
-        yield Problem.of_missing("layout.firing_order", told)
+        message = "it sets in which of two turns each cylinder fires; example: [1, 3, 4, 2]"
+        yield Problem.of_missing("layout.firing_order", message)
     for number, table in parts.model.cylinder.items():
         if gas.cycle in (None, COMPRESSOR) and table.heat is not None:
-            told = "belongs to a computed cycle, and [gas] has none; give an indicator diagram"
-            yield Problem(f"cylinder.{number}.heat", told)
+            message = "belongs to a computed cycle, and [gas] has none; give an indicator diagram"
+            yield Problem(f"cylinder.{number}.heat", message)
         for key in sorted(gas.keys_of_points & table.model_fields_set):
-            told = (
+            message = (
                 f"[[gas.at]] gives {key} of all cylinders at each speed; leave one of the two out"
             )
-            yield Problem(f"cylinder.{number}.{key}", told)
+            yield Problem(f"cylinder.{number}.{key}", message)
     own = any(table.indicator is not None for table in parts.model.cylinder.values())
     own = own or any(table.indicator is not None for table in gas.of)
     own = own or (gas.crank_end is not None and gas.crank_end.has("indicator"))
@@ -511,11 +516,11 @@ def _list_contradictions(
         if gas.has(key):
             yield Problem(f"gas.{key}", "has no meaning without an indicator diagram; leave it out")
     if two_stroke and gas.intake_closes is not None:
-        told = "has no meaning in a two-stroke cycle, whose ports close where they opened"
-        yield Problem("gas.intake_closes", f"{told}: leave it out")
+        message = "has no meaning in a two-stroke cycle, whose ports close where they opened"
+        yield Problem("gas.intake_closes", f"{message}: leave it out")
     if two_stroke and gas.zero == "gas-exchange":
-        told = 'a two-stroke cycle has no gas-exchange dead centre; give "firing"'
-        yield Problem("gas.zero", told)
+        message = 'a two-stroke cycle has no gas-exchange dead centre; give "firing"'
+        yield Problem("gas.zero", message)
 
 
 # ------------------------------------------------------------------ builders' tables
@@ -611,8 +616,8 @@ class _EndMaker(NamedTuple):
             return [self._read_end(end, path, end.indicator, crank_end=True)]
         if end.cycle == COMPRESSOR:
             return [self._compress(end, place, crank_end=True)]
-        told = 'has no gas; give indicator, or cycle = "compressor" with its keys'
-        raise InputError([Problem(place, told)])
+        message = 'has no gas; give indicator, or cycle = "compressor" with its keys'
+        raise InputError([Problem(place, message)])
 
     def _compress(self, gas: Gas, place: str, *, crank_end: bool) -> GasEnd:
         expands = gas.expansion_index if gas.has("expansion_index") else gas.compression_index
@@ -657,8 +662,8 @@ class _EndMaker(NamedTuple):
         except BalcliError as error:
             raise InputError([Problem(path, str(error))]) from None
         if heads is not HEADS and gas.has("phase"):
-            told = "has no meaning for a card over volume or stroke; leave it out"
-            raise InputError([Problem(f"{path.rpartition('.')[0]}.phase", told)])
+            message = "has no meaning for a card over volume or stroke; leave it out"
+            raise InputError([Problem(f"{path.rpartition('.')[0]}.phase", message)])
         clearance = None
         if not crank_end and gas.compression_ratio is not None:
             clearance = 1 / (gas.compression_ratio - 1)
@@ -734,12 +739,12 @@ def _doubt_heat(gas: Gas, source: _Source, piston: GasPiston, cycle: GasCycle) -
     charge = gas.intake * BAR * float(piston.volume(cycle.breaks[0], ratio))
     if cycle.heat > HEAT_MOST * charge:
         path = _locate(GasError(_find_goal(gas, source.heat).name, ""), gas, source).path
-        told = (
+        message = (
             f"needs {cycle.heat:.4g} J of heat in each cycle, more than the air of the charge can "
             f"burn; is the intake pressure of {gas.intake:.4g} bar right? It is absolute, and "
             "higher in a supercharged engine"
         )
-        yield Doubt(path, told, ("gas.intake",))
+        yield Doubt(path, message, ("gas.intake",))
 
 
 # ------------------------------------------------------------------ firing

@@ -71,10 +71,10 @@ def draw_card(
         raise BalcliError(f"{name}: has no two different values; give rows of a closed loop")
     shares = (values - values.min()) / width
     each = zip(shares.tolist(), pressure.tolist(), columns.lines, strict=True)
-    found = _split_strokes(name, [_Row(*row) for row in each])
-    if len(found) != strokes:
+    stroke_rows = _split_strokes(name, [_Row(*row) for row in each])
+    if len(stroke_rows) != strokes:
         raise BalcliError(
-            f"{name}: has {counted(len(found), 'stroke')}; a cycle has {strokes}, from the "
+            f"{name}: has {counted(len(stroke_rows), 'stroke')}; a cycle has {strokes}, from the "
             "smallest value to the largest and back"
         )
     from_inner = from_volume and crank_end  # the smallest value is at the inner dead centre
@@ -87,7 +87,7 @@ def draw_card(
     edges = first + np.append(0.0, np.cumsum(np.resize(spans, strokes)))
     paths = [
         _Stroke(rows, float(start), float(end))
-        for rows, start, end in zip(found, edges[:-1], edges[1:], strict=True)
+        for rows, start, end in zip(stroke_rows, edges[:-1], edges[1:], strict=True)
     ]
 
     def find_pressure(angle: Array) -> Array:

@@ -188,8 +188,8 @@ def find_sector(
     unbalance = find_given_unbalance(table, figures, path)
     is_double = thickness is not None and unbalance is not None
     if is_double or f"{path}.sector" in figures.displaced:
-        told = "the file gives thickness or unbalance of the sector; vary the one that it gives"
-        raise InputError([Problem(path, told)])
+        message = "the file gives thickness or unbalance of the sector; vary the one that it gives"
+        raise InputError([Problem(path, message)])
     inner = inner / 1e3
     outer = outer / 1e3
     angle = opening * (math.pi / 180)
@@ -264,21 +264,21 @@ def check_shafts(parts: Parts) -> Iterator[Problem]:
         for number, key in product(others, ("ratio", "at")):
             value, wanted = (shorten(getattr(entries[k], key)) for k in (number, first))
             if value != wanted:
-                told = f'is {value}, but shaft.{first} with the name "{name}" has {wanted}: '
-                yield Problem(f"shaft.{number}.{key}", f"{told}give both the same {key}")
+                message = f'is {value}, but shaft.{first} with the name "{name}" has {wanted}: '
+                yield Problem(f"shaft.{number}.{key}", f"{message}give both the same {key}")
         for key in ("inertia", "bearings", "gear", "drag"):
             for number in [k for k, one in entries.items() if one.has(key)][1:]:
-                told = f'is given twice for the shaft "{name}"; give it once'
-                yield Problem(f"shaft.{number}.{key}", told)
+                message = f'is given twice for the shaft "{name}"; give it once'
+                yield Problem(f"shaft.{number}.{key}", message)
         shaped = [number for number, one in entries.items() if one.sector is not None]
         given = [number for number, one in entries.items() if one.has("inertia")]
         if shaped and given and shaped != given:
-            told = (
+            message = (
                 f'is given for the shaft "{name}", whose inertia follows from '
                 f"shaft.{shaped[0]}.sector; give one of them"
             )
-            yield Problem(f"shaft.{given[0]}.inertia", told)
+            yield Problem(f"shaft.{given[0]}.inertia", message)
         driven = [number for number, one in entries.items() if one.drag]
         if driven and not any(one.gear for one in entries.values()):
-            told = "needs gear, such as { position = -150, radius = 35, direction = 90 }"
-            yield Problem(f"shaft.{driven[0]}.drag", told)
+            message = "needs gear, such as { position = -150, radius = 35, direction = 90 }"
+            yield Problem(f"shaft.{driven[0]}.drag", message)

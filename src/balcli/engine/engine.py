@@ -564,10 +564,10 @@ class Engine:
         if self.gas is None:
             return NONE_SILENT
         by_number = dict(zip(self.numbers, self.gas.cylinders, strict=True))
-        each = [(number, by_number[number]) for number in self.rising_numbers]
+        gas_by_number = [(number, by_number[number]) for number in self.rising_numbers]
         return SilentCylinders(
-            tuple(number for number, own in each if not own.share),
-            tuple(number for number, own in each if own.share and own.heat == 0),
+            tuple(number for number, own in gas_by_number if not own.share),
+            tuple(number for number, own in gas_by_number if own.share and own.heat == 0),
         )
 
     @property
@@ -586,28 +586,28 @@ def _share_state(whole: Engine) -> Iterator[Placed]:
     own axes and by its own crank angle.
     """
     start = 0
-    for row, one in enumerate(whole.placed):
-        own = one.engine
-        stop = start + len(one.engine.numbers)
+    for row, placed in enumerate(whole.placed):
+        own = placed.engine
+        stop = start + len(placed.engine.numbers)
         x, y, z = whole.reference_m
-        reference = one.find_own_place(place_in_plane(x, y))
+        reference = placed.find_own_place(place_in_plane(x, y))
         lines = (
-            RippleLine(line.order, line.amplitude, line.angle_deg + line.order * one.phase_deg)
+            RippleLine(line.order, line.amplitude, line.angle_deg + line.order * placed.phase_deg)
             for line in whole.ripple
         )
-        carried = (_move(device, one) for device in whole.devices if device.crank == row)
+        carried = (_move(device, placed) for device in whole.devices if device.crank == row)
         gas = None if whole.gas is None else own.gas
         if gas is not None and whole.gas is not None:
             seen = (c._replace(like=c.like - start) for c in whole.gas.cylinders[start:stop])
             pairs = zip(seen, gas.cylinders, strict=True)  # `seen` is at the speed of the whole
             each = (c._replace(nominal_deg=mine.nominal_deg) for c, mine in pairs)
             gas = replace(gas, cylinders=tuple(each))
-        yield one._replace(
+        yield placed._replace(
             engine=replace(
                 own,
                 speed_rpm=whole.speed_rpm,
                 ripple=tuple(lines),
-                reference_m=(reference.real, reference.imag, z - one.at_m[2]),
+                reference_m=(reference.real, reference.imag, z - placed.at_m[2]),
                 devices=(*own.devices, *carried),
                 gas=gas,
             )
@@ -615,16 +615,16 @@ def _share_state(whole: Engine) -> Iterator[Placed]:
         start = stop
 
 
-def _move(device: Device, one: Placed) -> Device:
+def _move(device: Device, placed: Placed) -> Device:
     """Return a device of the whole in the axes of one engine. Devices that are not on a crankshaft
     belong to the first engine, by whose crank angle they turn.
     """
-    moved = device._replace(z=device.z - one.at_m[2], crank=0)
+    moved = device._replace(z=device.z - placed.at_m[2], crank=0)
     if device.kind is DeviceKind.COUNTERWEIGHT:
         return moved
-    back = unit(-np.asarray(one.turn_deg))
+    back = unit(-np.asarray(placed.turn_deg))
     return moved._replace(
-        place=one.find_own_place(device.place),
+        place=placed.find_own_place(device.place),
         forward=back * device.forward,
         backward=back * device.backward,
     )
@@ -669,8 +669,10 @@ def take_model(engine: Engine) -> EngineFile:
         BalcliError: No file describes this engine.
     """
     if engine.model is None:
-        told = "no file describes this engine, because it is a variant or has added devices; use "
-        raise BalcliError(f"{engine.summary}: {told}the engine from which it was made")
+        message = (
+            "no file describes this engine, because it is a variant or has added devices; use "
+        )
+        raise BalcliError(f"{engine.summary}: {message}the engine from which it was made")
     return engine.model
 
 
@@ -679,11 +681,11 @@ def find_crank(engine: Engine, number: CylinderNumber) -> tuple[Placed, int]:
     engine; arguments and errors as for `find_row`.
     """
     row = find_row(engine, number)
-    for one in engine.cranks:
-        if row < len(one.engine.numbers):
+    for crank in engine.cranks:
+        if row < len(crank.engine.numbers):
             break
-        row -= len(one.engine.numbers)
-    return one, row
+        row -= len(crank.engine.numbers)
+    return crank, row
 
 
 def find_row(engine: Engine, number: CylinderNumber) -> int:

@@ -247,12 +247,12 @@ def rod_figures(
     def take(key: str) -> Figure | None:
         return figures.take_optional(f"{path}.{prefix}{key}", getattr(table, prefix + key))
 
-    found = [divide(take(key), _SI.get(key, 1.0)) for key in RodFigures._fields[:-1]]
+    values = [divide(take(key), _SI.get(key, 1.0)) for key in RodFigures._fields[:-1]]
     pendulum = getattr(table, f"{prefix}pendulum")
     if pendulum is not None and f"{path}.{prefix}pendulum" not in figures.displaced:
         period = figures.take(f"{path}.{prefix}pendulum.period", pendulum.period)
-        return RodFigures._make((*found, PendulumTest(pendulum.pivot, period)))
-    return RodFigures._make((*found, None))
+        return RodFigures._make((*values, PendulumTest(pendulum.pivot, period)))
+    return RodFigures._make((*values, None))
 
 
 # ------------------------------------------------------------------ flywheel
@@ -310,9 +310,9 @@ def find_first_largest(values: ArrayLike) -> NDArray[np.intp]:
     """Return the row with the largest value, shape (...) for values of shape (rows, ...). If the
     largest values differ only by rounding, return the first of their rows.
     """
-    found = np.asarray(values, float)
-    largest = found.max(axis=0)
-    return np.asarray((found >= largest - _ROUNDING * np.abs(largest)).argmax(axis=0))
+    columns = np.asarray(values, float)
+    largest = columns.max(axis=0)
+    return np.asarray((columns >= largest - _ROUNDING * np.abs(largest)).argmax(axis=0))
 
 
 def ranked(values: ArrayLike) -> Array:

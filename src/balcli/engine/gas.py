@@ -158,11 +158,11 @@ class EngineGas:
 
         def find_at_all(speeds_rpm: ArrayLike) -> Array:
             grown = np.asarray(speeds_rpm, float) ** law.power
-            found = find_curve().within(grown)
+            values = find_curve().within(grown)
             beyond = grown > nodes[-1]
             if law.power > 1 and beyond.any():
-                found[beyond] = find_each(grown[beyond])
-            return found
+                values[beyond] = find_each(grown[beyond])
+            return values
 
         return find_at_all
 
@@ -222,8 +222,8 @@ class GasLaw:
         if ends and self.power == 1:
             yield Doubt("gas.at", f"outside its points {' and '.join(ends)}")
         if low < least:
-            told = (
+            message = (
                 f"up to {least:.4g} rpm it demands less imep than the cycle has without heat; the "
                 "cycle without heat is used there"
             )
-            yield Doubt("gas.law", told)
+            yield Doubt("gas.law", message)

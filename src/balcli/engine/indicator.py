@@ -73,11 +73,11 @@ def build_diagram(
     first, last = (float(pressure[k]) / (columns.scales[1] * BAR) for k in (0, -1))
     if first != last and _is_closed(angle, period):
         unit = _name_unit(columns)
-        told = (
+        message = (
             f"{name}: the last row closes the cycle with {last:.4g} {unit}, but the first row has "
             f"{first:.4g} {unit}; the first is used"
         )
-        doubts.append(Doubt(path, told))
+        doubts.append(Doubt(path, message))
     return curve, doubts
 
 
@@ -105,10 +105,10 @@ def find_absolute(gas: Gas, name: str, columns: NumberColumns) -> Array:
     pressure = np.array(columns.column(1)) * BAR
     pressure += ATMOSPHERE if gauge else 0.0
     for below in np.flatnonzero(pressure < 0).tolist():
-        found = f"line {columns.lines[below]}: the pressure is {columns.as_written(below, 1)}"
+        fault = f"line {columns.lines[below]}: the pressure is {columns.as_written(below, 1)}"
         right = "that is below a vacuum" if gauge else f"give 0 or more{ASK_GAUGE}"
         right += "; for a double-acting cylinder give each end its own diagram ([gas.crank_end])"
-        raise BalcliError(f"{name}: {found}: {right}")
+        raise BalcliError(f"{name}: {fault}: {right}")
     return pressure
 
 
@@ -206,7 +206,7 @@ def list_doubts(
     gas: Gas,
     path: str,
     columns: NumberColumns,
-    found: PiecewiseCurve,
+    pressure: PiecewiseCurve,
     imep: float,
     *,
     fires: bool = True,
@@ -217,39 +217,39 @@ def list_doubts(
         gas: Table [gas] of the engine file.
         path: Key of the engine file that names the diagram's file.
         columns: Columns of the diagram's file.
-        found: Pressure over the cycle angle, Pa.
+        pressure: Pressure over the cycle angle, Pa.
         imep: Indicated mean effective pressure, Pa.
         fires: Whether the highest pressure is expected near the dead centre at angle 0.
     """
     unit = _name_unit(columns)
     scale = columns.scales[1] * BAR  # Pa
-    top, value = find_highest(found)
+    top, value = find_highest(pressure)
     if fires and abs(math.degrees(top)) > NEAR_DEG:
-        told = (
+        message = (
             f"the highest pressure, {value / scale:.4g} {unit}, is at {math.degrees(top):.4g} deg "
             f"from the firing dead centre, where within {NEAR_DEG:g} is usual; are zero and phase "
             "right?"
         )
-        yield Doubt(path, told, ("gas.zero", "gas.phase"))
+        yield Doubt(path, message, ("gas.zero", "gas.phase"))
     if value > MAX_PRESSURE * BAR:
-        told = (
+        message = (
             f"the highest pressure is {value / scale:.4g} {unit}, where at most "
             f"{MAX_PRESSURE * BAR / scale:.4g} is usual; does the heading of its column "
             "name the right unit?"
         )
-        yield Doubt(path, told)
-    lowest = found.extremes()[0].value / scale
+        yield Doubt(path, message)
+    lowest = pressure.extremes()[0].value / scale
     if lowest * scale < LOW_PRESSURE * BAR:
-        told = (
+        message = (
             f"the lowest pressure is {lowest:.4g} {unit} absolute, where at least "
             f"{LOW_PRESSURE * BAR / scale:.4g} is usual{ASK_GAUGE}"
         )
-        yield Doubt(path, told)
+        yield Doubt(path, message)
     stated = gas.imep if path == "gas.indicator" else None
     measured = imep / BAR
     if stated is not None and abs(measured - stated) > SAME_IMEP * abs(stated):
-        told = (
+        message = (
             f"{stated:g} bar, but the diagram has {measured:.4g} bar; a phase error of one degree "
             "changes it by 3 to 7 %: is phase right?"
         )
-        yield Doubt("gas.imep", told, ("gas.phase",))
+        yield Doubt("gas.imep", message, ("gas.phase",))

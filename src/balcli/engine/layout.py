@@ -83,23 +83,23 @@ def plan_cylinders(model: EngineFile) -> Plan:
     rods = banks if shared else 1
     cylinders = len(layout.firing_order or ())
     if crank.throws is None and cylinders % rods:
-        told = f"has {cylinders} cylinders, which {rods} banks cannot share evenly: "
-        told += f"give crank.throws, or a multiple of {rods} cylinders"
-        raise InputError([Problem("layout.firing_order", told)])
+        message = f"has {cylinders} cylinders, which {rods} banks cannot share evenly: "
+        message += f"give crank.throws, or a multiple of {rods} cylinders"
+        raise InputError([Problem("layout.firing_order", message)])
     silent = [number for number, own in model.cylinder.items() if own.gas == 0]
     left_out = [number for number in silent if number not in (layout.firing_order or silent)]
     if crank.throws is None and left_out:
-        told = f"the firing order gives no throw for cylinder {left_out[0]}, which it leaves out"
-        raise InputError([Problem.of_missing("crank.throws", told)])
+        message = f"the firing order gives no throw for cylinder {left_out[0]}, which it leaves out"
+        raise InputError([Problem.of_missing("crank.throws", message)])
     throws = max(cylinders // rods, 1) if crank.throws is None else len(crank.throws)
     if crank.throws is None and not cylinders and layout.rows is not None:
         throws = layout.rows
     if max(banks, throws, throws * banks * shared) > MOST_PARTS:  # memory might not suffice
-        told = (
+        message = (
             f"{counted(banks, 'bank')} on {counted(throws, 'throw')} are too many; "
             f"no engine has more than {MOST_PARTS} cylinders"
         )
-        raise InputError([Problem("layout" if banks > 1 else "crank.throws", told)])
+        raise InputError([Problem("layout" if banks > 1 else "crank.throws", message)])
     all_places = ((bank, throw) for bank in range(banks) for throw in range(throws))
     places = [(bank, throw) for bank, throw in all_places if shared or throw % banks == bank]
     in_rows = layout.in_rows and layout.radial is not None
@@ -108,9 +108,9 @@ def plan_cylinders(model: EngineFile) -> Plan:
     problems += [*_check_rows(model, throws), *_check_throws(crank, throws)]
     problems += _check_bank_sizes(layout, blank)
     if not shared and throws < banks:
-        told = f'is "alternating", one rod a throw, for {counted(banks, "bank")} and '
-        told += f'{counted(throws, "throw")}: give more throws, or "shared"'
-        problems.append(Problem("layout.rods", told))
+        message = f'is "alternating", one rod a throw, for {counted(banks, "bank")} and '
+        message += f'{counted(throws, "throw")}: give more throws, or "shared"'
+        problems.append(Problem("layout.rods", message))
     problems += _check_firing_order(model, sorted(numbers.values()), throws)
     if problems:
         raise InputError(problems)
@@ -129,10 +129,10 @@ def _check_rows(model: EngineFile, throws: int) -> Iterator[Problem]:
     elif layout.rods != "shared":
         yield Problem(f"layout.{key}", 'a throw carries a whole row: give rods = "shared"')
     elif layout.rows not in (None, throws):
-        told = f"crank.throws has {counted(throws, 'throw')}"
+        message = f"crank.throws has {counted(throws, 'throw')}"
         if crank.throws is None:
-            told = f"layout.firing_order has cylinders for {throws}"
-        yield Problem("layout.rows", f"{counted(layout.rows or 0, 'row')}, but {told}")
+            message = f"layout.firing_order has cylinders for {throws}"
+        yield Problem("layout.rows", f"{counted(layout.rows or 0, 'row')}, but {message}")
     elif throws > len(OPPOSED) and crank.throws is None and layout.firing_order is None:
         yield Problem.of_missing("crank.throws", f"{throws} rows need the angle of every throw")
 
@@ -142,8 +142,8 @@ def _check_throws(crank: Crank, throws: int) -> Iterator[Problem]:
     for key in ("positions", "stroke", "throw_mass"):
         given = getattr(crank, key)
         if isinstance(given, tuple) and len(given) != throws:
-            told = f"has {counted(len(given), 'value')} for {counted(throws, 'throw')}"
-            yield Problem(f"crank.{key}", f"{told}; give one per throw")
+            message = f"has {counted(len(given), 'value')} for {counted(throws, 'throw')}"
+            yield Problem(f"crank.{key}", f"{message}; give one per throw")
 
 
 OPPOSED = (0.0, 180.0)  # default angles of one or two throws, deg
@@ -205,12 +205,12 @@ def _number_cylinders(layout: Layout, plan: Plan) -> tuple[dict[Cell, int], list
         right = "bank, from the free end to the flywheel end"
         if plan.in_rows:
             right = "row, in the direction of rotation"
-        told = f"has lists of {join_words(given)} cylinders, but {join_words(sizes)} are there"
-        return default, [Problem("layout.numbering", f"{told}: give one list per {right}")]
+        message = f"has lists of {join_words(given)} cylinders, but {join_words(sizes)} are there"
+        return default, [Problem("layout.numbering", f"{message}: give one list per {right}")]
     numbers = [number for row in layout.numbering for number in row]
     if sorted(numbers) != [*default.values()]:
-        told = _describe_not_once(numbers, [*default.values()])
-        return default, [Problem("layout.numbering", told)]
+        message = _describe_not_once(numbers, [*default.values()])
+        return default, [Problem("layout.numbering", message)]
     return dict(zip(cells, numbers, strict=True)), []
 
 
@@ -228,18 +228,18 @@ def _check_firing_order(
         len({*order}) == len(order) and {*numbers} - silent <= {*order} <= {*numbers}
     ):
         return
-    told = _describe_not_once(order, numbers)
+    message = _describe_not_once(order, numbers)
     banks = count_banks(layout)
     in_turn = 1 < banks <= throws == len(order) and layout.rods == "shared"
     dummies = {*numbers} if {*order} <= {*numbers} and not in_turn else model.cylinder.keys()
     if first := next((n for n in numbers if n not in order and n in dummies), 0):
-        told += f"; write [cylinder.{first}] gas = 0 if cylinder {first} is a dummy piston"
+        message += f"; write [cylinder.{first}] gas = 0 if cylinder {first} is a dummy piston"
     if in_turn:
-        told += (
+        message += (
             f"; every throw carries a rod of each of the {banks} banks: if the banks take the "
             'throws in turn, as in a boxer, give layout.rods = "alternating"'
         )
-    yield Problem("layout.firing_order", told)
+    yield Problem("layout.firing_order", message)
 
 
 def find_compressing(model: EngineFile, numbers: Sequence[int]) -> set[int]:
@@ -262,15 +262,17 @@ def _check_letters(layout: Layout, banks: int) -> Iterator[Problem]:
     if not isinstance(order, NamedOrder):
         return
     if layout.has("numbering"):
-        told = "firing_order has letters, and the letters say it; leave numbering out"
-        yield Problem("layout.numbering", told)
-    told = f"names the banks {join_words(order.letters)}"
+        message = "firing_order has letters, and the letters say it; leave numbering out"
+        yield Problem("layout.numbering", message)
+    message = f"names the banks {join_words(order.letters)}"
     if layout.in_rows or banks > MOST_LETTERED_BANKS:
-        told += f"; letters are read for 2 to {MOST_LETTERED_BANKS} banks without rows: write the "
-        yield Problem("layout.firing_order", f"{told}numbers of the cylinders")
+        message += (
+            f"; letters are read for 2 to {MOST_LETTERED_BANKS} banks without rows: write the "
+        )
+        yield Problem("layout.firing_order", f"{message}numbers of the cylinders")
     elif len(order.letters) != banks:
-        told += f", but layout has {counted(banks, 'bank')}; give bank_angle, or the angle of "
-        yield Problem("layout.firing_order", f"{told}every bank in banks")
+        message += f", but layout has {counted(banks, 'bank')}; give bank_angle, or the angle of "
+        yield Problem("layout.firing_order", f"{message}every bank in banks")
 
 
 def _check_bank_sizes(layout: Layout, plan: Plan) -> Iterator[Problem]:
@@ -278,8 +280,8 @@ def _check_bank_sizes(layout: Layout, plan: Plan) -> Iterator[Problem]:
     order = layout.firing_order
     sizes = [len(group) for group in plan.groups]
     if isinstance(order, NamedOrder) and sorted(order.bank_sizes) != sorted(sizes):
-        told = f"{_describe_bank_sizes(order)}, but the banks have {join_words(sizes)} cylinders"
-        yield Problem("layout.firing_order", told)
+        message = f"{_describe_bank_sizes(order)}, but the banks have {join_words(sizes)} cylinders"
+        yield Problem("layout.firing_order", message)
 
 
 def _describe_bank_sizes(order: NamedOrder) -> str:
@@ -423,13 +425,13 @@ def _describe_too_long(
     even = find_instants(order, None, cycle)
     gaps = {number: float(ready[number] - first - fires) for number, fires in even.items()}
     off = (number for number, gap in gaps.items() if abs((gap + 180) % 360 - 180) > TOLERANCE_DEG)
-    told = (
+    message = (
         f"{write_order(order)} would take {total:g} deg with these crank.throws, but a "
         f"cycle has {cycle:g}; with even firing every {cycle / len(order):g} deg, cylinder "
         f"{next(off, order[-1])} is the first that is not at top dead centre when it fires: "
         "change firing_order or crank.throws, or leave crank.throws out"
     )
-    return Problem("layout.firing_order", told)
+    return Problem("layout.firing_order", message)
 
 
 def check_firing(

@@ -198,18 +198,18 @@ class FiguresOfVariants(EngineVariants, Generic[Asked]):
         return self._evaluate(self.build(values), self._quantities)
 
 
-def remember(known: dict[Key, Value], key: Key, make: Callable[[], Value]) -> Value:
+def remember(cache: dict[Key, Value], key: Key, make: Callable[[], Value]) -> Value:
     """Return the cached value of a key; make it if it is new. A full cache is emptied.
 
     Args:
-        known: Cache.
+        cache: Cache.
         key: Key of the value.
         make: Function that makes the value.
     """
-    found = known.get(key)
-    if found is None:
-        found = make()
-        if len(known) >= _KEPT:
-            known.clear()
-        known[key] = found
-    return found
+    value = cache.get(key)
+    if value is None:
+        value = make()
+        if len(cache) >= _KEPT:
+            cache.clear()
+        cache[key] = value
+    return value

@@ -75,6 +75,6 @@ def join_engines(draft: Draft) -> Draft:
 def _parse_one(text: bytes, name: str) -> EngineFile:
     draft = read_tables(text, name)
     if draft.model.engine:
-        told = "has [[engine]] itself; name files of single engines"
-        raise InputError([Problem("", told)], name)
+        message = "has [[engine]] itself; name files of single engines"
+        raise InputError([Problem("", message)], name)
     return _refuse_mistakes(draft, name)

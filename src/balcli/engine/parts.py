@@ -290,12 +290,12 @@ def arrange_cylinders(parts: Parts) -> Cylinders:
     weighed = parts.weighed
     masters = parts.masters
     radius = parts.find_radius
-    one = all(gears[n] is gears[numbers[0]] for n in numbers)  # no cylinder differs from the others
-    one = one and not isinstance(parts.model.crank.throw_mass, tuple)
+    same_gear = all(gears[n] is gears[numbers[0]] for n in numbers)
+    alike = same_gear and not isinstance(parts.model.crank.throw_mass, tuple)
 
     def of_each(find: Callable[[int], Figure]) -> Array:
         """Return a figure of all cylinders, as a single row if they are equal."""
-        return shared_column([find(n) for n in (numbers[:1] if one else numbers)], rank)
+        return shared_column([find(n) for n in (numbers[:1] if alike else numbers)], rank)
 
     def find_rotating(number: int) -> Figure:
         """Return the mass on the crank pin, kg; that of an articulated rod is on a knuckle pin."""
@@ -536,9 +536,9 @@ class Parts:
         masters = table.masters
         throws = self.plan.throws
         if len(masters) not in (1, throws):
-            told = f"{counted(len(masters), 'master')} for {counted(throws, 'row')}; give one "
-            told += f"from 1 to {self.plan.banks}, or one per row"
-            raise InputError([Problem("articulation.master", told)])
+            message = f"{counted(len(masters), 'master')} for {counted(throws, 'row')}; give one "
+            message += f"from 1 to {self.plan.banks}, or one per row"
+            raise InputError([Problem("articulation.master", message)])
         return masters if len(masters) > 1 else masters * throws
 
     def find_knuckle_angles(self) -> list[tuple[Figure, ...]] | None:
@@ -552,13 +552,15 @@ class Parts:
         banks = self.plan.banks
         throws = self.plan.throws
         every = cast(tuple[float, ...], table.knuckle_angles)
-        found = [self.figures.take_each(path, every)] * throws
+        angles = [self.figures.take_each(path, every)] * throws
         if rows := [row for row in table.knuckle_angles if isinstance(row, tuple)]:
-            found = [self.figures.take_each(f"{path}.{k}", row) for k, row in enumerate(rows, 1)]
-        wrong = [(len(row), "angle", banks, "bank") for row in found if len(row) != banks]
-        if len(found) != throws:
-            wrong = [(len(found), "list", throws, "row")]
-        for number, what, wanted, each in wrong[:1]:
-            told = f"has {counted(number, what)} for {counted(wanted, each)}: give one per {each}"
-            raise InputError([Problem(path, told)])
-        return found
+            angles = [self.figures.take_each(f"{path}.{k}", row) for k, row in enumerate(rows, 1)]
+        wrong = [(len(row), "angle", banks, "bank") for row in angles if len(row) != banks]
+        if len(angles) != throws:
+            wrong = [(len(angles), "list", throws, "row")]
+        for number, noun, wanted, place in wrong[:1]:
+            message = (
+                f"has {counted(number, noun)} for {counted(wanted, place)}: give one per {place}"
+            )
+            raise InputError([Problem(path, message)])
+        return angles

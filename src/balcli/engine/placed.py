@@ -42,15 +42,15 @@ def read_engines(draft: Draft, parse: Callable[[bytes, str], EngineFile]) -> Dra
     engines = tuple(filter(None, model.engine))
     if "engine" in draft.readable:
         problems += _check_engines(model)
-    found: dict[str, EngineFile | None] = {}
+    models: dict[str, EngineFile | None] = {}
     for k, table in enumerate(model.engine, 1):
-        if table is None or table.file in found:
+        if table is None or table.file in models:
             continue
-        found[table.file] = None
+        models[table.file] = None
         with _collecting(problems, k, table.file):
             path = locate_beside(model.folder, table.file)
-            found[table.file] = parse(read_bytes(path), str(path))
-    cranks = tuple(filter(None, (found[table.file] for table in engines)))
+            models[table.file] = parse(read_bytes(path), str(path))
+    cranks = tuple(filter(None, (models[table.file] for table in engines)))
     _tell_ignored(engines, cranks)
     if not problems:
         own = model.operation
@@ -76,18 +76,20 @@ def _check_engines(model: EngineFile) -> Iterator[Problem]:
         return
     for key in ("ratio", "phase"):
         if getattr(engines[0], key) != type(engines[0]).model_fields[key].default:
-            told = "the first engine is the reference; its ratio is 1 and its phase 0"
-            yield Problem(f"engine.1.{key}", told)
+            message = "the first engine is the reference; its ratio is 1 and its phase 0"
+            yield Problem(f"engine.1.{key}", message)
     names = model.crank_names
     for k, name in enumerate(names):
         if name in names[:k]:
-            told = f'"{name}" is also the name of engine {names.index(name) + 1}; give each its own'
-            yield Problem(f"engine.{k + 1}.name", told)
+            message = (
+                f'"{name}" is also the name of engine {names.index(name) + 1}; give each its own'
+            )
+            yield Problem(f"engine.{k + 1}.name", message)
     loads = sum(engine.load for engine in engines)
     given = any(engine.has("load") for engine in engines)
     if given and loads not in (1, len(engines)):
-        told = f"true for {loads} of {len(engines)} engines; set it for one or for all"
-        yield Problem("engine.load", told)
+        message = f"true for {loads} of {len(engines)} engines; set it for one or for all"
+        yield Problem("engine.load", message)
     yield from _check_carriers(model)
 
 
@@ -96,8 +98,8 @@ def _check_carriers(model: EngineFile) -> Iterator[Problem]:
     names = model.crank_names
     for k, weight in enumerate(model.counterweight, 1):
         if weight.engine is not None and weight.engine not in names:
-            told = f'"{weight.engine}" is no engine; the engines are {", ".join(names)}'
-            yield Problem(f"counterweight.{k}.engine", told)
+            message = f'"{weight.engine}" is no engine; the engines are {", ".join(names)}'
+            yield Problem(f"counterweight.{k}.engine", message)
         if weight.axle is not None:
             yield Problem(f"counterweight.{k}.axle", "a file with [[engine]] has no axles")
 
@@ -269,15 +271,17 @@ def _join_gas(placed: Sequence[Placed]) -> EngineGas | None:
     if not burning:
         return None
     cylinders = list[CylinderGas]()
-    for one in placed:
-        gas = one.engine.gas
+    for placed_engine in placed:
+        gas = placed_engine.engine.gas
         start = len(cylinders)
         if gas is None:
             idle = burning[0].cylinders[0]._replace(share=0.0, like=start)
-            cylinders += [idle] * len(one.engine.numbers)
+            cylinders += [idle] * len(placed_engine.engine.numbers)
             continue
         cylinders += (
-            own._replace(nominal_deg=own.nominal_deg - float(one.phase_deg), like=start + own.like)
+            own._replace(
+                nominal_deg=own.nominal_deg - float(placed_engine.phase_deg), like=start + own.like
+            )
             for own in gas.cylinders
         )
     efficiencies = {gas.mechanical_efficiency for gas in burning}

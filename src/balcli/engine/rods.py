@@ -175,16 +175,16 @@ def check_harmonic(place: RodPlace, *, fixed: bool) -> Iterator[Problem]:
         fixed: Whether all rods are on crank pins, and all cylinders at rest.
     """
     if not fixed:
-        told = "harmonic motion needs a fixed cylinder whose rod or yoke is on the crank pin"
-        yield Problem("rod.motion", told)
+        message = "harmonic motion needs a fixed cylinder whose rod or yoke is on the crank pin"
+        yield Problem("rod.motion", message)
         return
     for key in {"inertia", "pendulum"} & place.rod.given.keys():
-        told = "a rod in harmonic motion does not swing; leave it out"
-        yield Problem(place.path(key), told)
+        message = "a rod in harmonic motion does not swing; leave it out"
+        yield Problem(place.path(key), message)
     given = place.rod.given
     if {"mass", "cg"} <= given.keys() and not given.keys() & {*LENGTHS}:
-        told = "rod.mass and rod.cg need it (or give small_end and big_end instead)"
-        yield Problem.of_missing("rod.length", told)
+        message = "rod.mass and rod.cg need it (or give small_end and big_end instead)"
+        yield Problem.of_missing("rod.length", message)
 
 
 def check_rod_inertia(place: RodPlace, gear: RunningGear) -> Iterator[Problem]:
@@ -203,22 +203,22 @@ def check_rod_inertia(place: RodPlace, gear: RunningGear) -> Iterator[Problem]:
         spin, period, arm = np.broadcast_arrays(gear.spin, pendulum.period, arm)
         worst = spin.argmin()
         shortest = 2 * math.pi * math.sqrt(max(arm.flat[worst], 0.0) / STANDARD_GRAVITY)
-        told = f"period {period.flat[worst]:g} s is too short: a full swing takes more than "
-        told += (
+        message = f"period {period.flat[worst]:g} s is too short: a full swing takes more than "
+        message += (
             f"{shortest:.4g} s with the centre of mass {1e3 * arm.flat[worst]:g} mm from the pivot"
         )
-        yield Problem(place.path("pendulum"), told)
+        yield Problem(place.path("pendulum"), message)
         return
     length_mm = np.min(gear.length) * 1e3
     cg_mm = np.max(or_zero(place.rod.cg)) * 1e3
     # The general centre of mass may not fit the length of this cylinder's rod.
     path = place.path("cg")
-    what = ""
+    subject = ""
     if place.own.given.keys() & {*LENGTHS} and "cg" not in place.own.given:
-        what = f"{path} = "
+        subject = f"{path} = "
         path = place.path(*LENGTHS)
-    told = f"{what}{cg_mm:g} mm is outside the rod of {length_mm:g} mm: give a cg from 0 to "
-    yield Problem(path, f"{told}{length_mm:g} mm, or the rod's inertia")
+    message = f"{subject}{cg_mm:g} mm is outside the rod of {length_mm:g} mm: give a cg from 0 to "
+    yield Problem(path, f"{message}{length_mm:g} mm, or the rod's inertia")
 
 
 def check_turning(place: RodPlace, gear: RunningGear, radius: Figure) -> Iterator[Problem]:
@@ -235,6 +235,8 @@ def check_turning(place: RodPlace, gear: RunningGear, radius: Figure) -> Iterato
     if lam + eps <= 1 - NEAREST_TO_LOCK:
         return
     sum_ = f"; with the piston offset over rod length, the sum is {lam + eps:.9g}" if eps else ""
-    told = f"the crank cannot turn: crank radius over rod length is {lam:.9g}{sum_}; at most 1 - "
-    told += f"{NEAREST_TO_LOCK:g} is allowed: make the rod longer"
-    yield Problem(place.path(*LENGTHS), told)
+    message = (
+        f"the crank cannot turn: crank radius over rod length is {lam:.9g}{sum_}; at most 1 - "
+        f"{NEAREST_TO_LOCK:g} is allowed: make the rod longer"
+    )
+    yield Problem(place.path(*LENGTHS), message)

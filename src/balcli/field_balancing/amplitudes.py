@@ -119,38 +119,38 @@ def fit_amplitudes(file: RunsFile, used: list[int], name: str = "") -> Amplitude
             raise InputError([Problem("run", text)], name)
         fits.append(_refine(amplitudes, weights / size, start))
     unknowns: Complex = np.array(fits, dtype=complex)
-    found = np.asarray(unknowns[:, 0].real)
+    as_found = np.asarray(unknowns[:, 0].real)
     alpha: Complex = np.divide(unknowns[:, 1:], size)
     answers = None
     if circle is not None:
-        images = _pair(found / unknowns[:, 1], circle)
+        images = _pair(as_found / unknowns[:, 1], circle)
         if images is not None:
-            answers = _order(found, images * size)
+            answers = _order(as_found, images * size)
             alpha = answers.firsts.reshape(-1, 1)
-    coefficients = np.zeros((len(found), len(file.planes)), dtype=complex)
+    coefficients = np.zeros((len(as_found), len(file.planes)), dtype=complex)
     coefficients[:, planes] = alpha
-    misfit = series.readings.real - np.abs(found + weights @ alpha.T)
-    return _collect(file, series, used, found, coefficients, misfit, answers)
+    misfit = series.readings.real - np.abs(as_found + weights @ alpha.T)
+    return _collect(file, series, used, as_found, coefficients, misfit, answers)
 
 
 def _collect(
     file: RunsFile,
     series: Series,
     used: list[int],
-    found: Array,
+    as_found: Array,
     coefficients: Complex,
     misfit: Array,
     answers: Answers | None,
 ) -> AmplitudeFit:
     """Return the fit as a record; see `AmplitudeFit` for the arguments."""
-    readings = found.astype(complex)
+    readings = as_found.astype(complex)
     influence = Influence(
-        speeds_rpm=(series.speed_rpm,) * len(found),
+        speeds_rpm=(series.speed_rpm,) * len(as_found),
         coefficients=coefficients * np.isin(np.arange(len(file.planes)), used),
         found=readings,
         latest=readings,
         start=readings,
-        factors=np.resize(file.reading_weights or 1.0, len(found)),
+        factors=np.resize(file.reading_weights or 1.0, len(as_found)),
         trimmed="",
         weights_on=np.zeros(len(file.planes), dtype=complex),
     )
@@ -240,34 +240,34 @@ def _start(amplitudes: Array, weights: Complex, circle: _Circle | None) -> Compl
         weights: Weights on the rotor, at most 1, shape (runs, planes).
         circle: Circle of all weights, if two answers fit: the lighter one is returned.
     """
-    found = float(amplitudes[~weights.any(axis=1)].mean())
-    start = [complex(found)]
+    as_found = float(amplitudes[~weights.any(axis=1)].mean())
+    start = [complex(as_found)]
     for k in range(weights.shape[1]):
         alone = _select_alone(weights, k)
         w = weights[alone, k]
         rows = np.stack([2 * w.real, -2 * w.imag, np.abs(w) ** 2], axis=1)
-        target = amplitudes[alone] ** 2 - found**2
+        target = amplitudes[alone] ** 2 - as_found**2
         x: Array | None = np.linalg.lstsq(rows, target, rcond=_ON_CIRCLE)[0]
         if circle is not None and x is not None:
-            x = _choose_lighter(x, np.linalg.svd(rows)[2][-1], found)
+            x = _choose_lighter(x, np.linalg.svd(rows)[2][-1], as_found)
         if x is None or x[2] <= 0:
             return None
-        start.append(complex(x[0], x[1]) / found)
+        start.append(complex(x[0], x[1]) / as_found)
     return np.array(start)
 
 
-def _choose_lighter(x: Array, free: Array, found: float) -> Array | None:
+def _choose_lighter(x: Array, free: Array, as_found: float) -> Array | None:
     """Return the point `x + t free` with `|A0 alpha|^2 = A0^2 |alpha|^2` that has the largest
     alpha, so the lightest unbalance; None if there is none.
 
     Args:
         x: Solution of the linear equations: real and imaginary part of A0 alpha, |alpha|^2.
         free: Direction in which the equations leave x open.
-        found: A0, reading as found.
+        as_found: A0, reading as found.
     """
     square = free[0] ** 2 + free[1] ** 2
-    linear = 2 * (x[0] * free[0] + x[1] * free[1]) - found**2 * free[2]
-    constant = x[0] ** 2 + x[1] ** 2 - found**2 * x[2]
+    linear = 2 * (x[0] * free[0] + x[1] * free[1]) - as_found**2 * free[2]
+    constant = x[0] ** 2 + x[1] ** 2 - as_found**2 * x[2]
     under_root = linear**2 - 4 * square * constant
     if under_root < -_ROUNDING * linear**2:
         return None
@@ -329,15 +329,15 @@ def _pair(unbalances: Complex, circle: _Circle) -> Complex | None:
     return np.array(pairs)
 
 
-def _order(found: Array, unbalances: Complex) -> Answers:
+def _order(as_found: Array, unbalances: Complex) -> Answers:
     """Return both answers.
 
     Args:
-        found: Readings as found, shape (sensors,).
+        as_found: Readings as found, shape (sensors,).
         unbalances: Both unbalances of each sensor, shape (sensors, 2).
     """
     if abs(unbalances[0, 0]) > abs(unbalances[0, 1]):
         unbalances = unbalances[:, ::-1]
-    alpha = found[:, None] / unbalances
+    alpha = as_found[:, None] / unbalances
     lighter, heavier = -unbalances[0]
     return Answers((complex(lighter), complex(heavier)), alpha[:, 0], alpha[:, 1])

@@ -57,7 +57,7 @@ def find_doubts(result: FieldBalance) -> Iterator[Doubt]:
         yield _doubt_fit(result, result.fit)
     alike = [each for each in result.corrections if each.own_effect < _NEARLY_DEPENDENT]
     if len(alike) > 1:
-        told: str = Message(
+        message: str = Message(
             "planes {planes} have nearly the same effect: {share:.1%} of the effect of one can "
             "come from the others (condition number {condition:.3g}), so small reading errors "
             "change the weights much; if the weights are large, try {without} {plane}",
@@ -66,17 +66,17 @@ def find_doubts(result: FieldBalance) -> Iterator[Doubt]:
             condition=result.condition,
             plane=alike[0].plane,
         )
-        yield Doubt("", told)
+        yield Doubt("", message)
     if file.grade is not None or file.shares is not None:
         for key, hint in list_missing(file).items():
             yield Doubt(key, f"is missing, so the grade is not checked; give it, such as {hint}")
     if result.left_out and result.permitted is not None:
         remaining = f"{result.largest:.4g} {result.unit or ''}".rstrip()
-        told = (
+        message = (
             f"the permitted unbalance is checked without {' and '.join(result.left_out)}, whose "
             f"unbalance is unknown; readings of up to {remaining} remain"
         )
-        yield Doubt("", told)
+        yield Doubt("", message)
     series = collect_series(file)
     if result.fit is not None:
         runs = result.runs
@@ -96,12 +96,12 @@ def _doubt_fit(result: FieldBalance, fit: AmplitudeFit) -> Doubt:
     row, _ = np.unravel_index(int(np.abs(fit.misfit).argmax()), fit.misfit.shape)
     amount = f"{fit.rms:.3g} {result.unit or ''}".rstrip()
     worst = result.file.name_run(int(row))
-    told = (
+    message = (
         f"the readings do not fit one unbalance: their misfit is {amount} (rms), "
         f"{100 * fit.share:.2g}% of the largest reading; repeat '{worst}', which "
         "fits worst, with the same weights"
     )
-    return Doubt("", told)
+    return Doubt("", message)
 
 
 class _Trials(NamedTuple):
@@ -118,23 +118,23 @@ def _doubt_trials(result: FieldBalance, trials: list[_Trials]) -> Iterator[Doubt
         plane = correction.plane
         weight = abs(correction.weight)
         k = result.file.planes.index(plane)
-        for series, alpha, found in trials:
+        for series, alpha, as_found in trials:
             change = np.abs(np.outer(alpha[:, k], series.weights[:, k])).max()
-            if change < _SMALL_CHANGE * (largest := np.abs(found).max()):
+            if change < _SMALL_CHANGE * (largest := np.abs(as_found).max()):
                 at = f" at {series.speed_rpm:g} rpm" if len(trials) > 1 else ""
-                told = (
+                message = (
                     f"the trial weight in {plane}{at} changes no reading by more than "
                     f"{change:.3g}, {100 * change / largest:.2g}% of the largest; make it heavier"
                 )
-                yield Doubt("", told)
+                yield Doubt("", message)
         trial = max(float(np.abs(each.series.weights[:, k]).max()) for each in trials)
         if weight > _FAR_BEYOND * trial:
-            told = (
+            message = (
                 f"the correction of {weight:.3g} {result.weight_unit} in {plane} is "
                 f"{weight / trial:.3g} times the largest weight tried there; put it on, read "
                 "again, and add that run to the file"
             )
-            yield Doubt("", told)
+            yield Doubt("", message)
 
 
 def _doubt_runs(result: FieldBalance, series: Series) -> Iterator[Doubt]:
@@ -157,11 +157,11 @@ def _doubt_runs(result: FieldBalance, series: Series) -> Iterator[Doubt]:
     if np.abs(series.readings - turned).max() <= _SURPRISING * largest:
         other = "with" if file.senses[1] == "against" else "against"
         remedy = f'the run fits if angles of weights count the other way: weights = "{other}"'
-    told = (
+    message = (
         f"'{file.name_run(series.numbers[row])}' reads {read} at "
         f"{result.readings[sensor].sensor}; the other runs predict {expected}; {remedy}"
     )
-    yield Doubt("", told)
+    yield Doubt("", message)
 
 
 def _predict(series: Series, used: list[int]) -> tuple[Complex, float]:
@@ -171,10 +171,10 @@ def _predict(series: Series, used: list[int]) -> tuple[Complex, float]:
     """
     count = count_needed(series, used)
     first = series._replace(readings=series.readings[:count], weights=series.weights[:count])
-    alpha, found = fit_coefficients(first)
+    alpha, as_found = fit_coefficients(first)
     changes = series.weights @ alpha.T
-    predicted = found + changes
-    largest = float(max(np.abs(found).max(), np.abs(changes).max()))
+    predicted = as_found + changes
+    largest = float(max(np.abs(as_found).max(), np.abs(changes).max()))
     return np.where(np.abs(predicted) <= _ROUNDING * largest, 0, predicted), largest
 
 
@@ -583,9 +583,9 @@ def _find_permitted(
     whole = find_permitted_unbalance(file.grade, file.mass, file.speed)
     shares = np.array(file.shares or np.ones(len(file.planes)))
     planes = []
-    for j, (k, there, added) in enumerate(zip(used, best, step, strict=True)):
+    for j, (k, installed, added) in enumerate(zip(used, best, step, strict=True)):
         permitted = whole * float(shares[k] / shares.sum())
-        present = _find_unbalance(file, k, there) or 0.0
+        present = _find_unbalance(file, k, installed) or 0.0
         within = None if scatter is None else _find_unbalance(file, k, scatter[j])
         planes.append(
             PlanePermitted(
@@ -594,7 +594,7 @@ def _find_permitted(
                 present_g_mm=present,
                 scatter_g_mm=within,
                 reached=present + (within or 0.0) <= permitted,
-                after_g_mm=_find_unbalance(file, k, there - added) or 0.0,
+                after_g_mm=_find_unbalance(file, k, installed - added) or 0.0,
             )
         )
     return Permitted(

@@ -93,7 +93,7 @@ class Influence(NamedTuple):
 
 def collect_series(file: RunsFile) -> list[Series]:
     """Return the runs as one series for each speed, in the order of the file."""
-    found = list[Series]()
+    all_series = list[Series]()
     speeds = dict.fromkeys(run.speed for run in file.run)
     rows = file.influence and np.array(file.influence, complex)
     known = [None] * len(speeds) if rows is None else np.split(rows, len(speeds))
@@ -105,8 +105,8 @@ def collect_series(file: RunsFile) -> list[Series]:
             states.append(kept + file.list_weights(run))
             kept = states[-1] if run.keep_trial else kept
         readings = np.array([file.run[k].readings for k in numbers], dtype=complex)
-        found.append(Series(speed, numbers, readings, file.turn(np.array(states)), given))
-    return found
+        all_series.append(Series(speed, numbers, readings, file.turn(np.array(states)), given))
+    return all_series
 
 
 def find_influence(file: RunsFile, used: Collection[int], name: str = "") -> Influence:
@@ -129,8 +129,8 @@ def find_influence(file: RunsFile, used: Collection[int], name: str = "") -> Inf
         count = count_needed(series, used)
         if count is None:
             raise InputError([_explain_undetermined(file, series, used)], name)
-        alpha, found = fit_coefficients(series)
-        latest = found
+        alpha, as_found = fit_coefficients(series)
+        latest = as_found
         on = np.zeros(planes, dtype=complex)
         if (last := find_last_correction(series, count)) is not None:
             latest = series.readings[last]
@@ -138,16 +138,16 @@ def find_influence(file: RunsFile, used: Collection[int], name: str = "") -> Inf
             if series.numbers[last] > trim:
                 trim = series.numbers[last]
                 goes_on = on
-        speeds = np.full(len(found), series.speed_rpm, dtype=object)
-        blocks.append((speeds, alpha, found, latest, latest - alpha @ on))
-    speeds, alpha, found, latest, bare = map(np.concatenate, zip(*blocks, strict=True))
+        speeds = np.full(len(as_found), series.speed_rpm, dtype=object)
+        blocks.append((speeds, alpha, as_found, latest, latest - alpha @ on))
+    speeds, alpha, as_found, latest, bare = map(np.concatenate, zip(*blocks, strict=True))
     return Influence(
         speeds_rpm=tuple(speeds),
         coefficients=alpha * np.isin(np.arange(planes), [*used]),
-        found=found,
+        found=as_found,
         latest=latest,
         start=bare + alpha @ goes_on,
-        factors=np.resize(file.reading_weights or 1.0, len(found)),
+        factors=np.resize(file.reading_weights or 1.0, len(as_found)),
         trimmed="" if trim < 0 else file.name_run(trim),
         weights_on=goes_on,
     )
@@ -162,16 +162,16 @@ def fit_coefficients(series: Series) -> tuple[Complex, Complex]:
     """
     if series.given is not None:
         alpha = series.given
-        found = series.readings[0] - alpha @ series.weights[0]
+        as_found = series.readings[0] - alpha @ series.weights[0]
     else:
         design = _design(series)
         fitted = np.array([solve(design, column).x for column in series.readings.T])
-        found = fitted[:, 0]
+        as_found = fitted[:, 0]
         changes = fitted[:, 1:]
         unmoved = np.abs(changes) <= _ROUNDING * np.abs(series.readings).max(axis=0)[:, None]
         alpha = changes * ~unmoved / (np.abs(series.weights).max() or 1.0)
     bare = ~series.weights.any(axis=1)
-    return alpha, np.asarray(series.readings[bare].mean(axis=0)) if bare.any() else found
+    return alpha, np.asarray(series.readings[bare].mean(axis=0)) if bare.any() else as_found
 
 
 def find_scatter(file: RunsFile, runs: Influence, used: list[int], step: Complex) -> Array | None:

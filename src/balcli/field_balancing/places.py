@@ -183,15 +183,15 @@ def _sort_places(angles_deg: Array) -> tuple[Array, NDArray[np.intp], Complex]:
     return angles, first + 1, np.exp(1j * np.radians(angles))
 
 
-def _resolve(wanted: Complex, one: Complex, other: Complex, nothing: float) -> Array:
-    """Return the weights along `one` and `other` that add up to `wanted`, shape (2, places).
+def _resolve(wanted: Complex, first: Complex, other: Complex, nothing: float) -> Array:
+    """Return the weights along `first` and `other` that add up to `wanted`, shape (2, places).
 
-    If `other` is half a turn or more ahead of `one`, only `one` is used. -1 marks an impossible
+    If `other` is half a turn or more ahead of `first`, only `first` is used. -1 marks an impossible
     weight.
     """
-    across = (np.conj(one) * other).imag
-    miss = (np.conj(one) * wanted).imag
+    across = (np.conj(first) * other).imag
+    miss = (np.conj(first) * wanted).imag
     parts = np.array([-(np.conj(other) * wanted).imag, miss])
-    alone = np.where(np.abs(miss) < nothing, (np.conj(one) * wanted).real, -1.0)
+    alone = np.where(np.abs(miss) < nothing, (np.conj(first) * wanted).real, -1.0)
     two = across > _ROUNDING
     return np.where(two, parts / np.where(two, across, 1.0), [alone, np.zeros_like(alone)])

@@ -393,9 +393,9 @@ def _find_misfits(file: RunsFile) -> Iterator[Problem]:
         at = f" at {counted(len(speeds), 'speed')}" if len(speeds) > 1 else ""
         wanted = sensors * len(speeds)
         counts.append(("influence", file.influence, "row", wanted, f"{readings}{at}"))
-    for path, values, what, wanted, of in counts:
+    for path, values, noun, wanted, of in counts:
         if values is not None and len(values) != wanted:
-            text = f"has {counted(len(values), what)}, but there are {of}; give one for each"
+            text = f"has {counted(len(values), noun)}, but there are {of}; give one for each"
             yield Problem(path, text)
     yield from _check_holes(file)
     if file.has_only_amplitudes:

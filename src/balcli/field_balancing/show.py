@@ -39,32 +39,33 @@ def rows(result: FieldBalance, system: System) -> Rows:
     return Rows(_HEADER, _list_lines(to_document(result), result.file.planes))
 
 
-def _list_lines(found: Node, planes: tuple[str, ...]) -> Iterator[tuple[object, ...]]:
-    for each in found["corrections"]:
-        yield from _list_part("correction", each, each["plane"], found["weight_unit"])
+def _list_lines(document: Node, planes: tuple[str, ...]) -> Iterator[tuple[object, ...]]:
+    for correction in document["corrections"]:
+        plane = correction["plane"]
+        yield from _list_part("correction", correction, plane, document["weight_unit"])
     for part in ("before", "residual"):
-        for reading, value in zip(found["readings"], found[part], strict=True):
-            yield from _list_part(part, value, unit=found["unit"] or "", **reading)
-    for reading, line in zip(found["readings"], found["influence"], strict=True):
+        for reading, value in zip(document["readings"], document[part], strict=True):
+            yield from _list_part(part, value, unit=document["unit"] or "", **reading)
+    for reading, line in zip(document["readings"], document["influence"], strict=True):
         for plane, value in zip(planes, line, strict=True):
             name = f"{reading['sensor']} by {plane}"
             yield from _list_part("influence", value, name, "", reading["speed_rpm"])
-    for each in found.get("permitted", {"planes": ()})["planes"]:
-        yield from _list_part("permitted", each, each["plane"])
-    for each in found.get("solutions", ()):
-        yield from _list_part("solution", each, planes[0], found["weight_unit"])
+    for permitted in document.get("permitted", {"planes": ()})["planes"]:
+        yield from _list_part("permitted", permitted, permitted["plane"])
+    for solution in document.get("solutions", ()):
+        yield from _list_part("solution", solution, planes[0], document["weight_unit"])
     keys = ("condition", "largest", "rms", "bound", "method", "ambiguous", "fit_rms")
-    yield from _list_part("details", {key: found[key] for key in keys if key in found})
+    yield from _list_part("details", {key: document[key] for key in keys if key in document})
 
 
 def _list_part(
-    part: str, found: Node, sensor: str = "", unit: str = "", speed_rpm: float | None = None
+    part: str, figures: Node, sensor: str = "", unit: str = "", speed_rpm: float | None = None
 ) -> Iterator[tuple[object, ...]]:
     """Yield a line for each figure of an object; `unit` is that of weights and amplitudes."""
-    for name, value, known in list_figures(found, ("plane",)):
+    for name, value, own_unit in list_figures(figures, ("plane",)):
         of_file = name.rpartition(".")[2] in ("weight", "amplitude")
         cells = part, speed_rpm, name_cell(sensor), name, value
-        yield *cells, name_cell(unit) if of_file else known
+        yield *cells, name_cell(unit) if of_file else own_unit
 
 
 # ------------------------------------------------------------------ for people
@@ -167,22 +168,22 @@ def _show_answers(result: FieldBalance, answers: Answers, system: System) -> Gri
 def _show_open_readings(result: FieldBalance, fit: AmplitudeFit, answers: Answers) -> Grid:
     """Return the table of readings with the lighter answer on, by which answer is right."""
     lighter = answers.corrections[0]
-    found = np.abs(fit.influence.found)
+    as_found = np.abs(fit.influence.found)
     unit = f", {result.unit}" if result.unit else ""
     columns = [Column("reading", _name_readings(result), words=True)]
-    columns.append(Column(f"as found{unit}", _write_amplitudes(found, found)))
+    columns.append(Column(f"as found{unit}", _write_amplitudes(as_found, as_found)))
     for head, alpha in (
         ("if it is right", answers.firsts),
         ("if the other is right", answers.others),
     ):
-        predicted = np.abs(found + alpha * lighter)
-        columns.append(Column(head, _write_amplitudes(predicted, found)))
+        predicted = np.abs(as_found + alpha * lighter)
+        columns.append(Column(head, _write_amplitudes(predicted, as_found)))
     return Grid("Readings, predicted with the lighter one on", columns, _tell_misfit(result, fit))
 
 
-def _write_amplitudes(amplitudes: Array, found: Array) -> list[str]:
+def _write_amplitudes(amplitudes: Array, as_found: Array) -> list[str]:
     """Return amplitudes as texts; rounding errors of readings as found are 0."""
-    shown = np.where(amplitudes <= _ROUNDING * found, 0, amplitudes)
+    shown = np.where(amplitudes <= _ROUNDING * as_found, 0, amplitudes)
     return [number(float(amplitude)) for amplitude in shown]
 
 
@@ -205,10 +206,10 @@ def _explain_corrections(result: FieldBalance) -> Iterator[str]:
         "Own effect: share of a plane's effect that other planes cannot produce. Condition "
         f"number of the influence coefficients: {number(result.condition, 3)}."
     )
-    for each in result.corrections:
-        if each.wanted is not None:
-            best = _tell_weight(result, each.wanted)
-            yield f"Without its limit, {each.plane} would need {best}."
+    for correction in result.corrections:
+        if correction.wanted is not None:
+            best = _tell_weight(result, correction.wanted)
+            yield f"Without its limit, {correction.plane} would need {best}."
     if result.left_out:
         yield f"Planes left out: {', '.join(result.left_out)}."
     for plane, weight in zip(result.file.planes, result.runs.weights_on, strict=True):
@@ -229,19 +230,19 @@ def _show_pieces(result: FieldBalance, system: System) -> Grid:
     if file.drill:
         heads += [Column(f"drill, {length.name}"), Column(f"depth, {length.name}")]
     lines: list[tuple[str, ...]] = []
-    for each in result.corrections:
-        k = file.planes.index(each.plane)
-        for piece in each.pieces:
+    for correction in result.corrections:
+        k = file.planes.index(correction.plane)
+        for piece in correction.pieces:
             count = len(file.places[k]) if file.places else 0
             place = UNKNOWN if piece.place is None else f"{piece.place} of {count}"
-            cells = [each.plane, place, degrees(piece.angle_deg), number(piece.weight)]
+            cells = [correction.plane, place, degrees(piece.angle_deg), number(piece.weight)]
             if file.drill is not None and piece.depth_mm is not None:
                 cells.append(number(length.of(file.drill[k] / 1e3), 6))
                 cells.append(number(length.of(piece.depth_mm / 1e3), 3))
             lines.append(tuple(cells))
-        if not each.pieces:
-            lines.append((each.plane, *[UNKNOWN] * (len(heads) - 1)))
-    what = "Holes to drill" if file.drill else "Weights to put on"
+        if not correction.pieces:
+            lines.append((correction.plane, *[UNKNOWN] * (len(heads) - 1)))
+    task = "Holes to drill" if file.drill else "Weights to put on"
     when = f", in addition to '{result.trimmed}'" if result.trimmed else ""
     note = "In each plane, these weights together replace the single weight above."
     if file.drill:
@@ -251,14 +252,14 @@ def _show_pieces(result: FieldBalance, system: System) -> Grid:
         )
     if result.trimmed and (file.drill or file.most):
         note += " Limits and depths ignore earlier weights and holes, which are not in the file."
-    return Grid.of_rows(f"{what}{when}", heads, lines, note)
+    return Grid.of_rows(f"{task}{when}", heads, lines, note)
 
 
-def _show_permitted(result: FieldBalance, found: Permitted, system: System) -> Grid:
+def _show_permitted(result: FieldBalance, permitted: Permitted, system: System) -> Grid:
     file = result.file
     unit = system.unbalance.name
     mass = system.mass
-    every = found.planes
+    every = permitted.planes
     not_reached = [k for k, each in enumerate(every) if not each.reached]
 
     def write(sizes: Iterable[float | None]) -> list[str]:
@@ -274,13 +275,13 @@ def _show_permitted(result: FieldBalance, found: Permitted, system: System) -> G
     state = f"in '{result.trimmed}'" if result.trimmed else "of the rotor as found"
     note = (
         f"{mass.of(file.mass or 0.0):g} {mass.name} at {file.speed:g} rpm: permitted eccentricity "
-        f"{number(1e3 * found.specific_mm)} µm. There now: unbalance {state}, from its readings; "
-        "after: unbalance after the corrections."
+        f"{number(1e3 * permitted.specific_mm)} µm. There now: unbalance {state}, from its "
+        "readings; after: unbalance after the corrections."
     )
     if result.fit is None:
         scatter = Column(f"scatter, {unit}", write(each.scatter_g_mm for each in every))
         columns.insert(3, scatter)
-        note += f" Scatter: {_explain_scatter(found)}."
+        note += f" Scatter: {_explain_scatter(permitted)}."
     return Grid(f"Permitted residual unbalance, ISO 21940-11, G {file.grade:g}", columns, note)
 
 
@@ -329,9 +330,9 @@ def _list_readings(result: FieldBalance, head: str, values: Complex) -> list[Col
 
 def _show_influence(result: FieldBalance) -> Grid:
     columns = [Column("reading", _name_readings(result), words=True)]
-    for each in result.corrections:
-        effects = result.influence[:, result.file.planes.index(each.plane)]
-        columns += _list_polar(each.plane, effects, 5)
+    for correction in result.corrections:
+        effects = result.influence[:, result.file.planes.index(correction.plane)]
+        columns += _list_polar(correction.plane, effects, 5)
     note = f"Change of a reading by 1 {result.weight_unit} at 0 deg in the plane; "
     if result.fit is None:
         note += f"angles count like phases, {result.phases} rotation."
@@ -399,11 +400,11 @@ def _draw_weights(ax: PolarAxes, result: FieldBalance) -> None:
         angles = [np.angle(weight)] * 2
         ax.plot(angles, [0, abs(weight)], label=text, color=colour, linestyle=line, marker="o")
         sizes.append(abs(weight))
-    for each, (line, colour) in zip(result.corrections, cycle(MANY_LOOKS), strict=False):
-        name = fit_name(each.plane, 30)
-        rays = {name: (each.step, line)}
-        if each.wanted is not None:
-            rays[f"{name}, wanted"] = (each.wanted - each.weight + each.step, ":")
+    for correction, (line, colour) in zip(result.corrections, cycle(MANY_LOOKS), strict=False):
+        name = fit_name(correction.plane, 30)
+        rays = {name: (correction.step, line)}
+        if correction.wanted is not None:
+            rays[f"{name}, wanted"] = (correction.wanted - correction.weight + correction.step, ":")
         for label, (weight, style) in rays.items():
             angle = np.angle(weight)
             size = abs(weight)
@@ -412,7 +413,7 @@ def _draw_weights(ax: PolarAxes, result: FieldBalance) -> None:
             ax.plot([angle, angle], [0, size], label=text, markevery=[1], **look)
             sizes.append(size)
         if drilled or result.file.places:
-            for piece in each.pieces:
+            for piece in correction.pieces:
                 ax.plot([np.radians(piece.angle_deg)], [piece.weight], color=colour, **marks)
                 sizes.append(piece.weight)
     if drilled or result.file.places:

@@ -62,10 +62,10 @@ class Head(NamedTuple):
         name = rf"(?:{self.symbols})(?![^\W_])" if by_symbol else self.usual.partition("_")[0]
         if by_symbol and self.dimension is ANGLE and re.fullmatch(_DEGREES_OF_CRANK, head):
             return "deg", 1.0
-        found = re.fullmatch(rf"(?i){name}[\s_,]*[\[(/]?\s*(.+?)\s*[\])]?", head)
-        if found is None:
+        match = re.fullmatch(rf"(?i){name}[\s_,]*[\[(/]?\s*(.+?)\s*[\])]?", head)
+        if match is None:
             return None
-        unit = re.sub(_CRANK_ANGLE, "deg", found[1]).replace("_", " ")
+        unit = re.sub(_CRANK_ANGLE, "deg", match[1]).replace("_", " ")
         if self.dimension is PRESSURE:  # "bar (abs)", "bar g"
             unit = re.sub(r"(?i)[\s(]+a(?:bs(?:olute)?)?\)?$", "", unit)
             unit = re.sub(r"(?i)[\s(]+g(?:auge)?\)?$", "g", unit)
@@ -223,8 +223,8 @@ def _split(text: str) -> _Table:
 
 def _take_columns(table: _Table, wanted: Sequence[Head]) -> NumberColumns:
     heading, rows, numbers, mark = table
-    found = [_find_head(head, heading, wanted, mark) for head in wanted]
-    places = [place for place, _, _ in found]
+    columns = [_find_head(head, heading, wanted, mark) for head in wanted]
+    places = [place for place, _, _ in columns]
     width = len(heading) if mark in ", " else None
     texts = [_find_cells(row, places, width, n) for row, n in zip(rows, numbers, strict=False)]
     for column in zip(*texts, strict=True):
@@ -234,7 +234,7 @@ def _take_columns(table: _Table, wanted: Sequence[Head]) -> NumberColumns:
         tuple(_read_number(cell, comma, n) for cell in row)
         for row, n in zip(texts, numbers, strict=False)
     )
-    _, units, scales = zip(*found, strict=True)
+    _, units, scales = zip(*columns, strict=True)
     return NumberColumns(figures, tuple(numbers), units, scales)
 
 

@@ -108,8 +108,8 @@ def find_suspicious(model: EngineFile) -> list[Doubt]:
     doubted = {doubt.path for doubt in doubts}
     for path, value in find_radians(model):
         if path not in doubted:
-            told = f"{value:.4g} deg is a round part of a turn in radians; {RADIANS}"
-            doubts.append(Doubt(path, told))
+            message = f"{value:.4g} deg is a round part of a turn in radians; {RADIANS}"
+            doubts.append(Doubt(path, message))
     return doubts
 
 
@@ -158,39 +158,39 @@ def _find_missing(model: EngineFile) -> Iterator[Doubt]:
     masses, strokes = (np.resize(each, throws) for each in (crank.throw_masses, crank.strokes))
     of_throws = float(masses @ (strokes / 2) ** 2)
     if crank.inertia is not None and crank.inertia < of_throws and not model.layout.rotary:
-        told = (
+        message = (
             f"{crank.inertia:.4g} kg mm^2, less than the {of_throws:.4g} kg mm^2 of its throws "
             "alone (crank.throw_mass at the crank radius)"
         )
-        yield Doubt("crank.inertia", told, ("crank.throw_mass",))
+        yield Doubt("crank.inertia", message, ("crank.throw_mass",))
     placed = [number for number, own in model.cylinder.items() if own.position is not None]
     left = rods - len(placed)
     if crank.spacing is None and crank.positions is None and placed and left > rods / throws:
-        told = (
+        message = (
             f"is given, but {left} cylinders have no position and are all at 0: give the position "
             "of each, or crank.spacing"
         )
-        yield Doubt(f"cylinder.{placed[0]}.position", told)
+        yield Doubt(f"cylinder.{placed[0]}.position", message)
     if crank.positions is not None and list(crank.positions) != sorted(crank.positions):
-        told = (
+        message = (
             "do not rise; throws count from the free end, and z grows towards the flywheel: is "
             "each position that of its throw?"
         )
-        yield Doubt("crank.positions", told)
+        yield Doubt("crank.positions", message)
     stroke = max(crank.strokes)
     speed = model.operation.speed
     bore = model.piston.bore
     slow = speed < SLOW_SPEED and bore is not None and stroke > SLOW_BORES * bore
     if not model.layout.has("strokes") and (stroke > CROSSHEAD_STROKE or slow):
-        told = (
+        message = (
             f"is not given, and 4 is taken; engines with a stroke of {stroke:g} mm at {speed:g} "
             "rpm are mostly two-strokes: give layout.strokes = 2, or 4 if it is right"
         )
-        yield Doubt("layout.strokes", told)
+        yield Doubt("layout.strokes", message)
     torsion = model.torsion
     if model.flywheel is not None and torsion is not None and not (torsion.front or torsion.rear):
-        told = "is missing; `torsion` does not use [flywheel]: also write it as [[torsion.rear]]"
-        yield Doubt("torsion.rear", told)
+        message = "is missing; `torsion` does not use [flywheel]: also write it as [[torsion.rear]]"
+        yield Doubt("torsion.rear", message)
 
 
 def _list_pistons(model: EngineFile) -> Iterator[Figure]:
@@ -201,10 +201,10 @@ def _list_pistons(model: EngineFile) -> Iterator[Figure]:
     if mass := weigh_piston(model):
         yield _describe_piston(model, mass)
     if bore is not None:
-        for each in dict.fromkeys(strokes):
+        for length in dict.fromkeys(strokes):
             subject = "bore / stroke is"
             also = ("crank.stroke",)
-            yield Figure("piston.bore", bore / each, *BORE, "", SAME_UNIT, subject, also)
+            yield Figure("piston.bore", bore / length, *BORE, "", SAME_UNIT, subject, also)
     most = OFFSET * stroke
     yield Figure("piston.offset", model.piston.offset, -most, most, " mm", "is it in mm?")
     yield Figure(
@@ -320,18 +320,18 @@ def _list_cranks(model: EngineFile) -> Iterator[Figure]:
     if bank := model.layout.bank_angle:
         yield Figure("layout.bank_angle", bank, BANK, math.inf, " deg", RADIANS)
     throws, rods = _count_throws_and_rods(model)
-    one = weigh_piston(model) + weigh_rod(model)
+    reciprocating = weigh_piston(model) + weigh_rod(model)
     radius = max(crank.strokes) / 2
     throw_mass = max(crank.throw_masses)
-    if one:
-        most = THROW * rods / throws * one
+    if reciprocating:
+        most = THROW * rods / throws * reciprocating
         yield Figure("crank.throw_mass", throw_mass, 0, most, " kg", OFF_AXIS)
-        most = BEARING * one
+        most = BEARING * reciprocating
         yield Figure("bobweight.rod_bearing", shares.rod_bearing, 0, most, " kg", GRAMS)
         yield Figure("bobweight.oil", shares.oil, 0, most, " kg", GRAMS)
         per_rod = (shares.oil_per_pin or 0.0) * throws / rods
         yield Figure("bobweight.oil_per_pin", per_rod, 0, most, " kg for each rod", GRAMS)
-    most = UNBALANCE * (throws * throw_mass + rods * one) * 1e3 * radius
+    most = UNBALANCE * (throws * throw_mass + rods * reciprocating) * 1e3 * radius
     for number, weight in enumerate(model.counterweight if most else (), 1):
         path = f"counterweight.{number}"
         question = "is it in g mm?"
@@ -343,7 +343,7 @@ def _list_cranks(model: EngineFile) -> Iterator[Figure]:
             subject = "mass times radius is"
             also = (f"{path}.radius",)
             yield Figure(f"{path}.mass", size, 0, most, " g mm", question, subject, also)
-    yield from _list_turning(model, least=TURNING * rods * one * radius**2)
+    yield from _list_turning(model, least=TURNING * rods * reciprocating * radius**2)
 
 
 def _list_turning(model: EngineFile, least: float) -> Iterator[Figure]:

@@ -67,10 +67,12 @@ def find(words: str = "") -> list[Example]:
     Raises:
         BalcliError: No example mentions the words.
     """
-    found = [example for example in map(_read, _find_paths().values()) if example.mentions(words)]
-    if not found:
+    matching = [
+        example for example in map(_read, _find_paths().values()) if example.mentions(words)
+    ]
+    if not matching:
         raise BalcliError(f'no example mentions "{words[:60]}": balcli engines lists all examples')
-    return found
+    return matching
 
 
 def names() -> list[str]:
@@ -105,10 +107,10 @@ def text(name: str) -> str:
 
 def locate(name: str) -> Path:
     """Return the path of an example's file; errors as for `text`."""
-    known = _find_paths()
-    if name in known:
-        return known[name]
-    hint = suggest_nearest(name, known, "balcli engines lists all examples")
+    paths = _find_paths()
+    if name in paths:
+        return paths[name]
+    hint = suggest_nearest(name, paths, "balcli engines lists all examples")
     raise BalcliError(f'there is no example "{name[:60]}": {hint}')
 
 

@@ -98,14 +98,14 @@ def limit_digits(value: object) -> Any:
     return value
 
 
-def counted(count: int, what: str) -> str:
+def counted(count: int, noun: str) -> str:
     """Return a number with its noun: "1 place", "2 places".
 
     Args:
         count: Number.
-        what: Noun in the singular.
+        noun: Noun in the singular.
     """
-    return f"{count} {what}{'s' * (count != 1)}"
+    return f"{count} {noun}{'s' * (count != 1)}"
 
 
 def ordinal(number: int) -> str:
@@ -127,29 +127,29 @@ def count_lambda_digits(ratio: float, usual: int = 4) -> int:
     return usual if ratio < 0.999 else max(usual, 7)
 
 
-def nearest(word: str, known: Iterable[str], cutoff: float = 0.6) -> str:
+def nearest(word: str, names: Iterable[str], cutoff: float = 0.6) -> str:
     """Return the known word that was probably meant; empty if none is near.
 
     Args:
         word: Unknown word.
-        known: Known words.
+        names: Known words.
         cutoff: Least similarity; equal words have 1.
     """
     from difflib import get_close_matches
 
-    near = get_close_matches(word.lower(), list(known), 1, cutoff) if len(word) < 100 else []
+    near = get_close_matches(word.lower(), list(names), 1, cutoff) if len(word) < 100 else []
     return near[0] if near else ""
 
 
-def suggest_nearest(word: str, known: Iterable[str], otherwise: str) -> str:
+def suggest_nearest(word: str, names: Iterable[str], otherwise: str) -> str:
     """Return "did you mean ...?" for the known word that was probably meant, else another text.
 
     Args:
         word: Unknown word.
-        known: Known words.
+        names: Known words.
         otherwise: Text if no known word is near.
     """
-    near = nearest(word, known)
+    near = nearest(word, names)
     return f"did you mean {near}?" if near else otherwise
 
 
@@ -376,10 +376,10 @@ class ListOrEach:
     ) -> CoreSchema:
         from pydantic_core import core_schema
 
-        def read(value: object, one: Callable[[object], object]) -> object:
+        def read(value: object, read_row: Callable[[object], object]) -> object:
             rows = value if isinstance(value, (list, tuple)) else ()
             several = any(isinstance(row, (list, tuple)) for row in rows)
-            return tuple(map(one, rows)) if several else one(value)
+            return tuple(map(read_row, rows)) if several else read_row(value)
 
         one_schema = handler.generate_schema(self.one)
         return core_schema.no_info_wrap_validator_function(read, one_schema)
@@ -403,8 +403,8 @@ class OneOf(_Field):
             if value == option and isinstance(value, bool) == isinstance(option, bool):
                 return option
         hint = suggest_nearest(str(value), map(str, self.options), self.meaning)
-        told = f"{shorten(value)} is not {' or '.join(map(shorten, self.options))}"
-        raise ValueError(f"{told}; {hint}" if hint else told)
+        message = f"{shorten(value)} is not {' or '.join(map(shorten, self.options))}"
+        raise ValueError(f"{message}; {hint}" if hint else message)
 
     def json(self) -> Node:
         return {"enum": list(self.options)}

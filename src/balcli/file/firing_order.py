@@ -145,8 +145,10 @@ def _split(value: object) -> list[str]:
 def _read_name(text: str) -> CylinderName:
     name = text.strip()
     if not re.fullmatch(_ANY, name):
-        told = f"{shorten(text)} does not name a cylinder; write a letter and a number, such as 1R"
-        raise ValueError(told)
+        message = (
+            f"{shorten(text)} does not name a cylinder; write a letter and a number, such as 1R"
+        )
+        raise ValueError(message)
     number = name.strip("".join(filter(str.isalpha, name)))
     letter = name.replace(number, "")
     return CylinderName(letter.upper(), int(number), name)
@@ -172,8 +174,8 @@ def _order_names(names: Sequence[CylinderName]) -> NamedOrder:
     order = NamedOrder(names, letters)
     if len(letters) == 1:
         numbers = [name.number for name in names]
-        told = f"names a single bank, {letters[0]}; write the numbers alone: {numbers}"
-        raise ValueError(told)
+        message = f"names a single bank, {letters[0]}; write the numbers alone: {numbers}"
+        raise ValueError(message)
     for letter in letters:
         _check_bank(order, letter)
     return order
@@ -186,7 +188,7 @@ def _check_bank(order: NamedOrder, letter: str) -> None:
     if in_bank == [*wanted]:
         return
     missing = next(number for number in wanted if number not in in_bank)
-    told = (
+    message = (
         f"has {counted(len(in_bank), 'cylinder')} of bank {letter}: {join_words(in_bank)}, without "
         f"{missing}; the number counts along the bank, from 1 to {len(in_bank)}"
     )
@@ -196,8 +198,8 @@ def _check_bank(order: NamedOrder, letter: str) -> None:
             sorted(name.number for name in order.names if name.letter == each)
             for each in order.letters
         ]
-        told += (
+        message += (
             f". If the numbers count through the engine, write firing_order = {numbers} and "
             f"numbering = {banks}, with the list of the first bank first"
         )
-    raise ValueError(told)
+    raise ValueError(message)

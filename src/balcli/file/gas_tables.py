@@ -398,13 +398,13 @@ def list_compressing(gas: Gas | None, numbers: Iterable[int]) -> set[int]:
     """
     if gas is None:
         return set()
-    found = set(numbers) if gas.cycle == COMPRESSOR else set[int]()
+    compressing = set(numbers) if gas.cycle == COMPRESSOR else set[int]()
     for table in gas.of:
         own = take_of(gas, table)
-        found -= {*table.cylinders}
+        compressing -= {*table.cylinders}
         if own.cycle == COMPRESSOR:
-            found |= {*table.cylinders}.intersection(numbers)
-    return found
+            compressing |= {*table.cylinders}.intersection(numbers)
+    return compressing
 
 
 def take_of(gas: Gas, own: GasOf) -> Gas:

@@ -57,8 +57,8 @@ def _read_planes(value: object, read: Callable[[object], tuple[float, ...]]) -> 
         first, second = read(value)
         if first < second:
             return first, second
-    told = f"{shorten(value)} is not a pair in ascending order"
-    raise ValueError(f"{told}; give two z in mm, such as [-750, 750]")
+    message = f"{shorten(value)} is not a pair in ascending order"
+    raise ValueError(f"{message}; give two z in mm, such as [-750, 750]")
 
 
 FACTOR = _Factor(PLAIN, least=0, most=1)
@@ -132,15 +132,15 @@ class Locomotive(FileTable):
         """
         axles = self.list_axles(given)
         if self.speed is not None and rpm is not None:
-            told = f"operation.speed gives {rpm:g} rpm as well; keep one"
-            yield Problem("locomotive.speed", told)
+            message = f"operation.speed gives {rpm:g} rpm as well; keep one"
+            yield Problem("locomotive.speed", message)
         elif self.speed is not None:
             yield NO_DIAMETER
         if any(axle.coupling_mass not in (0, (0, 0)) for axle in axles):
             needed = {"coupling_angles": "angles of its pins", "coupling_planes": "z of the rods"}
             for key in (key for key in needed if getattr(self, key) is None):
-                told = f"coupling_mass needs the {needed[key]}"
-                yield Problem.of_missing(f"locomotive.{key}", told)
+                message = f"coupling_mass needs the {needed[key]}"
+                yield Problem.of_missing(f"locomotive.{key}", message)
         yield from list(_check_axles(axles)) or _check_load(axles, numbers, weights)
 
 
@@ -175,15 +175,15 @@ def _check_axles(axles: Sequence[Axle]) -> Iterator[Problem]:
     names = [axle.name for axle in axles]
     driving = [k for k, axle in enumerate(axles, 1) if axle.driving]
     if not any(axle.has_cranks for axle in axles):
-        told = "no axle is driving; write driving = true for the one with the cranks"
-        yield Problem("axle.driving", told)
+        message = "no axle is driving; write driving = true for the one with the cranks"
+        yield Problem("axle.driving", message)
     for k in driving[1:]:
-        told = f'"{names[driving[0] - 1]}" is driving as well; mark one axle'
-        yield Problem(f"axle.{k}.driving", told)
+        message = f'"{names[driving[0] - 1]}" is driving as well; mark one axle'
+        yield Problem(f"axle.{k}.driving", message)
     for k, name in enumerate(names, 1):
         if (first := names.index(name) + 1) < k:
-            told = f'"{name}" is the name of axle.{first} as well; give another'
-            yield Problem(f"axle.{k}.name", told)
+            message = f'"{name}" is the name of axle.{first} as well; give another'
+            yield Problem(f"axle.{k}.name", message)
     if not any(axle.part for axle in axles):
         yield Problem("axle.1.part", "0 for every axle; give one of them a part above 0")
 
@@ -199,16 +199,16 @@ def _check_load(
             if number not in numbers:
                 yield Problem(f"axle.{k}.cylinders", f"there is no cylinder {number}")
             elif number in place:
-                told = f'cylinder {number} stands on "{place[number]}" as well'
-                yield Problem(f"axle.{k}.cylinders", told)
+                message = f'cylinder {number} stands on "{place[number]}" as well'
+                yield Problem(f"axle.{k}.cylinders", message)
             place[number] = axle.name
     if left := [str(number) for number in numbers if number not in place]:
         yield Problem("axle.cylinders", f"no axle carries cylinder {join_words(left)}")
     names = [axle.name for axle in axles]
     for k, weight in enumerate(weights, 1):
         if weight is None and len(cranked) > 1:
-            told = f"several axles have cranks; name one of {join_words(names)}"
-            yield Problem.of_missing(f"counterweight.{k}.axle", told)
+            message = f"several axles have cranks; name one of {join_words(names)}"
+            yield Problem.of_missing(f"counterweight.{k}.axle", message)
         elif weight not in (None, *names):
-            told = f'there is no axle "{weight}"; there are {join_words(names)}'
-            yield Problem(f"counterweight.{k}.axle", told)
+            message = f'there is no axle "{weight}"; there are {join_words(names)}'
+            yield Problem(f"counterweight.{k}.axle", message)

@@ -90,14 +90,14 @@ def describe_finding(path: str, finding: ErrorDetails, table: type[FileTable]) -
     elif kind in ("too_short", "too_long"):
         bounds = {"too_short": ("at least", "min_length"), "too_long": ("at most", "max_length")}
         most, bound = bounds[kind]
-        these = document.description.partition(";")[0]
+        meaning = document.description.partition(";")[0]
         message = f"{shown} has {counted(len(value), 'value')}; give {most} {finding['ctx'][bound]}"
-        message += f": {these}" if these else ""
+        message += f": {meaning}" if meaning else ""
     elif kind == "tuple_type" and field and find_table(field.annotation):
-        found = (
+        fault = (
             "may be given several times" if isinstance(value, Mapping) else f"{shown} is no table"
         )
-        message = f"{found}; write [[{place}]] in double brackets"
+        message = f"{fault}; write [[{place}]] in double brackets"
     elif kind == "tuple_type":
         example = shorten(document.example or [0, 180])
         message = f"{shown} is not a list; write it in square brackets, such as {example}"
@@ -163,10 +163,10 @@ def refuse_other_kind(head: Container[str], file: str, *wanted: FileKind) -> Non
         OtherKindError: The file is of another kind; the error names it and the command that reads
             it.
     """
-    found = [kind for kind in (ENGINE, RUNS, CHAIN) if any(key in head for key in kind.keys)]
-    if len(found) == 1 and found[0] not in wanted:
+    matching = [kind for kind in (ENGINE, RUNS, CHAIN) if any(key in head for key in kind.keys)]
+    if len(matching) == 1 and matching[0] not in wanted:
         names = " or ".join(kind.name for kind in wanted)
-        message = f"is {found[0].name}, which {found[0].reader}; give {names}"
+        message = f"is {matching[0].name}, which {matching[0].reader}; give {names}"
         raise OtherKindError([Problem("", message)], file)
 
 

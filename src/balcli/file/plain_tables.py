@@ -65,8 +65,8 @@ def take_tables(function: str, source: object, wanted: str) -> tuple[Mapping[str
 def _key(key: object) -> str:
     if isinstance(key, (str, int, np.integer)) and not isinstance(key, bool):
         return str(key)
-    told = f"the key {str(key)[:60]} ({type(key).__name__}) is not a text"
-    raise TypeError(f'{told}; write it as in a file, such as "stroke"')
+    message = f"the key {str(key)[:60]} ({type(key).__name__}) is not a text"
+    raise TypeError(f'{message}; write it as in a file, such as "stroke"')
 
 
 def _plain(value: object) -> object:

@@ -116,16 +116,16 @@ class TableReader:
             self.add(path, f"{shorten(value)} is given in place of a table; {hint}")
             return None
         keys = table.keys()
-        known = {key: part for key, part in value.items() if key in keys}
+        usable = {key: part for key, part in value.items() if key in keys}
         for key in value:
             if key not in keys:
                 self.refuse_key(path, key, keys, value[key])
         try:
-            read = table.model_validate(known)
+            read = table.model_validate(usable)
         except ValidationError as error:
-            self._translate(path, table, error, whole=len(known) == len(value))
+            self._translate(path, table, error, whole=len(usable) == len(value))
             return None
-        return read if len(known) == len(value) else None
+        return read if len(usable) == len(value) else None
 
     def refuse_key(self, path: str, key: str, own: Collection[str] | None, value: object) -> None:
         """Collect the mistake of a key that a table does not have.
@@ -244,11 +244,11 @@ def check_tables(
         message = "has a body on mounts and no engine: balcli mounts reads it; an engine needs "
         raise InputError([Problem("", f"{message}[crank], [rod] and [piston]")], name)
     reader = TableReader(ENGINE.name, is_engine=True)
-    known = [key for key in KNOWN if key != "engine" or not slip]
-    for key in filter(lambda key: key not in known, data):
+    expected = [key for key in KNOWN if key != "engine" or not slip]
+    for key in filter(lambda key: key not in expected, data):
         inside = data[key]
-        if not isinstance(inside, Mapping) or not inside or suggest(key, known)[1]:
-            reader.refuse_key("", key, known, inside)
+        if not isinstance(inside, Mapping) or not inside or suggest(key, expected)[1]:
+            reader.refuse_key("", key, expected, inside)
             continue
         for inner, value in inside.items():  # keys of an unknown table
             reader.refuse_key(printable(key), inner, None, value)
@@ -259,7 +259,7 @@ def check_tables(
     foreign = set(KNOWN).difference(BESIDE_ENGINES) if geared else ()
     for key in filter(foreign.__contains__, data):
         reader.add(key, "a file with [[engine]] takes this from its engine files")
-    there = [key for key in known if key in data and key not in foreign]
+    there = [key for key in expected if key in data and key not in foreign]
     parts = {key: _read_part(reader, key, data[key]) for key in there}
     broken = {key for key in REQUIRED if key not in parts}
     broken |= {problem.meant for problem in reader.problems if problem.meant}

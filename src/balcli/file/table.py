@@ -142,8 +142,8 @@ class FileTable(BaseModel):
         bore = getattr(self, inner)
         diameter = getattr(self, outer)
         if bore and (diameter is None or bore >= diameter):
-            told = ", which is missing" if diameter is None else f" = {as_written(diameter, 'mm')}"
-            yield f"{inner} = {as_written(bore, 'mm')}: has to be below {outer}{told}"
+            limit = ", which is missing" if diameter is None else f" = {as_written(diameter, 'mm')}"
+            yield f"{inner} = {as_written(bore, 'mm')}: has to be below {outer}{limit}"
 
     def has(self, key: str) -> bool:
         """Return whether the file gives a key."""
@@ -207,19 +207,19 @@ def document_keys(table: type[FileTable]) -> dict[str, KeyDocument]:
     """Return the documentation of every key of a table: the string below the key, which ends with
     an example in TOML. Python does not keep such strings, so the source is read.
     """
-    found = dict.fromkeys(table.keys(), KeyDocument())
+    documents = dict.fromkeys(table.keys(), KeyDocument())
     for base in reversed(table.__mro__):
         if issubclass(base, FileTable) and base is not FileTable:
-            found |= _read_documents(base)
+            documents |= _read_documents(base)
     for key, field in table.keys().items():
         if field.description:  # a table may use pydantic's own descriptions
-            found[key] = KeyDocument(field.description, *(field.examples or ())[:1])
-    return found
+            documents[key] = KeyDocument(field.description, *(field.examples or ())[:1])
+    return documents
 
 
 def _read_documents(table: type[FileTable]) -> dict[str, KeyDocument]:
     """Return the documentation of the keys that the class of a table itself declares."""
-    found = {}
+    documents = {}
     (declared,) = ast.parse(dedent(getsource(table))).body
     for key, text in pairwise(declared.body):  # type: ignore[attr-defined]
         match key, text:
@@ -230,8 +230,8 @@ def _read_documents(table: type[FileTable]) -> dict[str, KeyDocument]:
                 words, _, example = " ".join(document.split()).partition(". Example: ")
                 lower = words[0].lower() + words[1:].removesuffix(".")
                 read = tomllib.loads(f"example = {example}")["example"] if example else None
-                found[name] = KeyDocument(lower, read)
-    return found
+                documents[name] = KeyDocument(lower, read)
+    return documents
 
 
 def label_table(table: FileTable, number: int) -> str:

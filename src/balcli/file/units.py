@@ -133,9 +133,9 @@ def find_near_name(name: str) -> str:
 
     usual = [prefix + unit for prefix in "mcMk" for unit in _SYMBOLS]
     units = (*usual, *_SYMBOLS, *DEFINITIONS)
-    known = {unit.lower(): unit for unit in units if unit not in AMBIGUOUS}
-    near = get_close_matches(name.lower(), known, 1, 0.75)
-    return known[near[0]] if near else ""
+    by_lower_case = {unit.lower(): unit for unit in units if unit not in AMBIGUOUS}
+    near = get_close_matches(name.lower(), by_lower_case, 1, 0.75)
+    return by_lower_case[near[0]] if near else ""
 
 
 PI = Fraction("3.14159265358979323846264338327950288419716939937510")
@@ -323,14 +323,14 @@ FORTRAN = r"(?<=[\d.])[dD]([+-]?\d{1,3})(?![\d.])"  # the exponent of 1.5D3
 _SUPERSCRIPTS = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
 
 
-def _spell_fraction(found: re.Match[str]) -> str:
+def _spell_fraction(match: re.Match[str]) -> str:
     """Return a figure with a fraction of one character, `3½`, as `3 1/2`."""
-    return f"{found[1]} {normalize('NFKC', found[2])}"
+    return f"{match[1]} {normalize('NFKC', match[2])}"
 
 
-def _spell_wide(found: re.Match[str]) -> str:
+def _spell_wide(match: re.Match[str]) -> str:
     """Return characters of full width, units of one character and special blanks as plain ones."""
-    return normalize("NFKC", found[0])
+    return normalize("NFKC", match[0])
 
 
 def _spell_exponent(found: re.Match[str]) -> str:
@@ -341,26 +341,26 @@ def _spell_signs(found: re.Match[str]) -> str:
     return found[0].translate(_SIGNS)
 
 
-def _spell_cyrillic(found: re.Match[str]) -> str:
+def _spell_cyrillic(match: re.Match[str]) -> str:
     """Return a Russian unit as balcli writes it; other words are returned unchanged."""
-    return _CYRILLIC.get(found[0]) or _CYRILLIC.get(found[0].lower(), found[0])
+    return _CYRILLIC.get(match[0]) or _CYRILLIC.get(match[0].lower(), match[0])
 
 
-def _spell_chinese(found: re.Match[str]) -> str:
+def _spell_chinese(match: re.Match[str]) -> str:
     """Return Chinese units that stand side by side (克毫米) as balcli writes them; other words are
     returned unchanged.
     """
     units = "|".join(sorted(_CHINESE, key=len, reverse=True))
     one_unit = f"(平方|立方|)({units})"
-    if not re.fullmatch(f"(?:{one_unit})+", found[0]):
-        return found[0]
-    factors = re.findall(one_unit, found[0])
+    if not re.fullmatch(f"(?:{one_unit})+", match[0]):
+        return match[0]
+    factors = re.findall(one_unit, match[0])
     return " ".join(f"{_CHINESE[unit]}{_CHINESE_POWERS[power]}" for power, unit in factors)
 
 
-def _join_thousands(found: re.Match[str]) -> str:
+def _join_thousands(match: re.Match[str]) -> str:
     """Return a figure without the characters that separate its thousands."""
-    return found[1] + re.sub(r"[ '_]", "", found[2])
+    return match[1] + re.sub(r"[ '_]", "", match[2])
 
 
 _RESPELT: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
@@ -489,18 +489,18 @@ def _measure(figure: str, dimension: Dimension) -> Fraction:
     if dimension is SPEED and re.search(_PER_SECOND, figure):
         message = 'has the unit "1/s": rad/s, or turns per second (Hz)?'
         raise ValueError(f"{message} {wanted(dimension)}")
-    found = _split(_spell_out(figure, dimension))
-    both = None if found else re.fullmatch(_LARGE_AND_SMALL, figure, re.ASCII)
+    figures = _split(_spell_out(figure, dimension))
+    both = None if figures else re.fullmatch(_LARGE_AND_SMALL, figure, re.ASCII)
     if both:
         sign, large, small = both.groups()
-        one = re.sub(r"\d+", "1", large)
-        whole, rest, least = (_measure(part, dimension) for part in (large, small, one))
+        least_text = re.sub(r"\d+", "1", large)
+        whole, rest, least = (_measure(part, dimension) for part in (large, small, least_text))
         if rest >= least:
-            raise ValueError(f'has "{small}" after "{large}"; it must be less than "{one}"')
+            raise ValueError(f'has "{small}" after "{large}"; it must be less than "{least_text}"')
         return -(whole + rest) if sign == "-" else whole + rest
-    if found is None:
+    if figures is None:
         raise ValueError(f"{_explain(figure)} {wanted(dimension)}")
-    number, names = found
+    number, names = figures
     if not names:
         plain = f": {float(number):.6g}" if dimension is PLAIN else ""
         raise ValueError(f"has no unit; {wanted(dimension)}{plain}")
@@ -515,8 +515,8 @@ def _measure(figure: str, dimension: Dimension) -> Fraction:
             bare = read_unit(dimension.unit, dimension)
             inverse = 1 / (number * unit.scale * bare.scale)
             size = f"{float(inverse):.6g}".replace("e+0", "e").replace("e+", "e")
-            told = f"is a flexibility; its inverse is {size} {dimension.unit}"
-            raise ValueError(told)
+            message = f"is a flexibility; its inverse is {size} {dimension.unit}"
+            raise ValueError(message)
         names_of_kinds = (kind.name for kind in _KINDS if kind.powers == unit.powers)
         name = next(names_of_kinds, "of another dimension")
         raise ValueError(f"is {name}, but {wanted(dimension)}")
@@ -601,9 +601,9 @@ def _find(name: str) -> Unit | None:
         number, names = _split(definition) or (Fraction(), "")
         unit = read_unit(names, PLAIN)
         return Unit(number * unit.scale, unit.powers)
-    one = name.removesuffix("s")
-    if one != name and len(one) > 1 and name.islower():
-        return _find(one)
+    singular = name.removesuffix("s")
+    if singular != name and len(singular) > 1 and name.islower():
+        return _find(singular)
     lower = name.lower()
     if not name[1:]:
         return None
@@ -616,10 +616,10 @@ def _find(name: str) -> Unit | None:
 @cache
 def _by_lower_case() -> defaultdict[str, set[str]]:
     """Return the names of all units, grouped by their spelling in lower case."""
-    found = defaultdict[str, set[str]](set)
+    by_lower_case = defaultdict[str, set[str]](set)
     for name in (*_BASE, *DEFINITIONS, *PREFIXED):
-        found[name.lower()].add(name)
-    return found
+        by_lower_case[name.lower()].add(name)
+    return by_lower_case
 
 
 @cache

@@ -167,11 +167,11 @@ def find_crank_loads(engine: Engine) -> CrankLoads | None:
     if not engine.places_known or engine.rotary or engine.placed:
         return None
     try:
-        found = compute_inner_loads(engine)
+        loads = compute_inner_loads(engine)
     except BalcliError:
         return None
-    main_N, main_mm = (None, None) if found.bearings is None else found.bearings.highest
-    moment, inner_mm = found.bending.highest
+    main_N, main_mm = (None, None) if loads.bearings is None else loads.bearings.highest
+    moment, inner_mm = loads.bending.highest
     return CrankLoads(main_N=main_N, main_mm=main_mm, inner_moment_Nm=moment, inner_mm=inner_mm)
 
 
@@ -206,10 +206,10 @@ def compute_loads(engine: Engine, orders: Array) -> tuple[Phasors, Array]:
     """
     counterweights = [d for d in engine.devices if d.kind is DeviceKind.COUNTERWEIGHT]
     refuse_too_many_loads(engine, len(orders), engine.cylinders.count + len(counterweights))
-    each = compute_spectra(engine, orders, ["force"], each=True)["force"]
+    by_cylinder = compute_spectra(engine, orders, ["force"], by_cylinder=True)["force"]
     more = [compute_device_force(engine, device, orders) for device in counterweights]
     places = [*np.ravel(engine.cylinders.z), *(device.z for device in counterweights)]
-    return join_places([each, *more]), np.array(places, float)
+    return join_places([by_cylinder, *more]), np.array(places, float)
 
 
 def list_places(z: Array) -> Array:
@@ -327,7 +327,7 @@ def compute_loads_with_gas(engine: Engine, orders: Array | None = None) -> Loads
 
     shear, block_shear = cut(find_ahead)
     bending, block_bending = cut(find_arms)
-    found = LoadsWithGas(
+    loads = LoadsWithGas(
         follow(sections, shear),
         follow(sections, bending, 1j, reach),
         follow(span, np.pad(shares, ((0, 0), (0, len(on_block))))),
@@ -335,9 +335,9 @@ def compute_loads_with_gas(engine: Engine, orders: Array | None = None) -> Loads
         follow(sections, block_bending, 1j, reach),
     )
     if orders is not None:
-        return found
-    due = mark_considerable(found.bending.phasors) | mark_considerable(found.block_bending.phasors)
-    return LoadsWithGas(*(along.select_orders(shown[due]) for along in found))
+        return loads
+    due = mark_considerable(loads.bending.phasors) | mark_considerable(loads.block_bending.phasors)
+    return LoadsWithGas(*(along.select_orders(shown[due]) for along in loads))
 
 
 def place_main_bearings(engine: Engine) -> Array:
@@ -385,8 +385,8 @@ def compute_forces_along(engine: Engine, crank_deg: Array) -> tuple[Complex, Com
         engine: One engine, not an array of variants.
         crank_deg: Crank angles, deg, shape (angles,).
     """
-    found = compute_rod_forces(engine, crank_deg)
-    pressed = found.axis * found.pin
+    rods = compute_rod_forces(engine, crank_deg)
+    pressed = rods.axis * rods.pin
     for master, hung in list_hung_rows(engine).items():
         pressed[master] -= pressed[hung].sum(axis=0)
     c = engine.cylinders
@@ -396,7 +396,7 @@ def compute_forces_along(engine: Engine, crank_deg: Array) -> tuple[Complex, Com
     turning = throws * (speed**2 - 1j * rate) * unit(crank_deg + pins_deg)
     devices = compute_device_forces(engine, crank_deg)
     on_crank = np.array([d.kind is DeviceKind.COUNTERWEIGHT for d in engine.devices], bool)
-    on_walls = found.axis * (found.gas + 1j * found.thrust)
+    on_walls = rods.axis * (rods.gas + 1j * rods.thrust)
     on_shaft = np.concatenate([pressed + turning, devices[on_crank]])
     return on_shaft, np.concatenate([on_walls, devices[~on_crank]])
 

@@ -268,9 +268,9 @@ def find_constant_inertia(engine: Engine) -> float | None:
     referred to the crank, kg m2; None if the file gives no such inertia.
     """
     crank = None if engine.rotary else engine.crank_inertia
-    found = float(engine.find_turning_inertia().energy)
-    is_given = found or crank is not None or engine.flywheel_inertia is not None
-    return found if is_given else None
+    inertia = float(engine.find_turning_inertia().energy)
+    is_given = inertia or crank is not None or engine.flywheel_inertia is not None
+    return inertia if is_given else None
 
 
 def silence(engine: Engine, number: CylinderNumber) -> Engine:
@@ -287,9 +287,9 @@ def silence(engine: Engine, number: CylinderNumber) -> Engine:
     row = find_row(engine, number)
     if not engine.placed and number not in (engine.fires_deg or {number}):
         raise BalcliError(f"cylinder {number} is a dummy piston, which never fires")
-    each = [one._replace(share=one.share * (k != row)) for k, one in enumerate(gas.cylinders)]
+    cylinders = [one._replace(share=one.share * (k != row)) for k, one in enumerate(gas.cylinders)]
     model = engine.model and _silence_in_file(engine.model, number)
-    return replace(engine, gas=replace(gas, cylinders=tuple(each)), model=model)
+    return replace(engine, gas=replace(gas, cylinders=tuple(cylinders)), model=model)
 
 
 def _silence_in_file(model: EngineFile, number: CylinderNumber) -> EngineFile:

@@ -71,7 +71,7 @@ def compute_guide_moments(
     if orders is None and engine.gas is not None:  # above: `list_gas_orders`
         few = every[every <= HIGHEST_GAS_ORDER_UNASKED]
         every = merge_orders(few, list_gas_orders(engine))
-    rolls = compute_spectra(about_crank, every, [roll], each=True)[roll]
+    rolls = compute_spectra(about_crank, every, [roll], by_cylinder=True)[roll]
     c = engine.cylinders
     z = np.ravel(engine.cylinders.z)
     h = sum_weighted(rolls, np.ones(c.count))
@@ -136,9 +136,9 @@ def evaluate_engine(engine: Engine, quantities: Sequence[TargetQuantity]) -> lis
     """
     orders = np.array(sorted({float(q.target) for q in quantities}))
     guide = compute_guide_moments(engine, orders)
-    found = {"H": guide.h, "X": guide.x or guide.h}
+    moments = {"H": guide.h, "X": guide.x or guide.h}
     rows = [int(np.searchsorted(orders, float(q.target))) for q in quantities]
-    return [float(found[q.part].major[row]) for q, row in zip(quantities, rows, strict=True)]
+    return [float(moments[q.part].major[row]) for q, row in zip(quantities, rows, strict=True)]
 
 
 Variants = partial(FiguresOfVariants, evaluate_engine)

@@ -99,11 +99,11 @@ def parse_quantity(text: str, *, with_gas: bool = False) -> Quantity:
     part = _SENSES.get(part, part)
     allowed = VECTOR_PARTS if EVERY_KIND[kind].vector else SCALAR_PARTS
     if order is None:
-        told = f"after {kind} comes an order up to {HIGHEST_ORDER}, as in {kind}.2.{allowed[0]}"
-        raise BalcliError(f"{text} is not a quantity: {told}")
+        message = f"after {kind} comes an order up to {HIGHEST_ORDER}, as in {kind}.2.{allowed[0]}"
+        raise BalcliError(f"{text} is not a quantity: {message}")
     if part not in allowed:
-        told = f"after the order comes one of {', '.join(allowed)}"
-        hint = suggest_nearest(part, allowed, told)
+        message = f"after the order comes one of {', '.join(allowed)}"
+        hint = suggest_nearest(part, allowed, message)
         raise BalcliError(f"{text} is not a quantity: {hint}")
     if kind == "torque" and with_gas:
         return Quantity(TORQUE_TOTAL.name, order, part, called=kind)
@@ -220,18 +220,18 @@ class TargetQuantity:
         return self.name.rpartition(".")[2]
 
 
-def refuse_stranger(q: TargetQuantity, there: Sequence[str]) -> None:
+def refuse_stranger(q: TargetQuantity, targets: Sequence[str]) -> None:
     """Raise an error if the file does not have the target of a quantity.
 
     Args:
         q: Quantity.
-        there: Names of all targets of its kind.
+        targets: Names of all targets of its kind.
 
     Raises:
         BalcliError: The target is missing; the error lists the nearest name, or some names.
     """
-    if q.target in there:
+    if q.target in targets:
         return
-    some = f"there are {', '.join(there[:8])}" if there else "there is none"
-    hint = suggest_nearest(q.target, there, some)
+    some = f"there are {', '.join(targets[:8])}" if targets else "there is none"
+    hint = suggest_nearest(q.target, targets, some)
     raise BalcliError(f"{q.name}: the file has no {q.kind} {shorten(q.target)}; {hint}")

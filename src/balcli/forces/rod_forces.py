@@ -120,11 +120,11 @@ def list_hung_rows(engine: Engine) -> dict[int, list[int]]:
     """
     linkage = engine.cylinders.linkage
     rods = getattr(linkage, "hung", linkage)  # a rotary engine has them in `Rotary.hung`
-    found: dict[int, list[int]] = {}
+    hung: dict[int, list[int]] = {}
     for row, master in enumerate(getattr(rods, "master", np.zeros(0)).tolist()):
         if row != master:
-            found.setdefault(master, []).append(row)
-    return found
+            hung.setdefault(master, []).append(row)
+    return hung
 
 
 def _follow_ends(

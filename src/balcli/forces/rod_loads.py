@@ -79,10 +79,10 @@ def compute_rod_loads(engine: Engine) -> list[RodLoadCurves]:
     crossheads = np.array([[float(each.crosshead)] for each in engine.weighed])
 
     def stack(crank_deg: Array) -> Complex:
-        found = compute_rod_forces(engine, crank_deg)
-        of_piston = pistons * found.acceleration
-        inertia = of_piston + crossheads * found.acceleration
-        loads = [found.gas, inertia, found.gas + of_piston, found.gas + inertia, found.thrust]
+        forces = compute_rod_forces(engine, crank_deg)
+        of_piston = pistons * forces.acceleration
+        inertia = of_piston + crossheads * forces.acceleration
+        loads = [forces.gas, inertia, forces.gas + of_piston, forces.gas + inertia, forces.thrust]
         return np.concatenate(loads).astype(complex)
 
     compute = partial(compute_in_pieces, engine, stack)

@@ -146,9 +146,9 @@ class Spectra:
         found = {name: phasors for name, phasors in self.kinds.items() if name in kinds}
         return replace(self, kinds=found)
 
-    def with_moment_if(self, known: bool) -> Spectra:
+    def with_moment_if(self, is_known: bool) -> Spectra:
         """Return the spectra, with nan for the moment if it is not known."""
-        if known or self.moment is None:
+        if is_known or self.moment is None:
             return self
         p = self.moment
         unknown = Phasors(p.orders, np.full_like(p.vectors, np.nan), p.noise)
@@ -171,50 +171,52 @@ def compute_spectra(
     orders: ArrayLike,
     kinds: Collection[str] = tuple(KINDS),
     *,
-    each: bool = False,
+    by_cylinder: bool = False,
 ) -> Spectra:
     """Return the free forces and moments of an engine, or of each of its cylinders.
 
     Args:
         engine: Engine at steady or uneven speed. The phasors have its trailing axes last; with
-            `each`, it must have none.
+            `by_cylinder`, it must have none.
         orders: Multiples of 1/2, ascending, not negative, shape (orders,).
         kinds: Names of kinds: any of KINDS, and also of GAS_KINDS if the engine has gas.
-        each: Whether to return the phasors of each cylinder, as if only that one had masses, shape
-            (orders, cylinders), in the order of `engine.numbers`; devices are then ignored.
+        by_cylinder: Whether to return the phasors of each cylinder, as if only that one had masses,
+            shape (orders, cylinders), in the order of `engine.numbers`; devices are then ignored.
 
     Raises:
-        BalcliError: One of GAS_KINDS is wanted, and the engine has no gas; or, with `each`, orders
-            x cylinders exceed MOST_LOADS_APART.
+        BalcliError: One of GAS_KINDS is wanted, and the engine has no gas; or, with `by_cylinder`,
+            orders x cylinders exceed MOST_LOADS_APART.
     """
     wanted = np.asarray(orders, float)
     if engine.placed:
-        return _add_cranks(engine, wanted, kinds, each=each)
-    if each:
+        return _add_cranks(engine, wanted, kinds, by_cylinder=by_cylinder)
+    if by_cylinder:
         refuse_too_many_loads(engine, len(wanted), engine.cylinders.count)
         engine = replace(engine, devices=())
     parts = {part for name in kinds for part in EVERY_KIND[name].parts}
-    found = _compute_inertia(engine, wanted, parts - {"gas"}, each)
+    phasors = _compute_inertia(engine, wanted, parts - {"gas"}, by_cylinder)
     if "gas" in parts:
-        found["gas"] = compute_gas_torque(engine, wanted, each=each)
-    sums = {name: add_parts(EVERY_KIND[name], found).drop_noise() for name in kinds}
+        phasors["gas"] = compute_gas_torque(engine, wanted, by_cylinder=by_cylinder)
+    sums = {name: add_parts(EVERY_KIND[name], phasors).drop_noise() for name in kinds}
     return Spectra(wanted, engine.up_deg, sums)
 
 
-def _add_cranks(engine: Engine, orders: Array, kinds: Collection[str], *, each: bool) -> Spectra:
+def _add_cranks(
+    engine: Engine, orders: Array, kinds: Collection[str], *, by_cylinder: bool
+) -> Spectra:
     """Return the spectra of engines that are geared together; arguments as in `compute_spectra`."""
     if not GAS_KINDS.keys().isdisjoint(kinds) and engine.gas_of_variants is None:
         take_gas(engine)
-    every = [place_spectra(one, orders, kinds, each=each) for one in engine.cranks]
-    found = {}
+    every = [place_spectra(one, orders, kinds, by_cylinder=by_cylinder) for one in engine.cranks]
+    sums = {}
     for name in kinds:
         parts = [one[name] for one in every]
-        found[name] = (join_places(parts) if each else reduce(add, parts)).drop_noise()
-    return Spectra(orders, engine.up_deg, found)
+        sums[name] = (join_places(parts) if by_cylinder else reduce(add, parts)).drop_noise()
+    return Spectra(orders, engine.up_deg, sums)
 
 
 def place_spectra(
-    one: Placed, orders: Array, kinds: Collection[str], *, each: bool = False
+    placed: Placed, orders: Array, kinds: Collection[str], *, by_cylinder: bool = False
 ) -> dict[str, Phasors]:
     """Return the phasors of one of several geared engines, over the crank angle of the first one.
 
@@ -225,42 +227,44 @@ def place_spectra(
     the direction in which the load turns.
 
     Args:
-        one: The engine; its moments are about the common point of reference of all engines.
+        placed: The engine; its moments are about the common point of reference of all engines.
         orders: Orders, shape (orders,).
         kinds: Names of the kinds.
-        each: Whether to return the phasors of each cylinder, as in `compute_spectra`.
+        by_cylinder: Whether to return the phasors of each cylinder, as in `compute_spectra`.
     """
-    fires = one.engine.gas is not None or one.engine.gas_of_variants is not None
+    fires = placed.engine.gas is not None or placed.engine.gas_of_variants is not None
     parts = {part for name in kinds for part in EVERY_KIND[name].parts}
-    own = compute_spectra(one.engine, orders, parts if fires else parts - {"gas"}, each=each)
-    seen = {kind.name: _see(one, kind, phasors) for kind, phasors in own.items()}
+    own = compute_spectra(
+        placed.engine, orders, parts if fires else parts - {"gas"}, by_cylinder=by_cylinder
+    )
+    seen = {kind.name: _see(placed, kind, phasors) for kind, phasors in own.items()}
     if "gas" in parts and not fires:
-        shape = (len(orders), *(one.engine.cylinders.count,) * each)
+        shape = (len(orders), *(placed.engine.cylinders.count,) * by_cylinder)
         seen["gas"] = Phasors(orders, np.zeros((2, *shape), complex), np.zeros(shape))
     on_crank = [part for part in seen if EVERY_KIND[part].on_crank]
-    on_frame = seen | {part: one.load_sense * seen[part] for part in on_crank}
-    found = {}
+    on_frame = seen | {part: placed.load_sense * seen[part] for part in on_crank}
+    placed_spectra = {}
     for name in kinds:
         kind = EVERY_KIND[name]
-        found[name] = add_parts(kind, seen if kind.on_crank else on_frame)
-    return found
+        placed_spectra[name] = add_parts(kind, seen if kind.on_crank else on_frame)
+    return placed_spectra
 
 
-def _see(one: Placed, kind: Kind, own: Phasors) -> Phasors:
+def _see(placed: Placed, kind: Kind, own: Phasors) -> Phasors:
     """Return the phasors of a kind in the axes of all engines, from those in an engine's own."""
     n = own.orders.reshape(-1, *(1,) * (own.forward.ndim - 1))
-    lead = unit(n * one.phase_deg)
+    lead = unit(n * placed.phase_deg)
     forward = lead * own.forward
     backward = np.conj(lead) * own.backward
     noise = own.noise + (SUM + ANGLE * n) * (np.abs(own.forward) + np.abs(own.backward))
-    if one.ratio < 0 and not kind.on_crank:
+    if placed.ratio < 0 and not kind.on_crank:
         sign = 1.0 if kind.dimension == "force" else -1.0
         ahead = sign * forward.conj()
         against = sign * backward.conj()
         mean = n == 0
         forward = np.where(mean, ahead, against)
         backward = np.where(mean, 0, ahead)
-    turn = unit(one.turn_deg) if kind.vector else 1.0
+    turn = unit(placed.turn_deg) if kind.vector else 1.0
     return Phasors.of(own.orders, turn * forward, turn * backward, noise)
 
 
@@ -339,7 +343,7 @@ def with_only(engine: Engine, moving: ArrayLike) -> Engine:
 
 
 def _compute_inertia(
-    engine: Engine, orders: Array, parts: Collection[str], each: bool
+    engine: Engine, orders: Array, parts: Collection[str], by_cylinder: bool
 ) -> dict[str, Phasors]:
     """Return the phasors of some kinds of inertia by name; arguments as in `compute_spectra`."""
     c = engine.cylinders
@@ -355,7 +359,7 @@ def _compute_inertia(
     def make_loads(start: int) -> Loads:
         block = slice(start, start + most)
         series = select_cylinders(few, which, block)
-        phases = (SeparatePhases if each else Phases)(c, dense[block])
+        phases = (SeparatePhases if by_cylinder else Phases)(c, dense[block])
         return Loads(c, engine.devices, place_in_plane(x, y), z, phases, series, engine.omega**2)
 
     starts = range(0, max(len(dense), 1), most)
@@ -363,17 +367,17 @@ def _compute_inertia(
     steady = {name: join_orders(pieces) for name, *pieces in zip(names, *blocks, strict=True)}
     if not uneven:
         return steady
-    scale = engine.omega**2 / (c.count if each else 1)
+    scale = engine.omega**2 / (c.count if by_cylinder else 1)
     inertia = engine.find_turning_inertia(beyond_pins=True)
     turning = Turning(*(scale * value for value in inertia))
-    found = {}
+    mixed_spectra = {}
     lowest = make_loads(0)
     for name, phasors in steady.items():
         form = LOADS[name]
         mean = form.find_mean(lowest, turning)
         mixed = ripple.apply_speed(phasors.drop_noise(), speed, mean, rate_last=form.of_energy)
-        found[name] = mixed.select_orders(orders)
-    return found
+        mixed_spectra[name] = mixed.select_orders(orders)
+    return mixed_spectra
 
 
 def _mix_orders(engine: Engine, orders: Array) -> tuple[Complex, Array]:
@@ -428,8 +432,8 @@ def check_orders(orders: Iterable[float], engines: Collection[Engine] = ()) -> A
         raise BalcliError(f"orders must be multiples of 1/2 from 0 to {HIGHEST_ORDER}, not {named}")
     halves = ", ".join(f"{n:g}" for n in asked if n % 1)
     if halves and engines and all(engine.cycle_revolutions == 1 for engine in engines):
-        told = "half orders need [gas] and four strokes, or a shaft at a half order"
-        raise BalcliError(f"orders {halves}: {told}")
+        message = "half orders need [gas] and four strokes, or a shaft at a half order"
+        raise BalcliError(f"orders {halves}: {message}")
     return np.array(asked, float)
 
 
@@ -492,19 +496,19 @@ def mark_considerable(phasors: Phasors) -> NDArray[np.bool_]:
     return np.asarray(large & (phasors.orders <= HIGHEST_ORDER_UNASKED))
 
 
-def choose_orders(found: Spectra, listed: Iterable[float]) -> Array:
+def choose_orders(spectra: Spectra, listed: Iterable[float]) -> Array:
     """Return the orders worth showing, shape (orders,): 0, 1 and 2 if computed, and each order in
     which some kind is worth showing (`mark_considerable`).
 
     Args:
-        found: Computed phasors of every kind.
+        spectra: Computed phasors of every kind.
         listed: Orders of gas that may be shown.
     """
-    due = (found.orders <= 2) & (found.orders % 1 == 0)
-    of_gas = np.isin(found.orders, merge_orders(listed))
-    for kind, phasors in found.items():
+    due = (spectra.orders <= 2) & (spectra.orders % 1 == 0)
+    of_gas = np.isin(spectra.orders, merge_orders(listed))
+    for kind, phasors in spectra.items():
         due |= mark_considerable(phasors) & (of_gas | (kind.name not in GAS_KINDS))
-    return found.orders[due]
+    return spectra.orders[due]
 
 
 def merge_orders(*several: Iterable[float]) -> Array:
@@ -568,19 +572,19 @@ def follow_gas(engine: Engine, find: Callable[[Engine], Complex]) -> GasAtSpeeds
     return GasAtSpeeds(find_torque, gas.follow(lambda own: own.work / volume), gas.law)
 
 
-def compute_gas_torque(engine: Engine, orders: Array, *, each: bool = False) -> Phasors:
+def compute_gas_torque(engine: Engine, orders: Array, *, by_cylinder: bool = False) -> Phasors:
     """Return the torque of the gas on the crank, N m; rounding errors are not yet set to 0.
 
     Args:
         engine: One engine with gas, or an array of variants with `gas_of_variants`.
         orders: Multiples of 1/2, shape (orders,).
-        each: Whether to return the torque of each cylinder instead of the sum, shape (orders,
-            cylinders), in the order of `engine.numbers`.
+        by_cylinder: Whether to return the torque of each cylinder instead of the sum, shape
+            (orders, cylinders), in the order of `engine.numbers`.
 
     Raises:
         BalcliError: The engine has no gas.
     """
-    if engine.gas_of_variants is not None and not each:
+    if engine.gas_of_variants is not None and not by_cylinder:
         return engine.gas_of_variants(orders)
     gas = take_gas(engine)
     halves = np.rint(2 * orders).astype(np.intp)
@@ -591,12 +595,12 @@ def compute_gas_torque(engine: Engine, orders: Array, *, each: bool = False) -> 
         torques[:, rows] = torque.harmonics(halves)[:, None]
         errors[:, rows] = _QUADRATURE * float(lowest.max())
     torques *= gas.shares * np.stack([_turn(one, orders) for one in gas.cylinders], axis=1)
-    found = Phasors.from_scalar(orders, torques, gas.shares * errors)
-    if each:
-        return found
+    torque_phasors = Phasors.from_scalar(orders, torques, gas.shares * errors)
+    if by_cylinder:
+        return torque_phasors
     rounding = SUM * len(gas.cylinders) + ANGLE * orders
-    noise = found.noise.sum(axis=1) + rounding * np.abs(found.forward).sum(axis=1)
-    return Phasors(orders, found.vectors.sum(axis=2), noise)
+    noise = torque_phasors.noise.sum(axis=1) + rounding * np.abs(torque_phasors.forward).sum(axis=1)
+    return Phasors(orders, torque_phasors.vectors.sum(axis=2), noise)
 
 
 def _turn(cylinder: CylinderGas, orders: Array) -> Complex:

@@ -64,11 +64,11 @@ class Bank(NamedTuple):
         """Cylinders by the direction of their force, deg, ascending; cylinders without force are
         left out.
         """
-        found: dict[float, list[CylinderNumber]] = {}
+        by_direction: dict[float, list[CylinderNumber]] = {}
         for ray in self.cylinders:
             if ray.force:
-                found.setdefault(find_direction(ray.force), []).append(ray.cylinder)
-        return dict(sorted(found.items()))
+                by_direction.setdefault(find_direction(ray.force), []).append(ray.cylinder)
+        return dict(sorted(by_direction.items()))
 
 
 class Star(NamedTuple):
@@ -107,19 +107,21 @@ def find_stars(
     row_of = engine.numbers.index
     banks = _list_banks(engine)
     count = len(engine.cylinders.starts)
-    each = compute_spectra(alone, orders, kinds, each=True)
+    by_cylinder = compute_spectra(alone, orders, kinds, by_cylinder=True)
     total = compute_spectra(alone, orders, kinds)
     members = np.array([np.isin(engine.numbers, bank) for bank in banks], float)
-    weighted = {kind.name: sum_weighted(phasors, members) for kind, phasors in each.vectors()}
+    weighted = {
+        kind.name: sum_weighted(phasors, members) for kind, phasors in by_cylinder.vectors()
+    }
     sums = Spectra(orders, None, weighted)
     for k, order in enumerate(orders.tolist()):
         for way, turns in enumerate(WAYS):
-            if not each["force"].vectors[way, k].any():
+            if not by_cylinder["force"].vectors[way, k].any():
                 continue
             of_banks = []
             for row, bank in enumerate(banks):
                 axis_deg = float(axes[row_of(bank[0])]) if len(banks) == count else None
-                rays = tuple(Ray(n, **_pick(each, way, k, row_of(n))) for n in bank)
+                rays = tuple(Ray(n, **_pick(by_cylinder, way, k, row_of(n))) for n in bank)
                 of_banks.append(Bank(axis_deg=axis_deg, cylinders=rays, **_pick(sums, way, k, row)))
             yield Star(order, turns, banks=tuple(of_banks), **_pick(total, way, k))
 
@@ -137,6 +139,6 @@ def _list_banks(engine: Engine) -> list[list[CylinderNumber]]:
     return [sorted(engine.numbers)] if alone else banks
 
 
-def _pick(found: Spectra, *place: int) -> dict[str, complex]:
+def _pick(spectra: Spectra, *place: int) -> dict[str, complex]:
     """Return the vectors of force and moment at a place of `Phasors.vectors`."""
-    return {kind.name: complex(phasors.vectors[place]) for kind, phasors in found.vectors()}
+    return {kind.name: complex(phasors.vectors[place]) for kind, phasors in spectra.vectors()}

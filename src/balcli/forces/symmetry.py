@@ -292,25 +292,26 @@ def _find_reasons(
 ) -> Iterator[Reason]:
     parts = [part for own in groups.values() for part in own]
     book = find_textbook(engine, orders, parts)
-    each = compute_spectra(engine, orders, parts, each=True)
+    by_cylinder = compute_spectra(engine, orders, parts, by_cylinder=True)
     redrawn = [compute_spectra(other, orders, parts) for other in _draw(engine)]
     for group, own in groups.items():
         for row, order in enumerate(orders.tolist()):
-            largest = {part: each[part].major[row].max() for part in own}
-            there = [part for part in own if largest[part]]
-            left = [book.built[part].major[row] / largest[part] for part in there]
+            largest = {part: by_cylinder[part].major[row].max() for part in own}
+            present = [part for part in own if largest[part]]
+            left = [book.built[part].major[row] / largest[part] for part in present]
             size = float(max(left, default=0.0))
             balanced = [
-                all(found[part].balanced[row] for part in there) for found in (book.built, *redrawn)
+                all(found[part].balanced[row] for part in present)
+                for found in (book.built, *redrawn)
             ]
-            verdict = "none" if not there else "nearly" if size < NEARLY else "unbalanced"
-            if there and balanced[0]:
+            verdict = "none" if not present else "nearly" if size < NEARLY else "unbalanced"
+            if present and balanced[0]:
                 verdict = "symmetry" if all(balanced) else "chance"
             number = order_number(order)
             alone = None
             built = None
             unit = ""
-            if there and group in ("force", "moment"):
+            if present and group in ("force", "moment"):
                 kind = KINDS[group]
                 force = book.units.size(KINDS[group], number)
                 if not np.isnan(force):

@@ -154,16 +154,16 @@ class LocomotiveBalance(Result):
     @property
     def doubts(self) -> tuple[Doubt, ...]:
         """Warnings of an uneven speed, and of cylinders that do not lie along the track."""
-        found = []
+        doubts = []
         if take_model(self.engine).operation.speed_ripple:
-            told = "has no effect, because the speed is taken as steady"
-            found.append(Doubt("operation.speed_ripple", told))
+            message = "has no effect, because the speed is taken as steady"
+            doubts.append(Doubt("operation.speed_ripple", message))
         aside = np.abs(wrap_degrees(self.engine.cylinders.axis_of_each_deg, 180))
         for number, degrees in sorted(zip(self.engine.numbers, aside.tolist(), strict=True)):
             if degrees > 45:
                 far = f"cylinder {number} is {degrees:.4g} deg from the track"
-                found.append(Doubt("", f"{far}; in a locomotive file x points along the track"))
-        return tuple(found)
+                doubts.append(Doubt("", f"{far}; in a locomotive file x points along the track"))
+        return tuple(doubts)
 
 
 # ------------------------------------------------------------------ unbalances in the wheels
@@ -207,9 +207,9 @@ def find_unbalances(engine: Engine, axles: Sequence[Axle], planes_m: Array) -> U
     share = (np.array([*c.z, *(d.z for d in weights)]) - planes_m[0]) / np.ptp(planes_m)
     levers = np.stack([1 - share, share], axis=1)
     parts = np.array([axle.part for axle in axles])
-    each = (on_axle == np.arange(len(axles))[:, None]) * revolving
+    of_axles = (on_axle == np.arange(len(axles))[:, None]) * revolving
     return Unbalances(
-        each @ levers,
+        of_axles @ levers,
         np.outer(parts / parts.sum(), reciprocating @ levers[: c.count]),
         float(np.abs(revolving) @ np.abs(levers).sum(axis=1) + np.abs(reciprocating).sum()),
     )
@@ -265,9 +265,9 @@ def locomotive(
     remedy = Remedy("locomotive").add_devices(weights, f"{_WHY}{share}")
     middle = _find_middle(engine, model, table)
     fitted = replace(fit_devices(engine, remedy), reference_m=middle)
-    found = compute_spectra(fitted, find_relevant_orders(fitted), ("force", "moment"))
-    along = found["force"].x
-    about_y = found["moment"].y
+    spectra = compute_spectra(fitted, find_relevant_orders(fitted), ("force", "moment"))
+    along = spectra["force"].x
+    about_y = spectra["moment"].y
 
     def blow(some: Complex) -> float:
         """Return the hammer blow of several wheels together, N."""
@@ -284,10 +284,10 @@ def locomotive(
         rails=tuple(RailLoad(blow(side)) for side in left.T),
         hammer_blow_N=blow(left),
         tractive_variation_N=float(abs(along[0])),
-        tractive_variation_peak_N=float(find_longest(found.orders, along[:, None]).value),
+        tractive_variation_peak_N=float(find_longest(spectra.orders, along[:, None]).value),
         swaying_couple_z_mm=1e3 * middle[2],
         swaying_couple_Nm=float(abs(about_y[0])),
-        swaying_couple_peak_Nm=float(find_longest(found.orders, about_y[:, None]).value),
+        swaying_couple_peak_Nm=float(find_longest(spectra.orders, about_y[:, None]).value),
         engine=engine,
         remedy=remedy,
     )

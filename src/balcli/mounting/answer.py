@@ -80,7 +80,7 @@ def report_mounts(
     if engine is None and others:
         (title, engine), *others = others
     modes = find_mounted_modes(mounted)
-    found = []
+    responses = []
     remedy = None
     try:
         asked = None if orders is None else check_orders(orders)
@@ -93,16 +93,19 @@ def report_mounts(
             remedy = size(engine, scheme, options)
             engines.append(fit_devices(engine, remedy))
         engines += [other for _, other in others]
-        for each in engines:
+        for running_engine in engines:
             rpm = choose_mount_speeds(engines[0]) if speeds_rpm is None else speeds_rpm
-            running = RunningBody.choose(mounted, modes, each, rpm * RPM, asked, ranged=ranged)
-            found.append(respond(mounted, running, rpm, ranged=ranged))
-            tell(len(found) / len(engines))
+            omega = rpm * RPM
+            running = RunningBody.choose(
+                mounted, modes, running_engine, omega, asked, ranged=ranged
+            )
+            responses.append(respond(mounted, running, rpm, ranged=ranged))
+            tell(len(responses) / len(engines))
     except BalcliError as error:
         raise error.within(name) from None
     first = [] if engine is None else [(title or NAMELESS, engine)]
     idle = () if speeds_rpm is None else ("operation.speed",)
-    response = found.pop(0) if found else None
+    response = responses.pop(0) if responses else None
     forces, travel = settle(mounted, response.loads.mean if response else 0.0)
     rest = (mounted.names, drop_rounding(forces), drop_rounding(1e3 * travel))
     meetings: list[list[Meeting]] = [[] for _ in modes.each]  # by mode
@@ -123,8 +126,8 @@ def report_mounts(
         static=AtRest(tuple(map(MountAtRest, *rest))),
         stiffness_N_per_m=stiffness,
         response=response,
-        fitted=Fitted(remedy.scheme, found.pop(0), remedy) if remedy else None,
-        others=tuple(map(Other, (label for label, _ in others), found)) or None,
+        fitted=Fitted(remedy.scheme, responses.pop(0), remedy) if remedy else None,
+        others=tuple(map(Other, (label for label, _ in others), responses)) or None,
         mounted=mounted,
     )
 

@@ -225,7 +225,7 @@ def find_mounted_modes(mounted: MountedBody) -> BodyModes:
     loss = modal_loss(modes, stiffness, damping)
     energy = share_energy(modes, body)
     shapes = drop_rounding(modes.shapes, 1 / np.sqrt(np.diag(mass)))
-    each = tuple(
+    body_modes = tuple(
         BodyMode(
             float(omega / (2 * np.pi)),
             dict(zip(AXES, (100 * share).tolist(), strict=True)),
@@ -236,7 +236,7 @@ def find_mounted_modes(mounted: MountedBody) -> BodyModes:
         )
         for omega, share, shape, lost in zip(modes.omega, energy, shapes, loss, strict=True)
     )
-    return BodyModes(stiffness, damping, mass, modes, loss, each)
+    return BodyModes(stiffness, damping, mass, modes, loss, body_modes)
 
 
 def settle(mounted: MountedBody, torque: float = 0.0) -> tuple[Real, Real]:
@@ -303,24 +303,24 @@ def _find_doubts(model: EngineFile) -> Iterator[Doubt]:
     name, largest = max(moments.items(), key=lambda moment: moment[1])
     others = sum(moments.values()) - largest
     if largest > others:
-        told = (
+        message = (
             f"{name} of {largest:g} exceeds the sum of the other two ({others:g}), which is "
             "impossible; are the axes right? z is along the crankshaft"
         )
-        yield Doubt("body.inertia", told)
+        yield Doubt("body.inertia", message)
     across = math.sqrt(largest / body.mass)
     farthest = max(math.dist(mount.at, body.cg) for mount in mounts)
     if not SMALL_BODY * farthest <= across <= farthest / SMALL_BODY:
-        told = (
+        message = (
             f"{name} of {largest:g} kg mm^2 is a radius of gyration of {across:.2g} mm, and the "
             f"farthest mount is {farthest:.3g} mm away; are the units kg mm^2 and mm?"
         )
-        yield Doubt("body.inertia", told)
+        yield Doubt("body.inertia", message)
     sag = STANDARD_GRAVITY * body.mass / sum(sum(mount.stiffness) / 3 for mount in mounts)
     if not SAG_LEAST <= sag <= SAG_MOST:
-        told = (
+        message = (
             f"under its weight the body would sink by about {sag:.2g} mm, where {SAG_LEAST:g} to "
             f"{SAG_MOST:g} mm is usual; {ask_unit('N/mm', '250 kN/m')}"
         )
-        yield Doubt("mount.stiffness", told, ("body.mass",))
+        yield Doubt("mount.stiffness", message, ("body.mass",))
     yield from doubt_losses("mount", mounts)

@@ -133,11 +133,11 @@ def list_gas_kinds(engine: Engine) -> list[str]:
     return ["roll", "roll_total"] if engine.placed else ["gas"]
 
 
-def find_gas_reaction(found: Spectra) -> Phasors:
+def find_gas_reaction(spectra: Spectra) -> Phasors:
     """Return the gas torque whose reaction acts on the frame, N m. In geared engines it is positive
     in the direction of rotation of the load, even if a crank turns the other way.
     """
-    return found["gas"] if found.gas is not None else found["roll"] - found["roll_total"]
+    return spectra["gas"] if spectra.gas is not None else spectra["roll"] - spectra["roll_total"]
 
 
 def find_loads(
@@ -163,13 +163,13 @@ def find_loads(
     wanted = wanted[wanted > 0]
     of_engine = ("force", "moment", "roll")
     kinds = tuple(dict.fromkeys((*of_engine, *list_gas_kinds(engine) * fired)))
-    found, turns = compute_spectra_in_time(engine, wanted, kinds)
+    spectra, turns = compute_spectra_in_time(engine, wanted, kinds)
     if orders is None:
         each = (engine.at_speed(rpm) for rpm in (engine.gas.nodes_rpm if engine.gas else ()) if rpm)
-        all_found = (found, *(compute_spectra_in_time(one, wanted, kinds)[0] for one in each))
+        all_found = (spectra, *(compute_spectra_in_time(one, wanted, kinds)[0] for one in each))
         shown = merge_orders(*(choose_orders(one, of_gas) for one in all_found))
-        found = found.select_orders(np.array(shown))
-    force, moment, roll = (found[kind].drop_noise() for kind in ("force", "moment", "roll"))
+        spectra = spectra.select_orders(np.array(shown))
+    force, moment, roll = (spectra[kind].drop_noise() for kind in ("force", "moment", "roll"))
     pull = np.stack([force.x, force.y, 0 * force.x], axis=-1)
     turn = np.stack([moment.x, moment.y, roll.x], axis=-1)
     inertia = load_at_centre(pull, turn, list(map(float, engine.reference_m)), centre)
@@ -178,7 +178,7 @@ def find_loads(
     if fired:
 
         def find_torque(own: Engine) -> NDArray[np.complex128]:
-            gas, _ = compute_spectra_in_time(own, found.orders, list_gas_kinds(own))
+            gas, _ = compute_spectra_in_time(own, spectra.orders, list_gas_kinds(own))
             return np.asarray(find_gas_reaction(gas).drop_noise().x, complex)
 
         by_speed = follow_gas(engine, find_torque)
@@ -186,7 +186,7 @@ def find_loads(
         indicated = float(find_gas_reaction(still).x[0].real)
         mean = -(engine.mechanical_efficiency or 1.0) * indicated
     omega = turns * float(engine.omega)
-    loads = BodyLoads(found.orders, inertia, omega, turns, by_speed, mean, engine.silent)
+    loads = BodyLoads(spectra.orders, inertia, omega, turns, by_speed, mean, engine.silent)
     kept = loads.there
     if orders is not None or not kept.any():
         return loads

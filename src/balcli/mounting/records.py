@@ -295,12 +295,12 @@ class MountReport(Result):
     @property
     def beside(self) -> tuple[Other, ...]:
         """Responses to compare with the engine's own: with the scheme, and to other engines."""
-        found: list[Other] = []
+        responses: list[Other] = []
         if hasattr(self, "fitted"):
-            found.append(Other(self.fitted.scheme, self.fitted.response))
+            responses.append(Other(self.fitted.scheme, self.fitted.response))
         if hasattr(self, "others"):
-            found += self.others
-        return tuple(found)
+            responses += self.others
+        return tuple(responses)
 
     @property
     def responses(self) -> tuple[BodyResponse, ...]:
@@ -325,10 +325,10 @@ class MountReport(Result):
         farthest = int(travels.argmax())
         if (travel := travels[farthest]) <= TRAVEL_MOST:
             return of_gas
-        told = (
+        message = (
             f"the mount {printable(self.response.mounts[farthest].name)} would travel by "
             f"{1e3 * travel:.3g} mm or more at {worst[farthest].speed_rpm:.4g} rpm, but stops "
             "usually allow 10 to 20 mm; are loss and damping right, and does the engine run at "
             "that speed, or only pass through it?"
         )
-        return (*of_gas, Doubt("", told))
+        return (*of_gas, Doubt("", message))

@@ -142,8 +142,8 @@ class RunningBody(NamedTuple):
             motion = solve_response(own.stiffness, own.damping, own.mass, w, load)
         except UndampedResonanceError as error:  # true resonances were rejected before
             hertz = error.frequency / (2 * np.pi)
-            told = f"at {hertz:.4g} Hz the body's motion cannot be computed"
-            raise BalcliError(f"{told}; is the damping of all mounts in N s/mm?") from None
+            message = f"at {hertz:.4g} Hz the body's motion cannot be computed"
+            raise BalcliError(f"{message}; is the damping of all mounts in N s/mm?") from None
         return _with_rate(motion, w)
 
     def read(self, motion: Complex, curve: Indices | slice = slice(None)) -> Complex:
@@ -321,10 +321,10 @@ def respond(
     causes = zip((*mounts, *points), _find_causes(running, at), strict=True)
     for k, (name, (order, alone, *others)) in enumerate(causes):
         place, of_order, largest = _OF_MOUNT if k < len(mounts) else _OF_POINT
-        each = tuple(of_order(n, by_order[row, :, k]) for row, n in enumerate(numbers))
+        of_orders = tuple(of_order(n, by_order[row, :, k]) for row, n in enumerate(numbers))
         figures = (highest[k].item(), float(at[k] / RPM), order, float(scale[k] * alone))
         worst = largest(*figures, *others)
-        places.append(place(name, each, peak[:, k], worst))
+        places.append(place(name, of_orders, peak[:, k], worst))
     arms = carry_points(mounted.dynamic.at, mounted.body.centre)
     on_mounts = np.abs(np.einsum("pij,nspi->nsj", arms, curves[:, :, : len(mounts)]))
     rigid = np.abs(loads.at(omega))

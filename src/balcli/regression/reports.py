@@ -31,17 +31,17 @@ _NOT_IN_XML = "[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]"
 # ------------------------------------------------------------------ GitHub
 def list_annotations(checked: Sequence[CheckedEngine]) -> Iterator[str]:
     """Yield an annotation for each cause, limit and mistake of each engine, then the counts."""
-    for each in checked:
-        for mistake in each.mistakes:
+    for file in checked:
+        for mistake in file.mistakes:
             text = f"{mistake.key}: {mistake.message}" if mistake.key else mistake.message
-            yield _annotate(each.engine, mistake.line, "mistake in the engine file", text)
-        if each.error is not None and not each.mistakes:
-            yield _annotate(each.engine, None, "engine file not read", each.error)
-        if each.differences:
-            text = "\n".join([describe_cause(find_cause(each)), *summarize(each)])
-            yield _annotate(each.engine, find_line(each), "not as recorded", text)
-        for broken in each.broken_limits:
-            yield _annotate(each.engine, broken.line, "limit exceeded", describe_limit(broken))
+            yield _annotate(file.engine, mistake.line, "mistake in the engine file", text)
+        if file.error is not None and not file.mistakes:
+            yield _annotate(file.engine, None, "engine file not read", file.error)
+        if file.differences:
+            text = "\n".join([describe_cause(find_cause(file)), *summarize(file)])
+            yield _annotate(file.engine, find_line(file), "not as recorded", text)
+        for broken in file.broken_limits:
+            yield _annotate(file.engine, broken.line, "limit exceeded", describe_limit(broken))
     yield count_engines(checked)
 
 
@@ -70,12 +70,12 @@ def write_junit(checked: Sequence[CheckedEngine]) -> str:
     suite = Element("testsuite", name="balcli check", tests=str(len(checked)))
     suite.set("failures", str(len(failed)))
     suite.set("errors", str(sum(each.error is not None for each in checked)))
-    for each in checked:
-        case = SubElement(suite, "testcase", classname="balcli", name=_clean(each.engine))
-        if each.error is not None:
-            first_line = each.error.partition("\n")[0]
-            SubElement(case, "error", message=_clean(first_line)).text = _clean(each.error)
-        lines = _list_failures(each)
+    for file in checked:
+        case = SubElement(suite, "testcase", classname="balcli", name=_clean(file.engine))
+        if file.error is not None:
+            first_line = file.error.partition("\n")[0]
+            SubElement(case, "error", message=_clean(first_line)).text = _clean(file.error)
+        lines = _list_failures(file)
         if lines:
             SubElement(case, "failure", message=_clean(lines[0])).text = _clean("\n".join(lines))
     indent(suite)

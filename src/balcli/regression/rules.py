@@ -236,11 +236,11 @@ def find_broken_limits(
     evaluator = Evaluator(take_model(engine), [each.quantity for each in limited])
     values = evaluator.evaluate({}, ())
     broken = []
-    for each in limited:
-        value = float(values[each.quantity])
-        if not each.is_kept(value):
-            known = None if math.isnan(value) else value
-            line = lines.find(f"{_LIMITS}.{each.name}")
-            unit = each.quantity.unit
-            broken.append(BrokenLimit(each.name, known, unit, each.below, each.above, line))
+    for limit in limited:
+        value = float(values[limit.quantity])
+        if not limit.is_kept(value):
+            figure = None if math.isnan(value) else value
+            line = lines.find(f"{_LIMITS}.{limit.name}")
+            unit = limit.quantity.unit
+            broken.append(BrokenLimit(limit.name, figure, unit, limit.below, limit.above, line))
     return tuple(broken)

@@ -192,15 +192,15 @@ def list_lines(checked: Sequence[CheckedEngine], *, every_figure: bool = False) 
     """
     different = [each for each in checked if each.differences]
     if every_figure:
-        for each in different:
-            yield f"{_locate(each)}: {describe_cause(find_cause(each))}"
-            yield from (f"  {line}" for line in describe_differences(each))
+        for file in different:
+            yield f"{_locate(file)}: {describe_cause(find_cause(file))}"
+            yield from (f"  {line}" for line in describe_differences(file))
     else:
         for cause, engines in _group(different):
             yield from _list_cause(cause, engines)
-    for each in checked:
-        for broken in each.broken_limits:
-            yield f"{_place(each.engine, broken.line)}: {describe_limit(broken)}"
+    for file in checked:
+        for broken in file.broken_limits:
+            yield f"{_place(file.engine, broken.line)}: {describe_limit(broken)}"
 
 
 def describe_differences(checked: CheckedEngine) -> list[str]:

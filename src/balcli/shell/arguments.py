@@ -62,8 +62,8 @@ def tell_arguments(**others: str) -> Callable[[Callable[P, Answer]], Callable[P,
             except ArgumentError:
                 raise
             except InputError as error:
-                told = [p._replace(message=name_all(p.message)) for p in error.problems]
-                raise InputError(told, error.file, error.more) from None
+                problems = [p._replace(message=name_all(p.message)) for p in error.problems]
+                raise InputError(problems, error.file, error.more) from None
             except BalcliError as error:
                 raise BalcliError(name_all(str(error))) from None
 
@@ -137,12 +137,12 @@ def check_torsion_orders(orders: Iterable[float] | None) -> Array | None:
     """
     if orders is None:
         return None
-    found = check_orders(orders)
-    if not 0 < found[0] <= found[-1] <= HIGHEST_TORSION_ORDER:
+    checked = check_orders(orders)
+    if not 0 < checked[0] <= checked[-1] <= HIGHEST_TORSION_ORDER:
         raise ArgumentError(
             "{orders}: give orders above 0, to {highest} at most", highest=HIGHEST_TORSION_ORDER
         )
-    return found
+    return checked
 
 
 def check_inertia(name: str, value: object) -> float | None:

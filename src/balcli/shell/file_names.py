@@ -99,11 +99,11 @@ def _find_engine(context: typer.Context, given: T) -> T | str | list[str]:
 
 
 def _find_file(typed: str) -> str:
-    found = find_by_name(typed)
-    if isinstance(found, ExamplePath) and not is_quiet():
+    path = find_by_name(typed)
+    if isinstance(path, ExamplePath) and not is_quiet():
         file = Path(f"{typed}.toml")
         say(f"{typed}: the example engine" + (f", not {file}" if file.exists() else ""))
-    return found
+    return path
 
 
 def format_option(formats: Iterable[Format], text: str) -> object:
@@ -161,8 +161,8 @@ def format_of(
     written = endings.get(ending)
     if written is not None:
         if asked not in (None, written):
-            told = f"{option} {output}: {ending} is {written}, but --format is {asked}"
-            raise BalcliError(f"{told}; leave one of them out")
+            message = f"{option} {output}: {ending} is {written}, but --format is {asked}"
+            raise BalcliError(f"{message}; leave one of them out")
         return written
     usual = asked or default
     if usual is not None and (not ending or (asked is not None and ending not in _KNOWN)):

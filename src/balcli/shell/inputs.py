@@ -125,15 +125,15 @@ def warn_each(doubts: Iterable[Doubt], name: str) -> None:
 
 
 def try_each(
-    paths: Iterable[P], work: Callable[[P], T], found: Collection[P] = ()
+    paths: Iterable[P], work: Callable[[P], T], in_folder: Collection[P] = ()
 ) -> tuple[list[T], list[str]]:
     """Return the results of all valid files, in order, and the error messages of the others.
 
     Args:
         paths: Files to work on.
         work: Function that returns the result of a file.
-        found: Those of the files that were found in a folder, not named by the user. If such a file
-            is of another kind, it is skipped with a note.
+        in_folder: Those of the files that were found in a folder, not named by the user. If such a
+            file is of another kind, it is skipped with a note.
     """
     results = []
     errors = []
@@ -141,7 +141,7 @@ def try_each(
         try:
             results.append(work(path))
         except BalcliError as error:
-            if path in found and isinstance(error, OtherKindError):
+            if path in in_folder and isinstance(error, OtherKindError):
                 note(f"{path}: skipped, a file of another kind")
             else:
                 errors.append(error.tell(name_option))
@@ -167,12 +167,12 @@ def find_engine_files(paths: Sequence[Path]) -> list[Path]:
     for path in paths:
         # Unlike Path.is_dir, this is false for forbidden paths and for names that are too long.
         folder = os.path.isdir(path)
-        found = sorted(filter(_is_engine, _walk(path))) if folder else [path]
-        if not found:
+        in_folder = sorted(filter(_is_engine, _walk(path))) if folder else [path]
+        if not in_folder:
             raise BalcliError(f"{path}: has no engine files (*.toml)")
         if not os.path.exists(path):
             raise BalcliError(f"{path}: no such file or folder{find_near_file(path)}")
-        files += found
+        files += in_folder
     return files
 
 

@@ -182,11 +182,11 @@ def refuse_overwriting(*, reads: Sequence[str], writes: Mapping[str, Path | None
             raise tell_unwritable(target, error) from None
 
 
-def _is_same_file(one: Path, other: Path) -> bool:
+def _is_same_file(first: Path, other: Path) -> bool:
     """Return whether two paths mean the same file, which need not exist yet; false for devices."""
-    if not os.path.exists(one):
-        return os.path.realpath(one) == os.path.realpath(other)
-    return os.path.isfile(one) and os.path.exists(other) and os.path.samefile(one, other)
+    if not os.path.exists(first):
+        return os.path.realpath(first) == os.path.realpath(other)
+    return os.path.isfile(first) and os.path.exists(other) and os.path.samefile(first, other)
 
 
 def refuse_leaving_files(text: bytes, source: str, target: Path) -> None:

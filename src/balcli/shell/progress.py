@@ -32,14 +32,14 @@ class Progress:
         stopped: Whether Ctrl-C asks the computation to end with the results so far.
     """
 
-    def __init__(self, what: str, total: float | None, shown: bool) -> None:
+    def __init__(self, noun: str, total: float | None, shown: bool) -> None:
         self.done = 0.0
         self.stopped = False
-        self._what = what
+        self._what = noun
         self._total = total
         self._next = time.monotonic() + _SILENT_S
         wanted = shown and not is_quiet() and sys.stderr.isatty()
-        self._bar = _make_bar(what, total) if wanted else None
+        self._bar = _make_bar(noun, total) if wanted else None
 
     def __call__(self, done: float) -> bool:
         """Report the work done so far; return whether the computation should stop."""
@@ -67,7 +67,7 @@ class Progress:
             self._bar.stop()
 
 
-def _make_bar(what: str, total: float | None) -> Bar:
+def _make_bar(noun: str, total: float | None) -> Bar:
     """Return a bar on standard error, not yet started; messages are printed above it."""
     from rich import progress
     from rich.console import Console
@@ -80,20 +80,20 @@ def _make_bar(what: str, total: float | None) -> Bar:
         transient=True,
         redirect_stdout=False,
     )
-    bar.add_task(f"balcli: {what}", total=total or 1.0)
+    bar.add_task(f"balcli: {noun}", total=total or 1.0)
     return bar
 
 
 @contextmanager
-def reporting(what: str, total: float | None = None, shown: bool = True) -> Iterator[Progress]:
+def reporting(noun: str, total: float | None = None, shown: bool = True) -> Iterator[Progress]:
     """Yield a callback for the work done so far. Ctrl-C ends the command and prints the progress.
 
     Args:
-        what: Noun for the work, such as "samples".
+        noun: Noun for the work, such as "samples".
         total: Total amount of work; None: the callback receives the share of the work, from 0 to 1.
         shown: Whether to show a bar; false if results appear on the terminal meanwhile.
     """
-    progress = Progress(what, total, shown)
+    progress = Progress(noun, total, shown)
     try:
         yield progress
     except KeyboardInterrupt:
@@ -105,17 +105,17 @@ def reporting(what: str, total: float | None = None, shown: bool = True) -> Iter
 
 
 @contextmanager
-def reporting_until_stopped(what: str, total: float | None = None) -> Iterator[Progress]:
+def reporting_until_stopped(noun: str, total: float | None = None) -> Iterator[Progress]:
     """Report progress as `reporting` does, for a computation that can end early with a partial
     result: the first Ctrl-C only sets `stopped`, the second one ends the command. If the process
     ignores Ctrl-C (`nohup`), it continues to do so.
 
     Args:
-        what: Noun for the work.
+        noun: Noun for the work.
         total: Total amount of work; None: the callback receives the share of the work, from 0 to 1.
     """
     before = signal.getsignal(signal.SIGINT)
-    with reporting(what, total) as progress:
+    with reporting(noun, total) as progress:
 
         def stop(*_: object) -> None:
             progress.stopped = True

@@ -129,14 +129,14 @@ def _tell_devices(engine: Engine) -> str:
     coupling = sum(device.is_coupling for device in devices)
     count = len(devices) - coupling
     files = "the files" if engine.placed else "the file"
-    told = []
+    origins = []
     if count:
-        told.append(f"{count} from {files}")
+        origins.append(f"{count} from {files}")
     if coupling:
-        told.append(f"coupling rods in {counted(coupling, 'place')}")
-    if not told:
+        origins.append(f"coupling rods in {counted(coupling, 'place')}")
+    if not origins:
         return ""
-    return f"{' and '.join(told)} included"
+    return f"{' and '.join(origins)} included"
 
 
 def tell_reference(point: Iterable[Figure], system: System, *, known: bool) -> str:

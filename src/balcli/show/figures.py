@@ -338,10 +338,10 @@ def peak_deg(c: complex | Complex, orders: ArrayLike) -> Array:
         c: Coefficients, any shape.
         orders: Orders n, of the same shape.
     """
-    there = np.not_equal(c, 0) & np.greater(orders, 0)
-    n = np.where(there, orders, 1.0)
+    turning = np.not_equal(c, 0) & np.greater(orders, 0)
+    n = np.where(turning, orders, 1.0)
     angle = np.degrees(-np.angle(c)) % 360 / n
-    return np.where(there, np.where(angle < 360 / n, angle, 0.0), np.nan)
+    return np.where(turning, np.where(angle < 360 / n, angle, 0.0), np.nan)
 
 
 def phase_deg(c: complex | Complex) -> Array:

@@ -236,7 +236,7 @@ def find_period_deg(curve: Phasors) -> int:
 
 
 def draw_order(
-    ax: Axes, curve: Phasors, k: int, what: str, names: Sequence[str], unit: ShownUnit
+    ax: Axes, curve: Phasors, k: int, quantity: str, names: Sequence[str], unit: ShownUnit
 ) -> None:
     """Draw one order: its ellipse, and the two rotating vectors whose sum it is.
 
@@ -244,7 +244,7 @@ def draw_order(
         ax: Axes to draw on.
         curve: Phasors of the vector, shape (orders,).
         k: Row of the order.
-        what: Name of the quantity.
+        quantity: Name of the quantity.
         names: Names of the axes.
         unit: Unit of the vector.
     """
@@ -255,7 +255,7 @@ def draw_order(
     backward = curve.backward[k] / s.size
     path = forward * np.exp(1j * FINE) + backward * np.exp(-1j * FINE)
     set_up_plane(ax, float(np.abs(path).max()), names, s.name)
-    ax.set_title(f"{what}, order {order_name(order)}, at crank angle {_ORDER_ANGLE / order:g}°")
+    ax.set_title(f"{quantity}, order {order_name(order)}, at crank angle {_ORDER_ANGLE / order:g}°")
     ax.plot(path.imag, path.real, color=INK)
     start = 0j
     for vector, colour, style, way in (

@@ -194,10 +194,10 @@ def size_unbalances(
     devices = [slot.make_device(u) for slot in slots for u in (1 + 0j, 1j)]
     matrix = find_effects(devices, parts, residual.reference)
     target = -np.array([residual.parts[part] for part in parts], complex)
-    found = least_squares.solve(matrix, target.view(float), np.repeat(weights, 2))
-    rounding = 4 * EPS * np.abs(found.x).max()
-    x = np.where(np.abs(found.x) <= rounding, 0, found.x)
-    return Fit(tuple(complex(a, b) for a, b in x.reshape(-1, 2)), found.condition, found.left)
+    solution = least_squares.solve(matrix, target.view(float), np.repeat(weights, 2))
+    rounding = 4 * EPS * np.abs(solution.x).max()
+    x = np.where(np.abs(solution.x) <= rounding, 0, solution.x)
+    return Fit(tuple(complex(a, b) for a, b in x.reshape(-1, 2)), solution.condition, solution.left)
 
 
 def solve_exactly(
@@ -386,7 +386,7 @@ def explain_shaft(
         stays: Words on the moment that remains (`tell_moment`); empty if no moment remains.
         halves: Whether the eccentric is divided into two halves.
     """
-    what = f"Order {residual.order} force" if stays else _name(residual, sense)
+    vector = f"Order {residual.order} force" if stays else _name(residual, sense)
     why = "nothing on the crankshaft can cancel it"
     if sense * residual.order == 1:
         why = "the scheme counterweights would cancel it without a shaft"
@@ -396,7 +396,7 @@ def explain_shaft(
         kind = "eccentrics in two planes"
     else:
         kind = "two opposite eccentrics"
-    text = f"{what} turning {tell_sense(sense)}: {why}; {kind}"
+    text = f"{vector} turning {tell_sense(sense)}: {why}; {kind}"
     text += f" on a shaft at {sense * residual.order:+d} times crank speed can"
     if halves:
         text += ", in two halves on opposite sides of the crank so that no roll is added"

@@ -68,10 +68,10 @@ def enclose_curve(curve: Phasors) -> Circle:
     Args:
         curve: Phasors of the force F: whole orders, 1 included, of one engine, not of variants.
     """
-    there = np.flatnonzero((curve.major != 0) | (curve.orders == 1))
+    present = np.flatnonzero((curve.major != 0) | (curve.orders == 1))
     if not np.any(curve.major):
         return Circle(0j, 0.0, np.zeros(0), 0.0)
-    curve = Phasors(curve.orders[there], curve.vectors[:, there], np.zeros(1))
+    curve = Phasors(curve.orders[present], curve.vectors[:, present], np.zeros(1))
     noise = _SAME * float(curve.major.sum())
     best = _reach(curve, complex(curve.forward[curve.orders == 1].sum()))
     theta = best.theta

@@ -241,12 +241,12 @@ def choose_residual(
     """
     if "moment" in kinds and not engine.places_known:
         raise BalcliError(MOMENTS_UNKNOWN)
-    what = " or ".join(kinds)
+    free_parts = " or ".join(kinds)
     if tuple(senses) == (-1,):
-        what += " turning against the crank"
+        free_parts += " turning against the crank"
     sought = [ResidualPart(kind, sense) for kind in kinds for sense in senses]
     if options.order is None:
-        return _find_lowest(engine, options, sought, what)
+        return _find_lowest(engine, options, sought, free_parts)
     residual = find_residual(engine, options.order)
     if any(residual.parts[part] for part in sought):
         return residual
@@ -255,13 +255,13 @@ def choose_residual(
     if with_crank and 1 not in senses:
         details["force_with_crank_left_N"] = with_crank
     raise NothingToBalanceError(
-        f"order {options.order} has no free {what}: nothing to balance{_tell_rest(residual)}",
+        f"order {options.order} has no free {free_parts}: nothing to balance{_tell_rest(residual)}",
         **details,
     )
 
 
 def _find_lowest(
-    engine: Engine, options: SchemeOptions, sought: Sequence[ResidualPart], what: str
+    engine: Engine, options: SchemeOptions, sought: Sequence[ResidualPart], free_parts: str
 ) -> Residual:
     """Return the residual of the lowest order in which a sought part is not small."""
     scales = find_scales(engine)
@@ -277,7 +277,7 @@ def _find_lowest(
     message = Message(
         "there is no free {what} of orders 1 to {highest}: nothing to balance; {order} selects a "
         "higher order",
-        what=what,
+        what=free_parts,
         highest=HIGHEST_ORDER_SOUGHT,
     )
     raise NothingToBalanceError(message)

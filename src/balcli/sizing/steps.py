@@ -50,7 +50,7 @@ def add_at_throws(fitting: Fitting) -> Fitting:
     """
     engine = fitting.engine
     throws = fitting.engine.joined_throws_m
-    forward = compute_spectra(engine, [1], ("force",), each=True)["force"].forward[0]
+    forward = compute_spectra(engine, [1], ("force",), by_cylinder=True)["force"].forward[0]
     unbalances = np.zeros(len(throws), complex)
     np.add.at(unbalances, engine.joined_throw_of_rows, -forward / float(engine.omega) ** 2)
     for device in engine.devices:

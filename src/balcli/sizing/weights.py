@@ -80,11 +80,11 @@ def _size_at_throws(fitting: Fitting) -> Remedy:
 
 
 def _tell_not_needed(engine: Engine) -> str:
-    what = "force or moment" if engine.places_known else "force"
+    free_parts = "force or moment" if engine.places_known else "force"
     left = find_residual(engine, 1)
     against = any(left.parts[part] for part in BACKWARD)
     order = "The part of order 1 that turns with the crank" if against else "Order 1"
-    return f"{order} is balanced already: counterweights change no free {what}"
+    return f"{order} is balanced already: counterweights change no free {free_parts}"
 
 
 def _compromise(fitting: Fitting, slots: list[Slot], residual: Residual) -> Fitting:

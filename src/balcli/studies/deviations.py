@@ -105,16 +105,16 @@ def find_sources(
     if model.engine and chapter == ENGINE:
         several, sources = _find_sources_of_several(model, within)
         return several, (*sources, *_drop_exact(_list_devices(model, within)))
-    found: Iterator[Source]
+    deviating: Iterator[Source]
     if chapter == MOUNTS:
-        found = _list_mounts(model, within)
+        deviating = _list_mounts(model, within)
     elif chapter == TORSION:
         model = _spell_out_shafting(model)
-        found = _list_shafting(model, within)
+        deviating = _list_shafting(model, within)
     else:
         model = _spell_out_throws(model, angles=bool(within.angle_deg))
-        found = chain(_list_parts(model, within), _list_devices(model, within))
-    return model, _drop_exact(found)
+        deviating = chain(_list_parts(model, within), _list_devices(model, within))
+    return model, _drop_exact(deviating)
 
 
 def _drop_exact(sources: Iterable[Source]) -> tuple[Source, ...]:

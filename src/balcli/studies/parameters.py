@@ -202,12 +202,12 @@ def choose_values(path: str, values: ArrayLike, model: EngineFile) -> Parameter:
         BalcliError: The name or a value is wrong; see `parse_parameter`.
         TypeError: The values have a wrong type.
     """
-    known = find_numbers(model)
+    numbers = find_numbers(model)
     where = shorten(f"{path}={values}") if isinstance(values, str) else path
-    path = resolve_name(path, known)
-    if path not in known:
-        raise BalcliError(_describe_unknown(path, known, model))
-    number = known[path]
+    path = resolve_name(path, numbers)
+    if path not in numbers:
+        raise BalcliError(_describe_unknown(path, numbers, model))
+    number = numbers[path]
     try:
         if isinstance(values, str):
             array = _read_values(values, number)
@@ -245,21 +245,21 @@ def _read_array(path: str, values: ArrayLike, number: Number) -> NDArray[np.floa
     return array
 
 
-def resolve_name(name: str, known: Mapping[str, Number]) -> str:
+def resolve_name(name: str, numbers: Mapping[str, Number]) -> str:
     """Return the dotted name for a short name: `crank.stroke` for `stroke`, `operation.speed` for
     `rpm` or `speed`. Ambiguous and unknown names are returned unchanged.
     """
-    if name in known:
+    if name in numbers:
         return name
     for called in ((name,), SYNONYMS.get(name.lower(), ())):
-        meant = [path for path in known if path.rpartition(".")[2] in called]
+        meant = [path for path in numbers if path.rpartition(".")[2] in called]
         general = [path for path in meant if not path.startswith("cylinder.")]
         if meant := general or meant:
             return meant[0] if len(meant) == 1 else name
     return name
 
 
-def _describe_unknown(path: str, known: Mapping[str, Number], model: EngineFile) -> str:
+def _describe_unknown(path: str, numbers: Mapping[str, Number], model: EngineFile) -> str:
     """Return the message for an unknown name. It suggests `rod.length` for rod_length, the numbers
     of a table for the table's name, or the nearest name.
     """
@@ -267,12 +267,12 @@ def _describe_unknown(path: str, known: Mapping[str, Number], model: EngineFile)
         return f"{path}: firing intervals add up to a cycle, so that a single one cannot vary"
     if _list_idle_paths(model, [path]) and model.gas is not None:
         return f"{path} has no effect on the gas of this file"
-    if members := [name for name in known if re.fullmatch(rf"{re.escape(path)}\.\d+", name)]:
+    if members := [name for name in numbers if re.fullmatch(rf"{re.escape(path)}\.\d+", name)]:
         return f"{path} is a list of {len(members)}; vary {members[0]} to {members[-1]}"
     dotted = path.replace("_", ".", 1)
-    meant = [name for name in known if name == dotted or name.startswith(f"{path}.")]
-    meant = meant or [name for name in known if f".{path}_" in f"{name}_"]
-    near = " or ".join(meant[:6]) or nearest(path, known)
+    meant = [name for name in numbers if name == dotted or name.startswith(f"{path}.")]
+    meant = meant or [name for name in numbers if f".{path}_" in f"{name}_"]
+    near = " or ".join(meant[:6]) or nearest(path, numbers)
     hint = f"did you mean {near}?" if near else "balcli numbers lists them"
     return f"{path}: unknown parameter; {hint}"
 

@@ -234,12 +234,12 @@ class _VariedGas:
     def __call__(self, orders: Array) -> Phasors:
         """Return the torque at these orders; raise InputError for an impossible cycle."""
         self._engines = self._engines or list(self._build())
-        found = [compute_gas_torque(engine, orders) for engine in self._engines]
+        torques = [compute_gas_torque(engine, orders) for engine in self._engines]
         shape = (len(orders), *self._shape)
         return Phasors(
             orders,
-            np.stack([one.vectors for one in found], axis=2).reshape(2, *shape),
-            np.stack([one.noise for one in found], axis=1).reshape(shape),
+            np.stack([one.vectors for one in torques], axis=2).reshape(2, *shape),
+            np.stack([one.noise for one in torques], axis=1).reshape(shape),
         )
 
     def _build(self) -> Iterator[Engine]:
@@ -379,10 +379,10 @@ def list_quantities(model: EngineFile) -> Iterator[Form]:
         if chapter == ENGINE:
             yield from forms
             continue
-        known = list(forms)
+        listed = list(forms)
         for name in load_chapter(chapter).list_names(model):
             number = name.replace(".N.", ".1.")
-            yield next(f for f in known if f.matches(number))._replace(name=name)
+            yield next(f for f in listed if f.matches(number))._replace(name=name)
 
 
 def name_numbers(model: EngineFile) -> NamedNumbers:

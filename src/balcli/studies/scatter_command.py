@@ -85,8 +85,8 @@ def _list_tolerances(result: Scatter) -> str:
     for part in result.parts:
         size = f"{100 * part.tolerance:g} %" if part.relative else f"{part.tolerance:g} deg"
         kinds.setdefault(size, {})[part.kind] = None
-    told = "; ".join(f"{', '.join(names)} ±{size}" for size, names in kinds.items())
-    return f"Tolerances: {told}; {_SHAPES[result.distribution]}"
+    message = "; ".join(f"{', '.join(names)} ±{size}" for size, names in kinds.items())
+    return f"Tolerances: {message}; {_SHAPES[result.distribution]}"
 
 
 def _group_parts(

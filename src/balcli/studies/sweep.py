@@ -128,15 +128,15 @@ class Sweep:
         varied = [parameter.path for parameter in self.parameters]
         with naming_file(self.name):
             if self.file.engine:
-                found = name_files(self._doubt_geared(varied))
+                doubts = name_files(self._doubt_geared(varied))
                 clearances = build(self.file).doubt_clearances()
-                found += tuple(_select_fixed(clearances, varied))
+                doubts += tuple(_select_fixed(clearances, varied))
             else:
-                found = tuple(_doubt_fixed(self.file, varied))
+                doubts = tuple(_doubt_fixed(self.file, varied))
             if any(crank.gas is not None and crank.gas.speeds for crank in self.file.cranks):
                 speeds = self.figures.get(SPEED, self.file.operation.speed)
-                found += build(self.file).doubt_speeds(speeds)
-        return found
+                doubts += build(self.file).doubt_speeds(speeds)
+        return doubts
 
     def _doubt_geared(self, varied: Iterable[str]) -> Iterator[tuple[str, Iterator[Doubt]]]:
         """Yield the name of the file of each engine in [[engine]], and the doubts about this file.

@@ -200,10 +200,10 @@ class TorsionAnalysis(Result):
         if not hasattr(self, "response"):
             return self.system.doubts
         excitation = self.system.excitation
-        found = _find_doubts(self.response)
+        of_response = _find_doubts(self.response)
         law = excitation and excitation.gas and excitation.gas.law
         of_gas = law.list_doubts(self.response.speeds_rpm) if law else ()
-        return *self.system.doubts, *of_gas, *found
+        return *self.system.doubts, *of_gas, *of_response
 
     @property
     def summary(self) -> str:
@@ -214,32 +214,32 @@ class TorsionAnalysis(Result):
 
 def _find_doubts(response: TorsionResponse) -> Iterator[Doubt]:
     """Yield warnings of swings and stresses that are too large."""
-    for each in response.pendulums or ():
-        wide = each.worst.half_swing_deg
+    for pendulum in response.pendulums or ():
+        wide = pendulum.worst.half_swing_deg
         if wide > WIDE_SWING:
-            told = (
-                f"the pendulums of {printable(each.node)} swing by {wide:.3g} deg at "
-                f"{each.worst.speed_rpm:.4g} rpm, but the computation assumes small swings; "
+            message = (
+                f"the pendulums of {printable(pendulum.node)} swing by {wide:.3g} deg at "
+                f"{pendulum.worst.speed_rpm:.4g} rpm, but the computation assumes small swings; "
                 f"{wide / WIDE_SWING:.3g} times their mass would limit the swing to about "
                 f"{WIDE_SWING:.0f} deg"
             )
-            yield Doubt("", told)
+            yield Doubt("", message)
     hardest = max(response.shafts, key=lambda each: each.worst.stress_Pa or 0.0, default=None)
     if hardest is not None and (stress := hardest.worst.stress_Pa or 0.0) > BREAKING:
-        told = (
+        message = (
             f"{printable(hardest.name)} has {stress / 1e6:.4g} N/mm² at "
             f"{hardest.worst.speed_rpm:.5g} rpm, more than any steel bears; check the damping "
             "(loss, damping) of all shafts and nodes"
         )
-        yield Doubt("", told)
+        yield Doubt("", message)
     swing = response.free_end_worst
     if swing.half_swing_deg > ASTOUNDING:
-        told = (
+        message = (
             f"the free end swings by {swing.half_swing_deg:.4g} deg at {swing.speed_rpm:.5g} rpm, "
             "but the computation assumes small swings; is an inertia or the damping missing, or "
             "the speed too low?"
         )
-        yield Doubt("", told)
+        yield Doubt("", message)
 
 
 def answer_question(
@@ -271,11 +271,11 @@ def answer_question(
         raise ArgumentError("{damper}: give the speeds over which to size it, with {speeds}")
     sized = size_damper(source, question.damper, question.speeds_rpm, tell)
     fitted = source.system({sized.node: sized.damper})
-    found = _analyze_system(fitted, question)  # one more response: no progress is reported
-    for each in found.response.dampers or ():
+    fitted_result = _analyze_system(fitted, question)  # one more response: no progress is reported
+    for each in fitted_result.response.dampers or ():
         if each.node == sized.node:
             sized = replace(sized, heat_W=each.worst.heat_W, heat_rpm=each.worst.speed_rpm)
-    return change_attributes(found, damper=sized)
+    return change_attributes(fitted_result, damper=sized)
 
 
 def _analyze_system(
@@ -417,15 +417,15 @@ def parse_question(
     return TorsionQuestion(parse_speeds(speeds), list(map(_parse_trial, holzer)), sized)
 
 
-def require_speeds(asked: TorsionQuestion, what: str) -> None:
+def require_speeds(asked: TorsionQuestion, page: str) -> None:
     """Check that a picture over speed has a range of speeds.
 
     Raises:
         BalcliError: No range was given.
     """
-    if asked.speeds_rpm is None and what in ("response", "waterfall"):
+    if asked.speeds_rpm is None and page in ("response", "waterfall"):
         raise ArgumentError(
-            "{what} {page}: give the range of speeds, such as {speeds} 1000:2500", page=what
+            "{what} {page}: give the range of speeds, such as {speeds} 1000:2500", page=page
         )
 
 

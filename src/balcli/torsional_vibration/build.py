@@ -183,12 +183,12 @@ def _doubt_light_shafts(chain: Chain, shafts: Sequence[PlannedShaft]) -> Iterato
         named = [shorten(shafts[k].name) for k in heavy]
         if len(named) > _MOST_NAMED:
             named[_MOST_NAMED:] = ["..."]
-        told = (
+        message = (
             f"{counted(len(heavy), 'plain shaft')} without a density ({', '.join(named)}): their "
             f"inertia, {lost[heavy].sum():.4g} kg m2 in steel, is left out; density = {STEEL} "
             "(g/cm3) adds half of the inertia to the node at each end"
         )
-        yield Doubt("", told)
+        yield Doubt("", message)
 
 
 def _doubt_pendulums(
@@ -200,12 +200,12 @@ def _doubt_pendulums(
         inertia = pendulum.mass * (pendulum.radius + pendulum.length) ** 2
         if inertia > whole:
             node = nodes[pendulum.node].table.name
-            told = (
+            message = (
                 f"the pendulums on {node} weigh {pendulum.mass:.4g} kg and have {inertia:.4g} kg "
                 f"m2, more than all nodes together ({whole:.4g} kg m2); is their mass in kg, and "
                 "their radius in mm?"
             )
-            yield Doubt("", told)
+            yield Doubt("", message)
 
 
 # Usual stiffness of a shaft, as its natural frequency with both ends over that at which shear waves
@@ -234,12 +234,12 @@ def _doubt_stiffness(chain: Chain, shafts: Sequence[PlannedShaft]) -> Iterator[D
             worst = beyond
             size = "low" if quickness < least else "high"
             both = " and ".join(f"{inertia:.4g}" for inertia in inertias)
-            told = (
+            message = (
                 f"{stiffness:.4g} N m/rad, unusually {size} between inertias of {both} kg m2; are "
                 'stiffness and inertias in N m/rad and kg mm^2? Other units: "1.2 MN m/rad", '
                 '"15000 kg m^2"'
             )
-            doubt = Doubt(shaft.path, told)
+            doubt = Doubt(shaft.path, message)
     if doubt is not None:
         yield doubt
 
@@ -360,10 +360,10 @@ def _find_contradiction(
     they turn.
     """
     pieces = find_pieces(chain, joining)
-    found = pieces.pace[chain.end] / pieces.pace[chain.start]
-    torn = joining & (np.abs(found - chain.ratio) > SAME_RATIO * np.abs(found))
+    paces = pieces.pace[chain.end] / pieces.pace[chain.start]
+    torn = joining & (np.abs(paces - chain.ratio) > SAME_RATIO * np.abs(paces))
     for shaft in np.flatnonzero(torn)[:1].tolist():
-        ratios = f"{chain.ratio[shaft]:.9g} here, {found[shaft]:.9g} by the rest of the loop"
+        ratios = f"{chain.ratio[shaft]:.9g} here, {paces[shaft]:.9g} by the rest of the loop"
         hint = "give ratios with all digits, or leave out one of the gears"
         yield Problem(paths[shaft], f"closes a loop of contradictory ratios: {ratios}; {hint}")
 
@@ -519,12 +519,12 @@ def _lead_outward(joints: Sequence[_Joint], throws: Sequence[str]) -> list[_Join
     """Return the joints in order from the throws outward, since a part may be joined to a part
     that comes later in the file. Parts without a connection to a throw are left out.
     """
-    known = {*throws}
-    found = list[_Joint]()
-    while new := [each for each in joints if each.of in known and each.part.name not in known]:
-        found += new
-        known |= {each.part.name for each in new}
-    return found
+    reached = {*throws}
+    attached = list[_Joint]()
+    while new := [each for each in joints if each.of in reached and each.part.name not in reached]:
+        attached += new
+        reached |= {each.part.name for each in new}
+    return attached
 
 
 def _find_end(led: Sequence[_Joint], gears: Mapping[str, float], start: str) -> str:
@@ -591,14 +591,14 @@ def excite_engine(model: EngineFile, engine: Engine, orders: Real | None) -> Exc
         usual = np.arange(step, HIGHEST_TORSION_ORDER_UNASKED + step, step)
         orders = np.union1d(usual, list_gas_orders(engine))
     parts = ("torque",) if engine.gas is None else ("torque", "gas")
-    spectra = compute_spectra(engine, orders, parts, each=True)
+    spectra = compute_spectra(engine, orders, parts, by_cylinder=True)
     growing = spectra["torque"].x
     steady = np.zeros_like(growing) if engine.gas is None else spectra["gas"].x
     moves = np.any((growing != 0) | (steady != 0), axis=1)
     gas = None
     if engine.gas is not None and engine.gas.nodes_rpm:
         gas = follow_gas(
-            engine, lambda own: compute_spectra(own, orders, ["gas"], each=True)["gas"].x
+            engine, lambda own: compute_spectra(own, orders, ["gas"], by_cylinder=True)["gas"].x
         )
         moves |= np.any(gas.torque(engine.gas.nodes_rpm) != 0, axis=(1, 2))
     return Excitation(orders, nodes, steady, growing, gas).only(orders[moves])

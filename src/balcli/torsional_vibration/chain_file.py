@@ -119,7 +119,7 @@ def _find_misfits(data: Mapping[str, object]) -> Iterator[Problem]:
         yield Problem.of_missing("node", hint)
         return
     names = [node.get("name") for _, node in nodes]
-    known = [name for name in names if isinstance(name, str)]
+    known_names = [name for name in names if isinstance(name, str)]
     for k, node in nodes:
         name = node.get("name")
         if isinstance(name, str) and name in names[: k - 1]:
@@ -135,19 +135,19 @@ def _find_misfits(data: Mapping[str, object]) -> Iterator[Problem]:
                 text = f"goes from {shorten(start)} to itself; give two different nodes"
                 yield Problem(f"{key}.{k}", text)
     for path, name in named:
-        if isinstance(name, str) and name not in known:
-            yield Problem(path, refuse_node(name, known))
+        if isinstance(name, str) and name not in known_names:
+            yield Problem(path, refuse_node(name, known_names))
 
 
-def refuse_node(name: str, known: Sequence[str]) -> str:
+def refuse_node(name: str, nodes: Sequence[str]) -> str:
     """Return the message about a name that no node has.
 
     Args:
         name: Name in the file.
-        known: Names of the nodes.
+        nodes: Names of the nodes.
     """
-    listed = ", ".join(printable(each) for each in dict.fromkeys(known[:8])) or "none"
-    return f"{shorten(name)} is not a node; {suggest_nearest(name, known, f'there are {listed}')}"
+    listed = ", ".join(printable(each) for each in dict.fromkeys(nodes[:8])) or "none"
+    return f"{shorten(name)} is not a node; {suggest_nearest(name, nodes, f'there are {listed}')}"
 
 
 def _tables(data: Mapping[str, object], key: str) -> list[tuple[int, Mapping[str, object]]]:

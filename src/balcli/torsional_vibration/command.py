@@ -94,7 +94,7 @@ def torsion(
         result = answer.answer_question(source, asked, tell)
     sized = result.damper if hasattr(result, "damper") else None
     doubts = (sized and sized.doubts) or ()
-    warn_each([Doubt("", told) for told in doubts], "--damper")
+    warn_each([Doubt("", message) for message in doubts], "--damper")
     if doubts and damper_inertia is not None:
         warn("--damper-inertia without a unit is in kg mm2")
     warn_each(result.doubts, name_file(path))

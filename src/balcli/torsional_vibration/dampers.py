@@ -197,7 +197,7 @@ def size_damper(
     for key, value in damper.model_dump(exclude={"kind"}, exclude_none=True).items():
         name, size, _ = DAMPER_KEYS[key]
         figures[name] = value / size
-    found = SizedDamper(
+    sized = SizedDamper(
         node=node,
         kind=damper.kind,
         mode=mode.number,
@@ -209,8 +209,8 @@ def size_damper(
         after=after,
         **figures,
     )
-    doubts = _doubt(found, bare, given=own is not None or asked.inertia is not None)
-    return replace(found, doubts=tuple(doubts) or None)
+    doubts = _doubt(sized, bare, given=own is not None or asked.inertia is not None)
+    return replace(sized, doubts=tuple(doubts) or None)
 
 
 def _find_carrier(source: Source, asked: DamperAsked, speeds: Real) -> str:
@@ -314,10 +314,10 @@ def _minimise(judge: Callable[[float], float], width: float) -> float:
     values = np.array([judge(place) for place in places])
     around = np.concatenate([[np.inf], values, [np.inf]])
     bottoms = np.flatnonzero((values < around[:-2]) & (values <= around[2:])).tolist()
-    found = [
+    minima = [
         find_least(judge, places[max(k - 1, 0)], places[min(k + 1, _PLACES - 1)]) for k in bottoms
     ]
-    return min(found, key=judge, default=-width)
+    return min(minima, key=judge, default=-width)
 
 
 # ------------------------------------------------------------------ start of the search
@@ -379,15 +379,15 @@ def _propose(
             mode=mode.number,
         )
     kind = str(asked.kind)
-    there = _find_inertia_in(mode, system, node)
+    carried = _find_inertia_in(mode, system, node)
     given = {} if own is None else own.model_dump(exclude_none=True)
     usual = given["inertia"] / 1e6 if "inertia" in given else None
-    inertia = asked.inertia or usual or float(f"{_SHARE[kind] * there:.4g}")
+    inertia = asked.inertia or usual or float(f"{_SHARE[kind] * carried:.4g}")
     figures: dict[str, object] = {"kind": kind, "inertia": float(f"{inertia * 1e6:.12g}")}
     if kind == "viscous":
-        figures["damping"] = best_viscous_damping(inertia, inertia / there, mode.omega)
+        figures["damping"] = best_viscous_damping(inertia, inertia / carried, mode.omega)
     elif kind == "rubber":
-        figures["stiffness"] = inertia * (mode.omega / (1 + inertia / there)) ** 2
+        figures["stiffness"] = inertia * (mode.omega / (1 + inertia / carried)) ** 2
         figures["loss"] = given.get("loss", RUBBER_LOSS)
     else:
         radius = given["radius"] / 1e3 if "radius" in given else crank_radius
@@ -413,28 +413,30 @@ def _propose(
 
 
 # ------------------------------------------------------------------ doubts
-def _doubt(found: SizedDamper, bare: TorsionalSystem, *, given: bool) -> Iterator[str]:
+def _doubt(damper: SizedDamper, bare: TorsionalSystem, *, given: bool) -> Iterator[str]:
     """Yield warnings of unlikely figures of a damper; `given`: whether its inertia was requested or
     is that of a damper in the file.
     """
-    node = printable(found.node)
-    inertia = found.inertia_kg_m2
+    node = printable(damper.node)
+    inertia = damper.inertia_kg_m2
     if inertia is None:  # pendulums, about the axis
-        inertia = (found.mass_kg or 0.0) * ((found.radius_m or 0.0) + (found.length_m or 0.0)) ** 2
-    carrier = float(bare.chain.inertia[bare.nodes.index(found.node)])
+        inertia = (damper.mass_kg or 0.0) * (
+            (damper.radius_m or 0.0) + (damper.length_m or 0.0)
+        ) ** 2
+    carrier = float(bare.chain.inertia[bare.nodes.index(damper.node)])
     whole = float(np.sum(bare.chain.inertia))
-    width = _WIDTH[found.kind]
-    sized = float(getattr(found.damper, FIGURES[found.kind]))
-    if found.after > _HARDLY * found.before:
-        does = "raises" if found.after > found.before else "hardly lowers"
+    width = _WIDTH[damper.kind]
+    sized = float(getattr(damper.damper, FIGURES[damper.kind]))
+    if damper.after > _HARDLY * damper.before:
+        does = "raises" if damper.after > damper.before else "hardly lowers"
         yield Message(
             "a {kind} damper of {inertia:.4g} kg m2 at {node} {does} the largest {measure}; the "
             "whole system has {whole:.4g} kg m2; check {damper_at} and {damper_inertia}",
-            kind=found.kind,
+            kind=damper.kind,
             inertia=inertia,
             node=node,
             does=does,
-            measure=found.measure,
+            measure=damper.measure,
             whole=whole,
         )
     elif inertia > (whole if given else _HEAVY * carrier) > 0:
@@ -449,9 +451,9 @@ def _doubt(found: SizedDamper, bare: TorsionalSystem, *, given: bool) -> Iterato
             whole=whole,
             smaller=smaller,
         )
-    elif abs(math.log(sized / found.start)) > _END * math.log(width):
-        ends = f"{1 / width:.2g} to {width:g} times the optimum for mode {found.mode} alone"
-        yield f"the best {FIGURES[found.kind]} is at an end of the searched range, {ends}"
+    elif abs(math.log(sized / damper.start)) > _END * math.log(width):
+        ends = f"{1 / width:.2g} to {width:g} times the optimum for mode {damper.mode} alone"
+        yield f"the best {FIGURES[damper.kind]} is at an end of the searched range, {ends}"
 
 
 def insert_damper(text: bytes, name: str, damper: Damper) -> str:

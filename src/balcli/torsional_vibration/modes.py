@@ -150,10 +150,10 @@ def find_chain_poles(chain: Chain, damping: Damping) -> Complex:
     k = k / scale
     c = c * (unit / scale)
     m = m * (unit**2 / scale)
-    one = np.eye(len(m))
+    identity = np.eye(len(m))
     none = np.zeros_like(m)
-    shifted = np.block([[-_SIGMA * one, one], [-k, -c - _SIGMA * m]])
-    mu = np.linalg.eigvals(np.linalg.solve(shifted, np.block([[one, none], [none, m]])))
+    shifted = np.block([[-_SIGMA * identity, identity], [-k, -c - _SIGMA * m]])
+    mu = np.linalg.eigvals(np.linalg.solve(shifted, np.block([[identity, none], [none, m]])))
     finite = np.abs(mu) > _INFINITE * np.abs(mu).max()
     return np.asarray(unit * (_SIGMA + 1 / mu[finite]), complex)
 
@@ -235,7 +235,7 @@ def find_natural_modes(system: TorsionalSystem) -> tuple[NaturalMode, ...]:
     """Return the modes in which shafts twist, lowest first."""
     modes = find_chain_modes(system.chain)
     loss = chain_loss(system.chain, system.damping, modes, system.attached_rings(modes.omega))
-    found = []
+    natural_modes = []
     for k, shape in enumerate(scale_shapes(modes.shapes)[modes.rigid :], modes.rigid):
         in_shafts, at_nodes = locate_nodes(system.chain, shape)
         mode = NaturalMode(
@@ -247,8 +247,8 @@ def find_natural_modes(system: TorsionalSystem) -> tuple[NaturalMode, ...]:
             loss=float(loss[k]),
             number=k - modes.rigid + 1,
         )
-        found.append(mode)
-    return tuple(found)
+        natural_modes.append(mode)
+    return tuple(natural_modes)
 
 
 def find_poles(system: TorsionalSystem, order: float | None = None) -> Complex:
@@ -300,7 +300,7 @@ def find_criticals(
     counted = (rpm >= low * (1 - 1e-12)) & (rpm <= high * (1 + 1e-12))
     counted &= phasors > _UNDRIVEN * np.sum(np.abs(torque * moved), axis=-1)
     total = np.sum(phasors, axis=1, where=counted)
-    found = [
+    criticals = [
         Critical(
             mode=modes[m].number,
             order=order_number(float(orders[k])),
@@ -311,7 +311,7 @@ def find_criticals(
         )
         for m, k in np.argwhere(counted)
     ]
-    return tuple(sorted(found, key=lambda each: -each.work))
+    return tuple(sorted(criticals, key=lambda each: -each.work))
 
 
 _OUTSIDE = 0.2  # share of the first and last speed up to which criticals outside are listed

@@ -104,17 +104,17 @@ def make_figures_of_torsion(
 
 
 def make_torsion(
-    result: TorsionAnalysis, what: str, system: System = SI, *, titled: bool = True
+    result: TorsionAnalysis, page: str, system: System = SI, *, titled: bool = True
 ) -> Figure:
     """Return a page of pictures; `what` is "all" or one of `report.names.OF_TORSION`.
 
     Raises:
         BalcliError: A waterfall needs a shaft, and there is none.
     """
-    if what == "waterfall" and not result.shafts:
+    if page == "waterfall" and not result.shafts:
         raise ArgumentError("{what} waterfall: there is no shaft whose torque could be drawn")
-    parts = list(_choose_parts(result, what, system))
-    columns = 2 if what == "all" else 1
+    parts = list(_choose_parts(result, page, system))
+    columns = 2 if page == "all" else 1
     rows = -(-len(parts) // columns)
     with open_figure(5.6 * columns + 1.2 * (columns == 1), 4.1 * rows + 0.3) as fig:
         for place, draw in enumerate(parts, 1):
@@ -125,23 +125,23 @@ def make_torsion(
 
 
 def _choose_parts(
-    result: TorsionAnalysis, what: str, system: System
+    result: TorsionAnalysis, page: str, system: System
 ) -> Iterator[Callable[[Axes], None]]:
     """Yield one drawing function for each picture of a page. Some need a response; without a
     response, they are left out.
     """
-    if what in ("all", "modes"):
+    if page in ("all", "modes"):
         yield lambda ax: _draw_modes(ax, result)
-    if what in ("all", "campbell"):
+    if page in ("all", "campbell"):
         yield lambda ax: _draw_campbell(ax, result)
-    if not hasattr(result, "response") or what in ("modes", "campbell"):
+    if not hasattr(result, "response") or page in ("modes", "campbell"):
         return
     curves = _compute_curves(result, result.response)
-    if what in ("all", "response") and result.shafts:
+    if page in ("all", "response") and result.shafts:
         yield lambda ax: _draw_torque(ax, result, curves, system)
-    if what == "response":
+    if page == "response":
         yield lambda ax: _draw_swing(ax, result, curves)
-    if what in ("all", "waterfall") and result.shafts:
+    if page in ("all", "waterfall") and result.shafts:
         yield lambda ax: _draw_waterfall(ax, result, curves, system)
 
 

@@ -79,16 +79,19 @@ class Variants:
         )
         varied = change_figures(self._model, values, {"torsion"})
         system = build_engine_system(varied, engine, excitation)
-        found = {f"torsion.{k}.Hz": hertz for k, hertz in enumerate(_find_frequencies(system), 1)}
+        figures = {f"torsion.{k}.Hz": hertz for k, hertz in enumerate(_find_frequencies(system), 1)}
         looked_at = [q.target for q in self._quantities if q.kind == "shaft"]
         if looked_at:
             speeds = choose_speeds(engine, values, choose_torsion_speeds)
             weights = np.isin(system.shafts, looked_at).astype(float)
             _, torques = find_largest(system, speeds, weights)
-            each = zip(system.shafts, torques, system.stress_by_torque, strict=False)
-            for shaft, torque, stress in each:
-                found |= {f"shaft.{shaft}.torque": torque, f"shaft.{shaft}.stress": torque * stress}
-        return [float(found[q.name]) for q in self._quantities]
+            of_shafts = zip(system.shafts, torques, system.stress_by_torque, strict=False)
+            for shaft, torque, stress in of_shafts:
+                figures |= {
+                    f"shaft.{shaft}.torque": torque,
+                    f"shaft.{shaft}.stress": torque * stress,
+                }
+        return [float(figures[q.name]) for q in self._quantities]
 
 
 def _find_frequencies(system: TorsionalSystem) -> Real:

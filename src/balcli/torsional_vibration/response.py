@@ -90,12 +90,12 @@ def _add_resonances(system: TorsionalSystem, rpm: Real) -> Real:
     if len(rpm) == 1:
         return rpm
     of_all = None if system.pendulums else find_poles(system)  # None: poles depend on the order
-    found = []
+    by_order = []
     for order in system.require_excitation().orders.tolist():
         poles = find_poles(system, order) if of_all is None else of_all
         poles = poles[(poles.imag > 0) & (-poles.real > ROUNDING * np.abs(poles))]
-        found.append(np.stack([poles.imag, -2 * poles.real]) / (RPM * order))
-    at, width = np.concatenate(found, axis=1)
+        by_order.append(np.stack([poles.imag, -2 * poles.real]) / (RPM * order))
+    at, width = np.concatenate(by_order, axis=1)
     steps = np.diff(rpm)[np.clip(np.searchsorted(rpm, at) - 1, 0, len(rpm) - 2)]
     there = (at > rpm[0]) & (at < rpm[-1]) & (width < _WIDE * steps)
     about = (at + width * _ABOUT)[:, there]
@@ -266,12 +266,12 @@ def find_response(
     refuse_unbounded(system, speeds_rpm)
     excitation = system.require_excitation()
     end = len(system.shafts)
-    found = []
+    pieces = []
     orders = excitation.orders
     for phasors, lost in compute_in_parts(system, speeds_rpm):
-        found.append((find_swing(orders, phasors).half, sum_amplitudes(phasors), lost))
-        tell(sum(len(each) for each, *_ in found) / len(speeds_rpm))
-    swings, sums, heat = (np.concatenate(each) for each in zip(*found, strict=True))
+        pieces.append((find_swing(orders, phasors).half, sum_amplitudes(phasors), lost))
+        tell(sum(len(each) for each, *_ in pieces) / len(speeds_rpm))
+    swings, sums, heat = (np.concatenate(each) for each in zip(*pieces, strict=True))
     at, value = find_largest(system, speeds_rpm)
     curves = range(end + 1 + len(system.pendulums))  # torques, free end, pendulums
     there, _ = compute_curves(system, at[: len(curves)])
@@ -298,10 +298,10 @@ def find_response(
     degrees = np.degrees(swings)
     worst_deg = np.degrees(value).tolist()
     pendulums = []
-    for k, each in enumerate(system.pendulums, end + 1):
+    for k, pendulum in enumerate(system.pendulums, end + 1):
         largest = named_orders[by_order[:, k].argmax()]
         swing = WorstPendulum(float(at[k]), worst_deg[k], largest)
-        pendulums.append(PendulumSwing(system.nodes[each.node], degrees[:, k], swing))
+        pendulums.append(PendulumSwing(system.nodes[pendulum.node], degrees[:, k], swing))
     worst_heat = list(map(WorstHeat, at.tolist(), value.tolist()))[sums.shape[1] :]
     names = [system.nodes[ring.node] for ring in system.rings]
     names += [name.removesuffix(" ring") for name in system.nodes[system.last + 1 :]]
@@ -357,14 +357,14 @@ def find_barred(system: TorsionalSystem, rpm: Real) -> tuple[tuple[float, float]
 
     def measure(some: Real) -> Real:
         """Return the largest ratio of stress or angle to its limit at speeds; 0 if far below 1."""
-        found = []
+        largest = []
         for phasors, _ in compute_in_parts(system, some):
             curves = phasors[:, :, : len(weights)] * weights
             speed, curve = np.nonzero(sum_amplitudes(curves) > _CLOSE)
             highest = np.zeros(curves.shape[1])
             np.maximum.at(highest, speed, find_swing(orders, curves[:, speed, curve]).half)
-            found.append(highest)
-        return np.concatenate(found)
+            largest.append(highest)
+        return np.concatenate(largest)
 
     def judge(at: Real, which: Indices) -> Real:
         return measure(at.ravel()).reshape(at.shape) * sign[which]

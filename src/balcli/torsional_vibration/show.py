@@ -96,42 +96,42 @@ def _put(head: Line, figures: Iterable[Figure]) -> Iterator[Line]:
         yield head._replace(figure=remove_unit(each.name), value=each.value, unit=each.unit)
 
 
-def _list_lines(found: Node) -> Iterator[Line]:
+def _list_lines(document: Node) -> Iterator[Line]:
     """Yield all lines of CSV."""
     for key in ("no_gas_in", "no_burning_in"):
-        if key in found:
-            yield Line("engine", figure=key, value=" ".join(map(str, found[key])))
+        if key in document:
+            yield Line("engine", figure=key, value=" ".join(map(str, document[key])))
     for part in ("node", "shaft"):
-        for each in found[f"{part}s"]:
-            yield from _put(Line(part, name=each["name"]), list_figures(each, ("name",)))
-    for k, mode in enumerate(found["modes"], 1):
+        for described in document[f"{part}s"]:
+            yield from _put(Line(part, name=described["name"]), list_figures(described, ("name",)))
+    for k, mode in enumerate(document["modes"], 1):
         yield from _put(Line("mode", k), list_figures(mode))
-        for node, angle in zip(found["nodes"], mode["shape"], strict=True):
+        for node, angle in zip(document["nodes"], mode["shape"], strict=True):
             yield from _put(Line("mode", k, name=node["name"]), [Figure("angle", angle, "")])
-    for each in found.get("criticals", ()):
+    for critical in document.get("criticals", ()):
         where = ("mode", "speed_rpm", "order")
-        head = Line("critical", *(each[key] for key in where))
-        yield from _put(head, list_figures(each, where))
-    for each in found.get("criticals_outside", ()):
+        head = Line("critical", *(critical[key] for key in where))
+        yield from _put(head, list_figures(critical, where))
+    for critical in document.get("criticals_outside", ()):
         where = ("mode", "speed_rpm", "order")
-        head = Line("critical_outside", *(each[key] for key in where))
-        yield from _put(head, list_figures(each, where))
-    yield from _list_extras(found)
+        head = Line("critical_outside", *(critical[key] for key in where))
+        yield from _put(head, list_figures(critical, where))
+    yield from _list_extras(document)
 
 
-def _list_extras(found: Node) -> Iterator[Line]:
+def _list_extras(document: Node) -> Iterator[Line]:
     """Yield the lines of further requested parts: Holzer's tables, damper, response."""
-    for k, table in enumerate(found.get("holzer", ()), 1):
+    for k, table in enumerate(document.get("holzer", ()), 1):
         *frequency, residual = list_figures(table, ("mode", "rows"))
         yield from _put(Line("holzer", k), frequency)
         for row in table["rows"]:
             yield from _put(Line("holzer", k, name=row["node"]), list_figures(row, ("node",)))
         yield from _put(Line("holzer", k), [residual])
-    if damper := found.get("damper"):
+    if damper := document.get("damper"):
         figures = list_figures(damper, ("node", "kind"))
         yield from _put(Line("damper", name=damper["node"]), figures)
-    yield from _list_response(found.get("response", {}))
-    for k, ends in enumerate(found.get("barred_rpm", ()), 1):
+    yield from _list_response(document.get("response", {}))
+    for k, ends in enumerate(document.get("barred_rpm", ()), 1):
         for key, end in zip(("from", "to"), ends, strict=True):
             yield Line("barred", k, figure=key, value=end, unit="rpm")
 
@@ -521,10 +521,10 @@ def _name_orders(torque: WorstTorque, unit: ShownUnit) -> str:
     falling = sorted(torque.orders, key=attrgetter("amplitude_Nm"), reverse=True)
     largest = falling[0].amplitude_Nm if falling else 0.0
     named = []
-    for each in falling[:_MOST_ORDERS]:
-        if each.amplitude_Nm > _LEAST_AMPLITUDE * largest:
-            amplitude = number(unit.of(each.amplitude_Nm), 3)
-            named.append(f"{order_name(each.order)}: {amplitude}")
+    for torque_order in falling[:_MOST_ORDERS]:
+        if torque_order.amplitude_Nm > _LEAST_AMPLITUDE * largest:
+            amplitude = number(unit.of(torque_order.amplitude_Nm), 3)
+            named.append(f"{order_name(torque_order.order)}: {amplitude}")
     return ", ".join(named)
 
 

@@ -147,28 +147,30 @@ class TorsionalSystem:
         """Return the complex inertias, kg m2, that viscous rings add to nodes at frequencies
         (rad/s), shape (*frequency, nodes).
         """
-        found = np.zeros((*frequency.shape, len(self.nodes)), complex)
+        inertia = np.zeros((*frequency.shape, len(self.nodes)), complex)
         for ring in self.rings:
-            found[..., ring.node] += viscous_inertia(ring.inertia, ring.damping, frequency)
-        return found
+            inertia[..., ring.node] += viscous_inertia(ring.inertia, ring.damping, frequency)
+        return inertia
 
     def attached_pendulums(self, order: Real) -> Complex:
         """Return the inertias, kg m2, that pendulums add to nodes at orders of the reference node,
         shape (*order, nodes).
         """
-        found = np.zeros((*order.shape, len(self.nodes)), complex)
+        inertia = np.zeros((*order.shape, len(self.nodes)), complex)
         for swung in self.pendulums:
             own = order / self.gears[swung.node]
-            found[..., swung.node] += pendulum_inertia(swung.mass, swung.radius, swung.length, own)
-        return found
+            inertia[..., swung.node] += pendulum_inertia(
+                swung.mass, swung.radius, swung.length, own
+            )
+        return inertia
 
     def swing_pendulums(self, orders: Real, angle: Complex) -> Complex:
         """Return the angles of pendulums relative to their nodes, shape (orders, speeds,
         pendulums), for angles of nodes (orders, speeds, nodes) at orders (orders,) of the
         reference node.
         """
-        found = [angle[..., :0]]
+        angles = [angle[..., :0]]
         for swung in self.pendulums:
             ratio = pendulum_swing(swung.radius, swung.length, orders / self.gears[swung.node])
-            found.append((ratio[:, None] * angle[..., swung.node])[..., None])
-        return np.concatenate(found, axis=-1)
+            angles.append((ratio[:, None] * angle[..., swung.node])[..., None])
+        return np.concatenate(angles, axis=-1)

@@ -115,15 +115,15 @@ def find_harmonics(
 
     even = np.where(n % 4 == 2, 2.0, -2.0) * w / (1 + w) ** 2 * x ** np.maximum(n - 2, 0)
     square = np.where(n == 0, 1 / (1 + w), np.where(n % 2 == 0, even, 0.0))  # S_n
-    found: dict[str, Array | Complex] = {"rod_kinetic": lam**2 * square}
+    coefficients: dict[str, Array | Complex] = {"rod_kinetic": lam**2 * square}
     if "piston" in wanted:
-        found["piston"] = (n == 1) + n**2 * take(0) / by_x
+        coefficients["piston"] = (n == 1) + n**2 * take(0) / by_x
     if "rod" in wanted:
-        found["rod"] = -0.5j * n * lam * (1 + w) * ((n + 2) * take(1) - (n - 2) * take(-1))
+        coefficients["rod"] = -0.5j * n * lam * (1 + w) * ((n + 2) * take(1) - (n - 2) * take(-1))
     if "kinetic" in wanted:
         odd = ((n + 1) * take(1) - (n - 1) * take(-1)) / by_x
-        found["kinetic"] = odd + square - (n == 2)
-    return {name: Series(c) for name, c in found.items() if name in wanted}
+        coefficients["kinetic"] = odd + square - (n == 2)
+    return {name: Series(c) for name, c in coefficients.items() if name in wanted}
 
 
 def _expand_cosine(count: int, x: Array) -> Array:

@@ -280,12 +280,12 @@ def _search_numbers(
     if refused is not None and not np.isfinite(optima.costs).any():
         raise InputError(refused.problems)
     designs = [dict(zip(ranges, place, strict=True)) for place in optima.places.tolist()]
-    found: Iterator[Found] = iter(())
+    designs_found: Iterator[Found] = iter(())
     if designs:
-        found = rank_designs(designs, judge.evaluate(optima.places), objective)
+        designs_found = rank_designs(designs, judge.evaluate(optima.places), objective)
     same = np.ptp(optima.costs) <= _ROUNDING * np.abs(optima.costs).max()
     why = "" if refused is None else f"{refused.file}: {refused.problems[0]}"
-    return found, bool(not why and same and np.all(low < high)), why
+    return designs_found, bool(not why and same and np.all(low < high)), why
 
 
 def _choose_effort(box: Box, objective: Objective) -> Effort:

@@ -59,10 +59,10 @@ def sheet(result: Search, _system: System) -> Sheet:
     has no column if it is a single quantity with weight 1, which has a column of its own.
     """
     design = result.results[0].design
-    found = columns(result)
+    table = columns(result)
     shown: list[Column] = []
-    for name, column in found.values.items():
-        unit = found.units.get(name, "")
+    for name, column in table.values.items():
+        unit = table.units.get(name, "")
         if name in design:
             settings = [_setting(one.design[name]) for one in result.results]
             shown.append(Column(name_with_unit(_in_words(name), unit), settings, words=True))

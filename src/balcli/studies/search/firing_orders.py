@@ -157,8 +157,8 @@ def find_slots(model: EngineFile) -> tuple[Slots, Array]:
     if not possible or next(slots.find_orders(possible[0]), None) is None:
         splay = find_fitting_splay(model.with_table("layout", firing_intervals=None))
         hint = "" if splay is None else f"; with split pins they allow one: crank.splay = {splay:g}"
-        told = "crank.throws allow no even firing order, and only even ones are searched"
-        raise BalcliError(told + hint)
+        message = "crank.throws allow no even firing order, and only even ones are searched"
+        raise BalcliError(message + hint)
     throws = np.array(possible)
     return slots, count_from(throws[:, :1], throws)
 

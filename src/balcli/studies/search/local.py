@@ -119,12 +119,12 @@ def find_local_optima(judge: Judge, box: Box, effort: Effort) -> LocalOptima:
     starts = points[_find_starts(points, costs, box)[: effort.starts]]
     step = effort.points ** (-1 / box.size)  # distance of neighbours, as a share of the box
     if box.size == 1:
-        found = _descend(judge, box, starts, step * box.span, effort.exact * box.span)
+        ends = _descend(judge, box, starts, step * box.span, effort.exact * box.span)
     else:
-        found = _adapt(judge, box, starts, 0.5 * step, effort)
+        ends = _adapt(judge, box, starts, 0.5 * step, effort)
     rounded = [
         _round_off(judge, box, point, cost + effort.as_good * abs(cost))
-        for point, cost in zip(found, judge(found), strict=True)
+        for point, cost in zip(ends, judge(ends), strict=True)
         if cost < BROKEN
     ]
     noise = _ROUNDING * np.abs(costs[costs < BROKEN]).max(initial=0)
@@ -133,7 +133,7 @@ def find_local_optima(judge: Judge, box: Box, effort: Effort) -> LocalOptima:
     return LocalOptima(best[order], costs)
 
 
-def _separate(judge: Judge, box: Box, found: list[Array], effort: Effort, noise: float) -> Array:
+def _separate(judge: Judge, box: Box, optima: list[Array], effort: Effort, noise: float) -> Array:
     """Return the optima that are separated from all better ones by higher costs.
 
     A search may stop on a line, such as the edge of a limit, of which another point is better. If
@@ -141,7 +141,7 @@ def _separate(judge: Judge, box: Box, found: list[Array], effort: Effort, noise:
     the better one is replaced by the best point of the line through both.
     """
     best: list[Array] = []
-    points = np.reshape(found, (-1, box.size))
+    points = np.reshape(optima, (-1, box.size))
     for point in points[np.argsort(ranked(judge(points)), kind="stable")]:
         for n, other in enumerate(best):
             way = box.subtract(point, other)
