@@ -27,7 +27,7 @@ from balcli.balancing.answer import balance
 from balcli.core.phasors import Phasors
 from balcli.forces.kinds import FORCE
 from balcli.report.names import OF_GAS, OF_PARTS, PAGES
-from balcli.report.pages import PageSubject, draw_panel, make_page
+from balcli.report.pages import PageSubject, make_page
 from balcli.report.study import Study
 from balcli.show import plot_style as style
 from balcli.show.plane import draw_locus
@@ -107,15 +107,20 @@ def test_what_is_nothing_is_said_and_not_drawn():
         assert "force, N" not in found
 
 
+def list_texts(subject, what):
+    """Texts in the pictures of a page."""
+    return re.findall(r">([^<>]*)</text>", draw_page(subject, what, "svg").decode())
+
+
 def test_about_the_crank_the_gas_is_drawn_by_order_and_curves_are_of_inertia():
     """Bars of half orders are those of the gas, whose quantities they show; a curve of some of its
     orders would be no torque.
     """
     fired = analyze(build_text(GAS_FOUR + WIEBE + "[cylinder.2]\ngas = 0.5\n"))
-    bars = re.findall(r">([^<>]*)</text>", draw_panel(PageSubject(Study(fired)), "spectrum", "about"))
+    bars = list_texts(PageSubject(Study(fired)), "spectrum")
     assert {"inertia torque T", "gas torque", "total roll", "½"} <= set(bars)
     assert "About the crank, with gas" in bars
-    curves = re.findall(r">([^<>]*)</text>", draw_panel(PageSubject(Study(fired)), "curves", "about"))
+    curves = list_texts(PageSubject(Study(fired)), "curves")
     assert {"About the crank, of inertia only", "couple C", "roll moment", "360"} <= set(curves)
     assert "720" not in curves
 
@@ -253,7 +258,7 @@ def test_no_label_is_cut_off_by_the_edge_of_a_page(what):
 )
 def test_pictures_name_components_by_up(frame, names):
     subject = PageSubject(Study(analyze(build_text(GOOD + frame))))
-    shown = re.findall(r">([^<>]*)</text>", draw_panel(subject, "curves", "force"))
+    shown = list_texts(subject, "curves")
     assert names <= set(shown), shown
 
 

@@ -69,14 +69,17 @@ class Browser:
             raise RuntimeError(f"{method}: {answer['error']}")
         return answer["result"]
 
-    def open(self, page: Path, width: int = 1280, height: int = 900, dark: bool = False) -> None:
-        """Show a file and wait until it is loaded."""
+    def open(
+        self, page: Path, width: int = 1280, height: int = 900, dark: bool = False, still: bool = True, address: str = ""
+    ) -> None:
+        """Show a file and wait until it is loaded. Pages that are `still` move only if they are asked to."""
         self.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
         scheme = {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}
-        self.call("Emulation.setEmulatedMedia", features=[scheme])
+        motion = {"name": "prefers-reduced-motion", "value": "reduce" if still else "no-preference"}
+        self.call("Emulation.setEmulatedMedia", features=[scheme, motion])
         self.complaints = []
         self.requests = []
-        self.call("Page.navigate", url=page.as_uri())
+        self.call("Page.navigate", url=page.as_uri() + address)
         while self._next().get("method") != "Page.loadEventFired":
             pass
 

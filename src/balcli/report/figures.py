@@ -72,7 +72,7 @@ def _measure_repeat(peak: Peak) -> float:
 
 def _describe_extra(result: Analysis, balanced: Balance, ladder: Ladder) -> Iterator[Node]:
     """Yield choices beside the rows of the ladder: the steps that are fitted by default, if they
-    are not those of a row, and the scheme of the page, if it is neither.
+    are not those of a row, and the scheme of the page, if the reader asked for another than auto.
     """
     rows = [step.remedy.devices for step in ladder.steps]
     usual = ladder.fit()
@@ -81,7 +81,8 @@ def _describe_extra(result: Analysis, balanced: Balance, ladder: Ladder) -> Iter
         numbers = " and ".join(str(names.index(step)) for step in ladder.auto)
         yield _describe_choice(result, f"default: steps {numbers}", usual)
     remedy = balanced.remedy
-    if remedy.reasons and remedy.devices not in (*rows, usual.devices):
+    is_row = remedy.devices in (*rows, usual.devices)
+    if remedy.devices and not (is_row and remedy.scheme == "auto"):
         yield _describe_choice(result, f"scheme {remedy.scheme}", remedy, balanced.after)
 
 

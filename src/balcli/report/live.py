@@ -40,7 +40,7 @@ from ..file.units import (
     convert,
 )
 from ..forces.kinds import FORCE, FREE, GAS_KINDS
-from ..forces.power import LIKELY
+from ..forces.power import LIKELY, find_power
 from ..forces.spectrum import (
     SHOWN,
     choose_orders,
@@ -60,6 +60,7 @@ from ..show.figures import clean
 from ..show.sheet import NEGLIGIBLE, sentence
 from ..show.units import SI, ShownUnit, System
 from ..sizing.fitting import LEFT
+from ..sizing.ladder import is_judged_by_power
 from ..studies.parameters import find_places
 
 # tables with numbers to change
@@ -129,6 +130,14 @@ def _list_obstacles(engine: Engine) -> Iterator[str]:
         yield "its speed is uneven"
     if any(shaft.ratio % 1 for shaft in model.shaft):
         yield "a shaft turns at another speed than a whole multiple of crank speed"
+    if is_judged_by_power(engine) and _has_power_of_gas(engine):
+        yield "its compensators depend on the power of its gas"
+
+
+def _has_power_of_gas(engine: Engine) -> bool:
+    """Return whether the power of an engine is that of its gas, which the page does not compute."""
+    power = find_power(engine)
+    return power is not None and power.kind != "file"
 
 
 def describe_engine(model: EngineFile, engine: Engine, text: str) -> Node:
@@ -164,10 +173,12 @@ def describe_engine(model: EngineFile, engine: Engine, text: str) -> Node:
             for name, text in engine_facts(engine, SI, whole=False).pairs
         ],
         "gasOrders": _list_orders_of_gas(engine),
+        "powerOfGas": _has_power_of_gas(engine),
         "up": engine.up_deg,
         "bore": clean(engine.bore_m * 1e3),
         "reference": model.frame.reference,
-        "room": _describe_room(model),
+        "skirt": model.piston.skirt,
+        "crankcase": model.frame.crankcase,
         "numbers": numbers,
         "throws": forms["throws"],
         "pins": forms["pins"],
@@ -206,7 +217,7 @@ def describe_one(
     if explain_still(engine):
         return None
     engines = {"": describe_engine(model, engine, text)}
-    return make_book(engines, Path(name).name, small=small)
+    return make_book(engines, Path(name).name, small=small, site=find_site())
 
 
 def make_book(
@@ -215,6 +226,7 @@ def make_book(
     *,
     choice: str = "",
     small: float = SMALL,
+    site: str = "",
 ) -> Node:
     """Return the data of the panel for changing numbers, for one or more engines.
 
@@ -223,6 +235,8 @@ def make_book(
         file: Name of the file; empty if unknown.
         choice: Initial engine if the reader can choose among several; empty if there is one engine.
         small: Share of one cylinder's first order below which a force or moment is ignored.
+        site: Address of the live page, for links that contain the engine; empty: links have the
+            address of this page.
     """
     units = {}
     for dimension, others in _UNITS.items():
@@ -232,11 +246,29 @@ def make_book(
         "file": file.removesuffix(".toml"),
         "source": file if file.endswith(".toml") else "",
         "choice": choice,
+        "site": site,
         "limits": describe_limits(small),
         "options": "" if small == SMALL else f" --small {100 * small:g}%",
         "devices": _NEW,
         "units": units,
     }
+
+
+def find_site() -> str:
+    """Return the address of the live page on the site of the documentation; empty if the package
+    does not know it.
+    """
+    from importlib.metadata import PackageNotFoundError, metadata
+
+    try:
+        links = metadata("balcli").get_all("Project-URL") or []
+    except PackageNotFoundError:
+        return ""
+    for link in links:
+        label, _, address = link.partition(", ")
+        if label == "Documentation":
+            return f"{address}/play.html"
+    return ""
 
 
 def describe_page(engine: Engine, system: System, file: str, small: float) -> Node:
@@ -282,16 +314,6 @@ def describe_limits(small: float) -> Node:
         "likely": LIKELY,
         "worthNaming": WORTH_NAMING,
         "negligible": NEGLIGIBLE,
-    }
-
-
-def _describe_room(model: EngineFile) -> Node:
-    """Return what limits the room around the crank, m; None: the file does not give it."""
-    skirt = model.piston.skirt
-    crankcase = model.frame.crankcase
-    return {
-        "skirt": None if skirt is None else skirt / 1e3,
-        "crankcase": None if crankcase is None else crankcase / 1e3,
     }
 
 

@@ -5,12 +5,15 @@ and pressure over the cycle.
 
 from __future__ import annotations
 
+import base64
+import json
+import zlib
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from html import escape
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 from urllib.parse import quote
 
 import numpy as np
@@ -55,6 +58,7 @@ from ..version import __version__
 from .figures import describe_figures
 from .live import describe_one, describe_page, explain_still
 from .names import OF_TORSION
+from .slim_svg import slim_svg
 
 if TYPE_CHECKING:
     from jinja2 import Template
@@ -221,14 +225,14 @@ def page(
         file=Path(file).name or "the file",
         parts=lay_out(result, balanced, system),
         data=describe_page(engine, system, file, small),
-        figures=describe_figures(result, balanced, small),
+        figures=round_figures(describe_figures(result, balanced, small)),
         scene=drawn,
         running=running(engine, system) if engine.gas and drawn else None,
         motion=motion,
         mounts=None if mounted is None else mounts.sheet(mounted, system),
         rocking=None if mounted is None else rocking(mounted),
         torsion=None if twisted is None else torsion.sheet(twisted, system),
-        twists=() if twisted is None else _draw_torsion(twisted, system),
+        twists=None if twisted is None else pack(list(draw_torsion(twisted, system))),
     )
 
 
@@ -292,15 +296,43 @@ def explore(engine: Engine) -> Explorer:
     return Explorer(page(found, SI, live, engine.name))
 
 
-def _draw_torsion(twisted: TorsionAnalysis, system: System) -> Iterator[str]:
+_FIGURES = 12  # significant digits of the figures on the page
+
+
+def round_figures(node: Any) -> Any:
+    """Return a document whose numbers have no more digits than the program prints anywhere."""
+    if isinstance(node, dict):
+        return {key: round_figures(value) for key, value in node.items()}
+    if isinstance(node, (list, tuple)):
+        return [round_figures(value) for value in node]
+    return float(f"{node:.{_FIGURES}g}") if isinstance(node, float) else node
+
+
+def draw_torsion(twisted: TorsionAnalysis, system: System) -> Iterator[str]:
     """Yield the pictures of the torsion as SVG."""
     for what in OF_TORSION:
         figure = twisting.make_torsion(twisted, what, system, titled=False)
-        yield inline_svg(save_figure(figure, "svg"), f"torsion-{what}")
+        yield slim_svg(inline_svg(save_figure(figure, "svg"), f"torsion-{what}"))
+
+
+def pack(data: Sequence[str]) -> str:
+    """Return texts as JSON, deflated and written as base64url (`assets/packed.js` reads it)."""
+    deflated = zlib.compress(json.dumps(data, ensure_ascii=False).encode(), 9)
+    return base64.urlsafe_b64encode(deflated).decode().rstrip("=")
+
+
+def read_asset(name: str) -> str:
+    """Return a script or style sheet without indentation and lines of comment, which nobody needs
+    in a page that is kept and sent.
+    """
+    lines = [line.strip() for line in (FOLDER / name).read_text(encoding="utf-8").splitlines()]
+    code = [line for line in lines if line and not line.startswith("//")]
+    return "\n".join(code)
 
 
 def load_template() -> Template:
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
+    from markupsafe import Markup
 
     environment = Environment(
         loader=FileSystemLoader(FOLDER),
@@ -309,6 +341,7 @@ def load_template() -> Template:
         trim_blocks=True,
         lstrip_blocks=True,
     )
+    environment.globals["read_asset"] = lambda name: Markup(read_asset(name))
     environment.policies["json.dumps_kwargs"] = {"allow_nan": False, "separators": (",", ":")}
     return environment.get_template("report.html")
 
@@ -335,8 +368,24 @@ def rocking(result: MountReport) -> Node | None:
         "mounts": (1e3 * (result.mounted.dynamic.at - body.centre)).round(3).tolist(),
         "speeds": _rounded(response.speeds_rpm[rows]),
         "orders": [passed.order for passed in response.passed],
-        "motion": [[_rounded(order) for order in speed] for speed in parts],
+        "motion": [[_rounded(order) for order in _drop_unseen(speed)] for speed in parts],
     }
+
+
+_UNSEEN = 1e-3  # share of the largest motion at a speed that nobody sees in the drawing
+
+
+def _drop_unseen(parts: Array) -> Array:
+    """Return the motion at a speed without what is too small to be seen.
+
+    Args:
+        parts: Cosine and sine coefficients, shape (orders, 12): three displacements and three
+            rotations of each.
+    """
+    sizes = np.abs(parts).reshape(len(parts), 2, 2, 3)  # orders, cosine or sine, shift or turn
+    largest = sizes.max(axis=(0, 1, 3), keepdims=True, initial=0.0)
+    seen = (sizes > _UNSEEN * largest).reshape(parts.shape)
+    return np.where(seen, parts, 0.0)
 
 
 _STEP = 2.0  # step of the crank angle, deg
@@ -399,4 +448,6 @@ def trace_piston(engine: Engine, number: int, system: System) -> Node:
 
 
 def _rounded(values: Array) -> list[float]:
-    return [float(f"{v:.5g}") for v in values.tolist()]
+    """Return values with the four digits that the page shows."""
+    rounded = [float(f"{value:.4g}") for value in values.tolist()]
+    return [int(value) if value.is_integer() else value for value in rounded]

@@ -64,11 +64,9 @@ from ..show.plot_style import (
     INK,
     Look,
     fit_name,
-    inline_svg,
     open_figure,
     put_legend_above,
     put_title,
-    save_figure,
 )
 from ..show.sheet import NAMELESS, NEGLIGIBLE, NOTHING, order_name, size_text, small_text
 from ..show.units import SI, ShownUnit, System
@@ -340,19 +338,6 @@ def make_page(subject: PageSubject, what: str, *, titled: bool = True) -> Figure
         if titled:
             put_title(fig, title)
         return fig
-
-
-def draw_panel(subject: PageSubject, what: str, quantity: str) -> str:
-    """Return one picture of one quantity as an SVG for an HTML page, or words in its place."""
-    if words := subject.find_words(quantity):
-        return f"<p><b>{subject.title(what, quantity)}</b><br>{words}</p>"
-    name = f"{what}-{quantity}"
-    if subject.study.before:
-        name += "-after"
-    with open_figure(5.2, 3.1) as fig:
-        fig.set_facecolor("none")
-        _draw(fig.subplots(), subject, what, quantity)
-        return inline_svg(save_figure(fig, "svg"), name)
 
 
 # ------------------------------------------------------------------ forces and moments

@@ -3,7 +3,7 @@
 // are classes of the style sheet. Vectors are [x, y] with x upwards and y to the right.
 const Charts = (() => {
   const { number } = Tables, TURN = 2 * Math.PI, NS = "http://www.w3.org/2000/svg";
-  const PATH_STEPS = 180, ROW = 58, BAR = 10, LINE = 13;
+  const PATH_STEPS = 180, WIDEST = 18, ROW = 58, BAR = 10, LINE = 13;
   const size = ([x, y]) => Math.hypot(x, y);
 
   // ------------------------------------------------------------------ elements
@@ -46,7 +46,9 @@ const Charts = (() => {
   // Rows: { order, before, after, told, cure }; before and after are sizes [with the crank, against it], told the texts
   // before and after. A row without sizes is balanced.
   function drawBars(svg, rows, largest) {
-    const width = Math.max(svg.clientWidth || 520, 260), left = width < 400 ? 164 : width < 480 ? 180 : 205, room = width - left - 6, put = clear(svg, width, rows.length * ROW);
+    const width = Math.max(svg.clientWidth || 520, 260), longest = Math.max(...rows.map(({ told }) => told.join(" → ").length));
+    const usual = width < 400 ? 164 : width < 480 ? 180 : 205, left = longest > WIDEST ? usual + 40 : usual, room = width - left - 6;
+    const put = clear(svg, width, rows.length * ROW);
     svg.style.height = `${rows.length * ROW}px`;
     rows.forEach((row, k) => {
       const top = k * ROW, length = (value) => room * value / (largest || 1);
@@ -144,6 +146,7 @@ const Charts = (() => {
     };
     if (svg.prepared) return;
     svg.prepared = true;
+    svg.setAttribute("aria-label", svg.dataset.title);
     svg.setAttribute("tabindex", "0");
     let angle = 0;
     const show = (next) => { angle = Math.min(Math.max(next, 0), svg.end); svg.point(angle); };

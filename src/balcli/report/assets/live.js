@@ -13,7 +13,7 @@
 
   const { make } = Tables, { settings } = { settings: JSON.parse(byId("page").textContent) };
   const button = (text, act, id = "") => {
-    const made = make("button", { type: "button", id }, text);
+    const made = make("button", { type: "button", ...(id && { id }) }, text);
     made.addEventListener("click", act);
     return made;
   };
@@ -87,7 +87,8 @@
   }
   function writeAddress() {
     const parts = listChanges().map(([name, value]) => `${name}=${encodeURIComponent(value)}`);
-    if (book.choice) parts.unshift(`engine=${data.key}`);
+    if (data.packed) parts.unshift(`toml=${data.packed}`);
+    else if (book.choice) parts.unshift(`engine=${data.key}`);
     if (step !== null) parts.push(`step=${step}`);
     return parts.length ? `#${parts.join("&")}` : "";
   }
@@ -127,13 +128,14 @@
   // Reads the numbers of an address; mistakes are reported, the rest applies.
   function readAddress(hash) {
     const wrong = [];
-    const sets = hash.slice(1).split("&").some((part) => part.includes("=") && !/^(step|engine)=/.test(part));
+    const sets = hash.slice(1).split("&").some((part) => part.includes("=") && !/^(step|engine|toml)=/.test(part));
     let next = { ...original, ...(sets ? {} : data.start) };
     step = null;
     for (const part of hash.slice(1).split("&").filter((each) => each.includes("="))) {
       const [name, ...rest] = part.split("=");
       let text = rest.join("=");
       try { text = decodeURIComponent(text); } catch { /* as it stands */ }
+      if (name === "toml" && book.choice) continue;
       if (name === "engine" && book.choice) {
         if (!own(book.engines, text)) wrong.push(`engine: there is no example ${text.slice(0, 40)}`);
         continue;
@@ -195,9 +197,9 @@
     if (remember) { past.push(numbers); future = []; }
     [numbers, engine, ladder] = [next, made, steps];
     keepAddress();
-    complain(wrong);
     if (rebuild) buildControls();
     show(rebuild);
+    complain([...wrong, ...checkStep()]);
     return true;
   }
   const change = (name, value, how) => apply({ ...numbers, [name]: value }, how);
@@ -217,18 +219,20 @@
     showChanges();
     Page.asked = step;
     Page.show(figures, { scene: makeScene(), changed: differs, compared: changes.length > 0, facts: listFacts(changes), engine: ofFile, shown: { look: data.look, file: data.key && `${data.key}.toml` }, atOnce });
-    if (step !== null && !Page.steps.includes(step)) {
-      complain([`step: this engine has steps 0 to ${ladder.steps.length - 1}`]);
-      step = null;
-    }
     announce(figures);
     byId("undo").disabled = !past.length;
     byId("redo").disabled = !future.length;
     byId("reset").disabled = !changes.length;
     showNumbers();
   }
+  // What is wrong with the step of the address, which is then left out.
+  function checkStep() {
+    if (step === null || Page.steps.includes(step)) return [];
+    step = null;
+    return [Page.tellSteps()];
+  }
   const describe = () => Kernel.describe(engine, ladder, limits);
-  const isWritten = () => (!book.choice || data.key === book.choice) && isEqual(numbers, written);
+  const isWritten = () => !data.packed && (!book.choice || data.key === book.choice) && isEqual(numbers, written);
   // Facts of the head: those that the page computes, and in their places those of the file.
   function listFacts(changes) {
     const moved = changes.some(([name]) => GEOMETRY.test(name)), own = new Map(Tables.listFacts(engine, { ...data, speed: numbers["operation.speed"] }));
@@ -407,26 +411,69 @@
     byId("live-done").textContent = [`Copied: ${text.slice(0, 80)}`, hint].filter(Boolean).join(". ");
   }
 
+  // ------------------------------------------------------------------ links with the whole engine
+  // A link to the site has the text of the engine file in it: deflated, base64url. The last line of the text is a
+  // comment with what the page needs beside the file, because only Python reads engine files.
+  const FOR_THE_PAGE = "\n# for the live page: ", LONGEST = 20000, LONGEST_READ = 400000;   // bytes, letters
+  const isLong = ({ text }) => new Blob([text]).size > LONGEST;
+  const isAtHome = () => !book.site || location.protocol.startsWith("http");   // its own address can be sent
+  async function copyLink() {
+    if (isAtHome()) return copy(location.href.split("#")[0] + writeAddress());
+    const { text, key, ...rest } = data;
+    const whole = text.trimEnd() + FOR_THE_PAGE + JSON.stringify({ ...rest, file: key }) + "\n";
+    const parts = [`toml=${await Packed.pack(whole)}`, writeAddress().slice(1)].filter(Boolean);
+    return copy(`${book.site}#${parts.join("&")}`);
+  }
+  // Shows the engine of a link; the first engine of the page if the link is damaged.
+  async function openLink(packed, hash) {
+    openEngine("");
+    clearTimeout(due);                                        // the address stays that of the link
+    try {
+      const whole = await Packed.unpack(packed, LONGEST_READ), at = whole.lastIndexOf(FOR_THE_PAGE);
+      const rest = JSON.parse(whole.slice(at + FOR_THE_PAGE.length));
+      const text = whole.slice(0, at + 1);
+      Object.defineProperty(book.engines, LINKED, { value: { ...rest, text, packed }, configurable: true });
+      openEngine(hash, LINKED);
+    } catch {
+      openEngine("");
+      complain(["the link is incomplete"]);
+    }
+  }
+  const LINKED = "";                                          // key of the engine of a link
+
   // ------------------------------------------------------------------ start
   function open(hash) {
+    const packed = hash.match(/[#&]toml=([^&]*)/)?.[1];
+    if (packed !== undefined && book.choice) return openLink(packed, hash);
+    return openEngine(hash);
+  }
+  function openEngine(hash, linked = null) {
     const asked = hash.match(/[#&]engine=([^&]+)/)?.[1], keys = Object.keys(book.engines);
-    const key = book.choice ? (keys.includes(asked) ? asked : book.choice) : firstOfBook;
-    data = { ...book.engines[key], key: book.choice ? key : book.file };
+    const key = linked ?? (book.choice ? (keys.includes(asked) ? asked : book.choice) : firstOfBook);
+    const source = book.engines[key];
+    data = { ...source, key: book.choice ? source.file ?? key : book.file };
     original = Object.fromEntries(data.numbers.map(({ name, value }) => [name, value]));
     written = { ...original, ...data.start };                 // the engine of what Python wrote
     [numbers, past, future] = [original, [], []];
     const made = Kernel.assemble(data, original);
     ofFile = Kernel.describe(made, Kernel.findLadder(made, limits), limits);
-    document.querySelector("h1").textContent = data.name || document.querySelector("h1").textContent;
-    if (book.choice) byId("live-engine").value = key;
+    document.querySelector("h1").textContent = data.name || (book.choice ? data.key : document.querySelector("h1").textContent);
+    if (book.choice) showEngines(key);
     const { next, wrong } = readAddress(hash);
     apply(next, { remember: false, wrong, rebuild: true });
+  }
+  // The engines to choose; that of a link stands first.
+  function showEngines(key) {
+    const select = byId("live-engine"), options = Object.entries(book.engines).map(([each, { name }]) => make("option", { value: each }, `${each}: ${name}`));
+    if (key === LINKED) options.unshift(make("option", { value: LINKED }, `from the link: ${data.name || data.key}`));
+    select.replaceChildren(...options);
+    select.value = key;
   }
   function start() {
     byId("acts").prepend(
       button("Undo", () => travel(past, future), "undo"), button("Redo", () => travel(future, past), "redo"),
       button("Reset", () => { step = null; apply(original, { rebuild: true }); }, "reset"),
-      ...(location.protocol === "about:" ? [] : [button("Copy link", () => copy(location.href.split("#")[0] + writeAddress()))]),
+      ...(isAtHome() && location.protocol === "about:" ? [] : [button("Copy link", copyLink, "link")]),
       button("Download TOML", download),
     );
     byId("live-actions").append(
@@ -444,13 +491,16 @@
     });
     if (book.choice) {
       const select = byId("live-engine");
-      select.append(...Object.entries(book.engines).map(([key, { name }]) => make("option", { value: key }, `${key}: ${name}`)));
       select.addEventListener("change", () => open(`#engine=${select.value}`));
     }
     window.addEventListener("hashchange", ({ newURL }) => {   // location may have the page's own address by now
       const hash = newURL.replace(/^[^#]*/, "");
       if (hash.includes("=")) open(hash);
     });
+    const link = byId("link");
+    if (link && !isAtHome() && isLong(book.engines[firstOfBook])) {
+      Object.assign(link, { disabled: true, textContent: "Too long for a link: send the file", title: "The engine file is longer than 20 kB" });
+    }
     window.Live = { change, apply, writeFile, writeAddress, get numbers() { return numbers; } };
     open(location.hash);
   }

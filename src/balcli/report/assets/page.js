@@ -28,23 +28,41 @@ const Page = (() => {
     const choices = listChoices(), wanted = choices.findIndex((_, k) => valueOf(k) === asked);
     return wanted >= 0 ? wanted : findUsual();
   }
+  // Names of choices that hold only for the engine of the file: a scheme is not computed by the page.
+  const listStale = () => changed ? ofFile.page.extra.map(({ step }) => step).filter((step) => step.startsWith("scheme ")) : [];
+  const tellSteps = () => `step: this engine has steps 0 to ${figures.ladder.steps.length - 1}`;
   // How a choice is called in a sentence.
   const nameChoice = (k) => k < figures.ladder.steps.length ? `step ${k}` : listChoices()[k].step.replace("default: ", "");
 
   function showChoices() {
-    const labels = listChoices().map(labelOf), field = byId("steps");
-    if (field.dataset.labels !== labels.join()) {
-      field.dataset.labels = labels.join();
-      field.replaceChildren(field.querySelector("legend"), ...labels.map((label, k) => {
+    const labels = listChoices().map(labelOf), stale = listStale(), field = byId("steps"), key = [...labels, "", ...stale].join();
+    if (field.dataset.labels !== key) {
+      field.dataset.labels = key;
+      const chips = labels.map((label, k) => {
         const input = make("input", { type: "radio", name: "step", value: valueOf(k) });
         input.addEventListener("change", () => choose(input.value));
         return make("label", { className: "chip" }, input, label);
-      }));
+      });
+      const old = stale.map((label) => make("label", { className: "chip stale", title: "of the file without your changes" },
+        make("input", { type: "radio", name: "step", value: "scheme", disabled: true }), label));
+      field.replaceChildren(field.querySelector("legend"), ...chips, ...old);
+      field.scrollLeft = chips[chosen].offsetLeft - field.offsetLeft - 12;   // on a phone
     }
     field.querySelectorAll("input").forEach((input, k) => {
       input.checked = k === chosen;
       input.parentElement.classList.toggle("on", input.checked);
     });
+  }
+  // On a page without sliders, the step is all of its address.
+  function followAddress() {
+    asked = location.hash.match(/[#&]step=([^&]*)/)?.[1] ?? null;
+    const wrong = asked !== null && !listChoices().some((_, k) => valueOf(k) === asked);
+    if (wrong) asked = null;
+    byId("live-wrong").textContent = wrong ? tellSteps() : "";
+    show(figures, { scene, changed: false, atOnce: true });
+  }
+  function writeStep({ detail }) {
+    try { history.replaceState(null, "", `#step=${detail}`); } catch { /* a frame of a notebook */ }
   }
   function choose(value) {
     asked = value;
@@ -281,6 +299,7 @@ const Page = (() => {
     [figures, scene, changed, ofImportance] = [next, mechanism, differs, engine];
     chosen = findChosen();
     if (steps) prepareCharts();
+    if (parked) park();
     showChoices();
     showKey();
     drawCharts();
@@ -322,29 +341,26 @@ const Page = (() => {
 
   // ------------------------------------------------------------------ start
   function startMotion() {
-    const angle = byId("angle"), play = byId("play");
-    let before = null;
-    function step(time) {
-      if (play.getAttribute("aria-pressed") !== "true") { before = null; return; }
-      if (before !== null) {
-        angle.step = "any";
-        angle.value = (Number(angle.value) + DEGREES_PER_SECOND * (time - before) / 1000) % Number(angle.max);
-        turn();
-      }
-      before = time;
-      requestAnimationFrame(step);
-    }
-    play.addEventListener("click", () => {
-      const on = play.getAttribute("aria-pressed") !== "true";
-      play.setAttribute("aria-pressed", on);
-      play.textContent = on ? "Pause" : "Play";
-      if (on) requestAnimationFrame(step);
-      else { angle.step = "1"; angle.value = Math.round(Number(angle.value)); turn(); }
-    });
+    const angle = byId("angle"), play = byId("play"), hero = byId("hero");
+    const advance = (degrees) => {
+      angle.step = "any";
+      angle.value = (Number(angle.value) + degrees) % Number(angle.max);
+      if (hero.getBoundingClientRect().bottom > 0) turn();    // not while nobody sees it
+    };
+    const stop = () => { angle.step = "1"; angle.value = Math.round(Number(angle.value)); turn(); };
+    play.addEventListener("click", () => { parked = false; });
+    Motion.attach(play, DEGREES_PER_SECOND, advance, stop);
     angle.addEventListener("input", turn);
     byId("chain").addEventListener("change", turn);
-    const at = figures.peak[`${rankKinds().main[0]}_deg`];
-    angle.value = Math.round(at || 0);
+    angle.addEventListener("input", () => { parked = false; });
+    const isStill = parked;
+    park();
+    if (!isStill) play.click();
+  }
+  // The angle of the largest value, where the drawing stands if the reader wants no motion.
+  let parked = matchMedia("(prefers-reduced-motion: reduce)").matches;
+  function park() {
+    byId("angle").value = Math.round(figures.peak[`${rankKinds().main[0]}_deg`] || 0);
   }
   function startTheme() {
     const theme = byId("theme"), root = document.documentElement;
@@ -366,6 +382,16 @@ const Page = (() => {
       for (const curve of data?.curves || []) Charts.drawCurves(byId(`${curve.id}-curve`), { end, unit: curve.unit, lines: lineOf(curve) });
     }
   }
+  // Pictures of torsion, which Python drew: SVG texts, packed.
+  async function showTorsion() {
+    const packed = byId("torsion-packed");
+    if (!packed) return;
+    for (const svg of JSON.parse(await Packed.unpack(packed.textContent))) {
+      const figure = make("figure", { tabIndex: 0 });         // it scrolls on a phone
+      figure.innerHTML = svg;
+      byId("torsion-pictures").append(figure);
+    }
+  }
   function start() {
     Charts.addTools(byId("orders").querySelector("h2"), "orders", null, () => listTable("orders-table"));
     Charts.addTools(byId("ladder").querySelector("h2"), "ladder", null, () => listTable("ladder-table"));
@@ -373,10 +399,17 @@ const Page = (() => {
     startMotion();
     startTheme();
     drawFileCurves();
+    showTorsion();
     show(ofFile, { scene, changed: false });
+    if (!byId("live")) {
+      followAddress();
+      addEventListener("hashchange", followAddress);
+      document.addEventListener("step", writeStep);
+    }
     let wide = innerWidth;
     addEventListener("resize", () => { if (innerWidth !== wide) { wide = innerWidth; drawCharts(); } });
   }
-  return { show, start, choose, turn, ofFile, get chosen() { return chosen; }, get steps() { return listChoices().map((_, k) => valueOf(k)); }, set asked(value) { asked = value; } };
+  return { show, start, choose, turn, ofFile, get chosen() { return chosen; }, tellSteps,
+    get steps() { return [...listChoices().map((_, k) => valueOf(k)), ...listStale().map(() => "scheme")]; }, set asked(value) { asked = value; } };
 })();
 Page.start();

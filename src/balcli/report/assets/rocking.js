@@ -72,21 +72,9 @@
   speed.addEventListener("input", choose);
 
   const DEGREES_PER_SECOND = 120;
-  let last = null;
-  function step(time) {
-    if (play.getAttribute("aria-pressed") !== "true") { last = null; return; }
-    if (last !== null) {
-      theta = (theta + DEGREES_PER_SECOND * (time - last) * Math.PI / 180000) % (4 * Math.PI);
-      draw();
-    }
-    last = time;
-    requestAnimationFrame(step);
-  }
-  play.addEventListener("click", () => {
-    const on = play.getAttribute("aria-pressed") !== "true";
-    play.setAttribute("aria-pressed", on);
-    play.textContent = on ? "Pause" : "Play";
-    if (on) requestAnimationFrame(step);
+  Motion.attach(play, DEGREES_PER_SECOND, (degrees) => {
+    theta = (theta + degrees * Math.PI / 180) % (4 * Math.PI);
+    draw();
   });
   choose();
 })();
