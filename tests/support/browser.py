@@ -70,7 +70,13 @@ class Browser:
         return answer["result"]
 
     def open(
-        self, page: Path, width: int = 1280, height: int = 900, dark: bool = False, still: bool = True, address: str = ""
+        self,
+        page: Path,
+        width: int = 1280,
+        height: int = 900,
+        dark: bool = False,
+        still: bool = True,
+        address: str = "",
     ) -> None:
         """Show a file and wait until it is loaded. Pages that are `still` move only if they are asked to."""
         self.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
@@ -79,9 +85,10 @@ class Browser:
         self.call("Emulation.setEmulatedMedia", features=[scheme, motion])
         self.complaints = []
         self.requests = []
-        self.call("Page.navigate", url=page.as_uri() + address)
-        while self._next().get("method") != "Page.loadEventFired":
-            pass
+        for url in ("about:blank", page.as_uri() + address):  # another address alone loads no page
+            self.call("Page.navigate", url=url)
+            while self._next().get("method") != "Page.loadEventFired":
+                pass
 
     def run(self, script: str) -> Any:
         """Value of an expression in the page (a promise is awaited)."""

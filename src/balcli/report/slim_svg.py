@@ -1,5 +1,5 @@
-"""Make an SVG smaller without a visible difference: coordinates to a tenth of a point, lines without
-the points that lie on them, no ids that nothing refers to.
+"""Make an SVG smaller without a visible difference: coordinates to a tenth of a point, lines
+without the points that lie on them, no ids that nothing refers to.
 """
 
 from __future__ import annotations

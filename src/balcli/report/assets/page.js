@@ -159,6 +159,15 @@ const Page = (() => {
       }));
     }
   }
+  // Keeps the room that the bars once had, so that rows that go move nothing below them.
+  function keepRoom() {
+    const part = byId("bars-charts");
+    part.style.minHeight = "";
+    if (ofImportance !== keepRoom.engine) keepRoom.most = 0;
+    keepRoom.engine = ofImportance;
+    keepRoom.most = Math.max(keepRoom.most, part.offsetHeight);
+    part.style.minHeight = `${keepRoom.most}px`;
+  }
   const rowsNow = (kind) => listRows(figures, kind, listChoices()[chosen]), rowsDrawn = (kind) => listRows(figures, kind, figures.ladder.steps[0]);
   function listBars(kind) {
     const matter = figures.orders.filter(({ order, [KEYS[kind]]: v }) => order >= 1 && v.major > limits.negligible * scaleOf(figures, kind));
@@ -321,6 +330,7 @@ const Page = (() => {
   }
   function drawCharts() {
     for (const kind of rankKinds().main) { drawBars(kind); drawPath(kind); }
+    keepRoom();
   }
   function drawScene() {
     if (!scene) return;

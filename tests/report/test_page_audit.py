@@ -1,0 +1,81 @@
+"""What people who use a keyboard or a screen reader, or see contrasts badly, need of the page: in a real browser."""
+
+import pytest
+from support.audit import AUDIT
+from support.browser import live
+from support.commands import ask
+from support.paths import write
+from support.pictures import without_pictures
+
+from balcli.file import examples
+
+WAIT = "new Promise(done => setTimeout(done, 250))"
+SHORTER = "Live.change('crank.stroke', 0.9 * Live.numbers['crank.stroke'])"
+
+
+@pytest.fixture(scope="module")
+def pages(tmp_path_factory):
+    """Pages of engines that have every part together."""
+    folder = tmp_path_factory.mktemp("pages")
+    made = {}
+    with without_pictures():
+        for name in ("i6_diesel", "i4_mounts"):
+            made[name] = folder / f"{name}.html"
+            ask(
+                "-q", "report", write(folder / f"{name}.toml", examples.text(name)), "--cylinder", "1", "-o", made[name]
+            )
+    return made
+
+
+@live
+@pytest.mark.parametrize(("width", "dark"), [(1280, False), (1280, True), (390, True)])
+@pytest.mark.parametrize("name", ["i6_diesel", "i4_mounts"])
+def test_nothing_serious_is_found_before_and_after_a_change(browser, pages, name, width, dark):
+    browser.open(pages[name], width=width, dark=dark)
+    before = browser.run(AUDIT)
+    browser.run(f"{SHORTER}, {WAIT}")
+    assert (before, browser.run(AUDIT)) == ([], [])
+
+
+@live
+@pytest.mark.parametrize(
+    ("harm", "found"),
+    [
+        ("document.getElementById('link').textContent = ''", "no name: button#link"),
+        ("document.getElementById('facts').style.color = '#999'", "contrast"),
+        ("document.querySelector('#orders-table th').removeAttribute('scope')", "a header without scope"),
+        ("document.querySelector('h2').outerHTML = '<h4>x</h4>'", "skips a level"),
+        ("document.getElementById('end').removeAttribute('aria-label')", "no name: svg#end"),
+        ("document.getElementById('ladder').id = 'verdict'", "id twice: verdict"),
+    ],
+)
+def test_the_audit_finds_what_is_wrong(browser, pages, harm, found):
+    browser.open(pages["i4_mounts"])
+    browser.run(f"{harm}, 0")
+    assert any(line.startswith(found) for line in browser.run(AUDIT))
+
+
+SHIFTS = """
+new Promise(async (done) => {
+  let total = 0;
+  const look = new PerformanceObserver((list) => { for (const { value } of list.getEntries()) total += value; });
+  look.observe({ type: "layout-shift", buffered: true });
+  for (const name of ["rod.length", "piston.mass", "operation.speed"]) {
+    const first = Live.numbers[name];
+    for (let k = 1; k <= 5; k++) {
+      Live.change(name, first * (1 + 0.07 * k));
+      await new Promise((next) => setTimeout(next, 30));
+    }
+  }
+  await new Promise((next) => setTimeout(next, 200));
+  done(total);
+})
+"""
+
+
+@live
+@pytest.mark.parametrize(("width", "height"), [(1400, 900), (1024, 768), (390, 844)])
+def test_nothing_jumps_while_the_page_loads_and_a_slider_moves(browser, pages, width, height):
+    browser.open(pages["i4_mounts"], width=width, height=height)
+    assert browser.run(SHIFTS) < 0.02
+    assert browser.run("document.documentElement.scrollWidth <= innerWidth")
