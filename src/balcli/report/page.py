@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import base64
 import json
+import re
 import zlib
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -321,11 +322,15 @@ def pack(data: Sequence[str]) -> str:
     return base64.urlsafe_b64encode(deflated).decode().rstrip("=")
 
 
+_COMMENT = re.compile(r"  // [^\"'`\n]*$", re.MULTILINE)  # at the end of a line
+
+
 def read_asset(name: str) -> str:
-    """Return a script or style sheet without indentation and lines of comment, which nobody needs
-    in a page that is kept and sent.
+    """Return a script or style sheet without indentation and comments, which nobody needs in a page
+    that is kept and sent.
     """
-    lines = [line.strip() for line in (FOLDER / name).read_text(encoding="utf-8").splitlines()]
+    text = _COMMENT.sub("", (FOLDER / name).read_text(encoding="utf-8"))
+    lines = [line.strip() for line in text.splitlines()]
     code = [line for line in lines if line and not line.startswith("//")]
     return "\n".join(code)
 

@@ -43,10 +43,17 @@ const Charts = (() => {
   const largestOf = (points) => Math.max(0, ...points.map(size));
 
   // ------------------------------------------------------------------ bars by order
+  // Widths are measured once: a browser that is asked for one lays out the whole page first.
+  let widths = new WeakMap();
+  const forgetWidths = () => { widths = new WeakMap(); };
+  function widthOf(svg) {
+    if (!widths.has(svg)) widths.set(svg, Math.max(svg.clientWidth || 520, 260));
+    return widths.get(svg);
+  }
   // Rows: { order, before, after, told, cure }; before and after are sizes [with the crank, against it], told the texts
   // before and after. A row without sizes is balanced.
   function drawBars(svg, rows, largest) {
-    const width = Math.max(svg.clientWidth || 520, 260), longest = Math.max(...rows.map(({ told }) => told.join(" → ").length));
+    const width = widthOf(svg), longest = Math.max(...rows.map(({ told }) => told.join(" → ").length));
     const usual = width < 400 ? 164 : width < 480 ? 180 : 205, left = longest > WIDEST ? usual + 40 : usual, room = width - left - 6;
     const put = clear(svg, width, rows.length * ROW);
     svg.style.height = `${rows.length * ROW}px`;
@@ -253,5 +260,5 @@ const Charts = (() => {
     parent.append(Tables.make("span", { className: "tools" }, ...buttons, button("CSV", () => save(`${stem()}.csv`, writeCsv(list()), "text/csv"))));
   }
 
-  return { element, clear, vectorAt, savePng, tracePath, largestOf, drawBars, drawPath, drawCurves, drawStar, addTools, writeSvg, writeCsv };
+  return { ROW, forgetWidths, element, clear, vectorAt, savePng, tracePath, largestOf, drawBars, drawPath, drawCurves, drawStar, addTools, writeSvg, writeCsv };
 })();

@@ -249,10 +249,13 @@
   function showNumbers() {
     for (const input of document.querySelectorAll("#live-numbers input, #main-numbers input")) {
       const value = numbers[input.name], [least, most] = rangeOf(input.name);
-      if (input.type === "range") Object.assign(input, { min: least, max: most, value });
-      else if (input !== document.activeElement) Object.assign(input, { value: shown(value), title: String(value) });
+      if (input.type === "range") put(input, { min: least, max: most, value });
+      else if (input !== document.activeElement) put(input, { value: shown(value), title: value });
       input.closest(".number").classList.toggle("differs", value !== original[input.name]);
     }
+  }
+  function put(input, properties) {                           // only what differs: each costs a new layout
+    for (const [key, value] of Object.entries(properties)) if (input[key] !== String(value)) input[key] = value;
   }
   // Largest force and moment in a sentence that screen readers read aloud, a moment after the last change.
   function announce({ peak }) {

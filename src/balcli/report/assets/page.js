@@ -159,14 +159,13 @@ const Page = (() => {
       }));
     }
   }
-  // Keeps the room that the bars once had, so that rows that go move nothing below them.
+  const room = { engine: null, rows: 0 };
+  // Keeps the room of the most rows that the bars of an engine had, so that rows that go move nothing below them.
   function keepRoom() {
-    const part = byId("bars-charts");
-    part.style.minHeight = "";
-    if (ofImportance !== keepRoom.engine) keepRoom.most = 0;
-    keepRoom.engine = ofImportance;
-    keepRoom.most = Math.max(keepRoom.most, part.offsetHeight);
-    part.style.minHeight = `${keepRoom.most}px`;
+    const rows = Math.max(...rankKinds().main.map((kind) => listBars(kind).length), room.engine === ofImportance ? room.rows : 0);
+    if (room.engine === ofImportance && room.rows === rows) return;
+    Object.assign(room, { engine: ofImportance, rows });
+    byId("bars-charts").style.minHeight = rows > 4 ? `calc(${Charts.ROW * rows}px + 1.9rem)` : "";
   }
   const rowsNow = (kind) => listRows(figures, kind, listChoices()[chosen]), rowsDrawn = (kind) => listRows(figures, kind, figures.ladder.steps[0]);
   function listBars(kind) {
@@ -417,7 +416,12 @@ const Page = (() => {
       document.addEventListener("step", writeStep);
     }
     let wide = innerWidth;
-    addEventListener("resize", () => { if (innerWidth !== wide) { wide = innerWidth; drawCharts(); } });
+    addEventListener("resize", () => {
+      if (innerWidth === wide) return;
+      wide = innerWidth;
+      Charts.forgetWidths();
+      drawCharts();
+    });
   }
   return { show, start, choose, turn, ofFile, get chosen() { return chosen; }, tellSteps,
     get steps() { return [...listChoices().map((_, k) => valueOf(k)), ...listStale().map(() => "scheme")]; }, set asked(value) { asked = value; } };
