@@ -121,6 +121,12 @@ def test_the_room_around_the_crank(page, keys):
     check(page, changed(("[piston]", keys)))
 
 
+@live
+@pytest.mark.parametrize("places", ["[-200, -100, 0, 100, 200]", "[-190, 0, 210]"])
+def test_main_bearings_at_given_places(page, places):
+    check(page, GOOD + f"[bearing]\nmain_positions = {places}\n")
+
+
 VEE = changed(("[0, 180, 180, 0]", "[0, 90]"), ("firing_order = [1, 3, 4, 2]", "banks = [-30, 60]"))
 
 

@@ -179,6 +179,7 @@ def describe_engine(model: EngineFile, engine: Engine, text: str) -> Node:
         "reference": model.frame.reference,
         "skirt": model.piston.skirt,
         "crankcase": model.frame.crankcase,
+        "bearings": _list_bearings(engine),
         "numbers": numbers,
         "throws": forms["throws"],
         "pins": forms["pins"],
@@ -342,6 +343,13 @@ def _describe_limits(number: Number) -> Node:
     limits = {"above": number.above, "least": number.least, "most": number.most}
     finite = {key: v for key, v in limits.items() if v is not None and abs(v) < math.inf}
     return {"unit": number.dimension.unit, **finite}
+
+
+def _list_bearings(engine: Engine) -> list[float] | None:
+    """Return the positions of the main bearings in the file, mm; None if it gives none."""
+    if engine.bearings is None or engine.bearings.main_positions_m is None:
+        return None
+    return [1e3 * z for z in engine.bearings.main_positions_m]
 
 
 def _list_orders_of_gas(engine: Engine) -> list[int]:

@@ -106,6 +106,7 @@ const Kernel = (() => {
       up: data.up,
       gasOrders: data.gasOrders,
       skirt: data.skirt === null ? null : data.skirt / 1e3,
+      bearings: data.bearings && data.bearings.map((mm) => mm / 1e3),
       crankcase: data.crankcase === null ? Infinity : data.crankcase / 1e3,
       crossheads,
       power: take("operation.power"),
@@ -505,16 +506,9 @@ const Kernel = (() => {
   }
 
   // ------------------------------------------------------------------ main bearings
-  // Bearings half-way between throws and as far outside the end throws, each with the phasors of its load by the
-  // cylinders and counterweights next to it (lever rule); none if throws stand in one plane, or places are unknown.
+  // Bearings, each with the phasors of its load by the cylinders and counterweights next to it (lever rule).
   function findBearings(engine, samples) {
-    const rounded = engine.throws.map(({ z }) => Math.round(z * 1e12) / 1e12);
-    const places = [...new Set(rounded)].sort((a, b) => a - b);
-    if (!engine.known || places.length < 2) return [];
-    const between = places.slice(1).map((z, k) => (z + places[k]) / 2);
-    const start = 2 * places[0] - between[0];
-    const end = 2 * places.at(-1) - between.at(-1);
-    const all = [start, ...between, end];
+    const all = placeBearings(engine);
     const shares = engine.cylinders.map(({ z }) => shareLoad(all, z));
     return all.map((_, bearing) => {
       const carry = (z) => shareLoad(all, z)[bearing];
@@ -522,6 +516,19 @@ const Kernel = (() => {
       const phasors = transform(addUp(samples, ({ force }) => force, own));
       return { carry, phasors: addWeights({ carry, phasors }, engine, engine.devices) };
     });
+  }
+
+  // Places of the bearings: those of the file, or half-way between throws and as far outside the end throws; none if
+  // the throws stand in one plane, or their places are unknown.
+  function placeBearings(engine) {
+    if (engine.known && engine.bearings) return engine.bearings;
+    const rounded = engine.throws.map(({ z }) => Math.round(z * 1e12) / 1e12);
+    const places = [...new Set(rounded)].sort((a, b) => a - b);
+    if (!engine.known || places.length < 2) return [];
+    const between = places.slice(1).map((z, k) => (z + places[k]) / 2);
+    const start = 2 * places[0] - between[0];
+    const end = 2 * places.at(-1) - between.at(-1);
+    return [start, ...between, end];
   }
 
   // Shares of a load at z that each bearing carries: the two beside it, by the lever rule.
