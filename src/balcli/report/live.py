@@ -111,7 +111,6 @@ def _list_obstacles(engine: Engine) -> Iterator[str]:
     c = engine.cylinders
     model = take_model(engine)
     of_throws = (model.crank.stroke, model.crank.throw_mass)
-    weights = (*model.counterweight, *model.shaft)
     if isinstance(c.linkage, Rotary):
         yield "its cylinders turn"
     if c.linkage is not None:
@@ -122,16 +121,22 @@ def _list_obstacles(engine: Engine) -> Iterator[str]:
         yield "it is a locomotive"
     if len(c.radius) > 1 or any(isinstance(figure, tuple) for figure in of_throws):
         yield "its throws differ"
+    if engine.ripple:
+        yield "its speed is uneven"
+    yield from _list_obstacles_of_devices(engine, model)
+    if is_judged_by_power(engine) and _has_power_of_gas(engine):
+        yield "its compensators depend on the power of its gas"
+
+
+def _list_obstacles_of_devices(engine: Engine, model: EngineFile) -> Iterator[str]:
+    """Yield which devices of a single engine the page cannot compute."""
+    weights = (*model.counterweight, *model.shaft)
     if any(weight.unbalance is None and weight.mass is None for weight in weights):
         yield "a counterweight or shaft has no unbalance in the file"
     if any(device.compensates for device in engine.devices):
         yield "it has moment compensators"
-    if engine.ripple:
-        yield "its speed is uneven"
     if any(shaft.ratio % 1 for shaft in model.shaft):
         yield "a shaft turns at another speed than a whole multiple of crank speed"
-    if is_judged_by_power(engine) and _has_power_of_gas(engine):
-        yield "its compensators depend on the power of its gas"
 
 
 def _has_power_of_gas(engine: Engine) -> bool:
