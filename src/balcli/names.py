@@ -107,6 +107,7 @@ CHAPTER_LISTS = {
     "mount": "file.mount_tables",
     "point": "file.mount_tables",
     "axle": "file.locomotive_tables",
+    "web": "file.web_tables",
 }
 # The module that computes each group of further quantities for sweep, search and scatter.
 QUANTITIES = {

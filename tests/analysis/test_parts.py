@@ -241,7 +241,9 @@ def test_devices_of_a_scheme_as_parts(tmp_path):
     assert all(shaft["name"].startswith("balancer") for shaft in found["parts"]["shafts"])
     assert found["parts"]["counterweights"][0]["thickness_m"] > 0
     assert "disc_thickness_mm" not in found["practical"][0]
-    assert ask_json("analyze", out, "--only", "parts")["parts"] == found["parts"]
+    written = ask_json("analyze", out, "--only", "parts")["parts"]
+    assert len(written.pop("throws")) == 3
+    assert written == found["parts"]
     table = ask("balance", file, *options)
     assert "balancer 1" in table
     assert "thickness" in table
@@ -282,7 +284,8 @@ def test_parts_at_a_speed_in_every_format(tmp_path):
     assert whole["bearings"][0]["rotating_N"] == pytest.approx(4 * half["bearings"][0]["rotating_N"])
     assert "fixed_deg" not in whole["bearings"][0]
     rows = ask_csv("analyze", file, "--only", "parts")
-    assert {row["quantity"] for row in rows} == {"shaft left"}
+    throws = {f"throw {number}" for number in (1, 2, 3, 4)}
+    assert {row["quantity"] for row in rows} == {"shaft left", *throws}
     assert "bearing, in" in ask("analyze", file, "--only", "parts", "--units", "imperial")
     assert "The file has no balancer shafts" in ask("analyze", "-", "--only", "parts", stdin=GOOD)
 

@@ -222,8 +222,8 @@ def test_given_bearings_make_the_loads_of_a_single_known():
 @pytest.mark.parametrize(
     ("places", "told"),
     [
-        ([-195, 195, 0], "bearing.*main_positions = \\[-195, 195, 0\\]: 0 after 195"),
-        ([0], "main_positions = \\[0\\]: give two or more"),
+        ([-195, 195, 0], "bearing.main_positions: \\[-195, 195, 0\\]: 0 follows 195"),
+        ([0], "bearing.main_positions: \\[0\\] is a single place"),
         ([-195, -50, 195], "bearing.main_positions.*-50 mm is the position of a throw"),
     ],
 )

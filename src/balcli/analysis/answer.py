@@ -15,6 +15,7 @@ from ..core.records import HIDDEN, INLINE, Asked, WrittenAs
 from ..engine.engine import Engine, check_engine, refuse_geared, take_model
 from ..errors import ArgumentError, BalcliError, check_number, check_type, list_words
 from ..file.assumed import Assumed
+from ..file.model import EngineFile
 from ..forces.crankshaft import InnerLoads, add_gas_loads, compute_inner_loads
 from ..forces.guide import GuideMoments, compute_guide_moments
 from ..forces.kinds import EVERY_KIND, FREE, GAS, GAS_KINDS, KINDS, list_with
@@ -293,7 +294,7 @@ def analyze(
         journals=find_journals(engine) if "journals" in wanted else None,
         masses=list_masses(engine) if "masses" in wanted else None,
         other_speeds=others or None,
-        parts=find_parts(engine, model.shaft, model.counterweight) if model else None,
+        parts=_find_own_parts(engine, model) if model else None,
     )
 
 
@@ -304,6 +305,11 @@ def _list_assumed(
     assumed = engine.list_assumed("gas", without=list_idle_defaults(engine, wanted)) or ()
     steps = ladder.steps if ladder is not None and "ladder" in wanted else ()
     return (*assumed, *assume_skirt(engine, [step.remedy for step in steps])) or None
+
+
+def _find_own_parts(engine: Engine, model: EngineFile) -> BalanceParts:
+    """Return shafts, counterweights, webs and throws of an engine and its file."""
+    return find_parts(engine, model.shaft, model.counterweight, throws=True)
 
 
 def _check_height(guide_height: float | None) -> None:

@@ -40,19 +40,32 @@ from .records import (
     ShaftBearing,
     ShaftGear,
 )
+from .web_parts import (
+    describe_crank,
+    describe_throws,
+    describe_webs,
+    lay_out_webs,
+    list_web_rows,
+)
 
 _ROUNDING = 1e-12  # share of the sum of all loads; a smaller load is rounding
 
 
 def find_parts(
-    engine: Engine, shafts: Sequence[Shaft], counterweights: Sequence[Counterweight]
+    engine: Engine,
+    shafts: Sequence[Shaft],
+    counterweights: Sequence[Counterweight],
+    *,
+    throws: bool = False,
 ) -> BalanceParts:
-    """Return bearing loads of balancer shafts, at the mean speed, and shapes of counterweights.
+    """Return bearing loads of balancer shafts, at the mean speed, shapes of counterweights, and the
+    webs of the crankshaft.
 
     Args:
         engine: One engine, not an array of variants.
         shafts: The `[[shaft]]` tables of the engine.
         counterweights: The `[[counterweight]]` tables of the engine.
+        throws: Whether to describe the throws as well.
     """
     refuse_geared(engine)
     omega = float(engine.omega)
@@ -65,7 +78,14 @@ def find_parts(
             if entry.sector is not None:
                 eccentrics.append(_describe_eccentric(name, entry, entry.sector))
     weights = tuple(_describe_counterweight(table, lowest) for table in counterweights)
-    return BalanceParts(tuple(described), weights, tuple(eccentrics) or None)
+    return BalanceParts(
+        tuple(described),
+        weights,
+        tuple(eccentrics) or None,
+        webs=describe_webs(engine),
+        throws=describe_throws(engine) if throws else None,
+        crank=describe_crank(engine),
+    )
 
 
 # ------------------------------------------------------------------ shafts
@@ -240,7 +260,9 @@ def lay_out_parts(parts: BalanceParts, system: System) -> Iterator[Grid | Facts 
         yield _lay_out_eccentrics(parts.eccentrics, system)
     if parts.counterweights:
         yield _lay_out_counterweights(parts.counterweights, system)
-    if not (parts.shafts or parts.counterweights):
+    if parts.webs or parts.throws:
+        yield from lay_out_webs(parts, system)
+    if not (parts.shafts or parts.counterweights or parts.webs):
         yield Text("Parts", ("The file has no balancer shafts and no counterweights.",))
 
 
@@ -320,3 +342,4 @@ def list_part_rows(parts: BalanceParts) -> Iterator[FigureRow]:
         yield from record_rows(0, f"eccentric {k}", None, eccentric, "shaft")
     for k, weight in enumerate(parts.counterweights, 1):
         yield from record_rows(0, f"counterweight {k}", None, weight)
+    yield from list_web_rows(parts)

@@ -539,6 +539,110 @@ class Eccentric(NamedTuple):
     thickness_m: float
 
 
+class WebPart(NamedTuple):
+    """A web of the crankshaft. Angles named `own` count from the web's own crank pin in the
+    direction of rotation, deg, in [0, 360). What is not known or does not apply is left out.
+
+    Attributes:
+        web: Its number, from the free end.
+        table: Number of its [[web]] table.
+        throw: Number of its throw.
+        position_mm: Position along the crank.
+        mass_kg: Mass.
+        unbalance_kg_m: Unbalance.
+        thickness_m: Axial thickness.
+        cg_m: Centre of mass: x towards the web's own crank pin, and y.
+        unbalance_own_deg: Direction of the unbalance.
+        inertia_kg_m2: Polar moment of inertia about the crank axis.
+        outer_radius_m: Outer radius of the counterweight.
+        opening_deg: Full angle of the counterweight.
+        angle_own_deg: Angle of the middle of the counterweight.
+        swing_radius_m: Largest radius of the outline.
+        clearance_m: Smallest gap to the lower edge of a piston over a revolution.
+        clearance_deg: Crank angle of this gap.
+        clearance_cylinder: Cylinder of this piston.
+        crankcase_m: Gap to the crankcase.
+        worst_kg_m: Largest deviation of the unbalance within the tolerances.
+        rss_kg_m: Root of the sum of squares of the deviations by each dimension.
+        asked_clearance_m: Clearance that the file asks for.
+    """
+
+    web: int
+    table: int
+    throw: int
+    position_mm: float
+    mass_kg: float
+    unbalance_kg_m: float
+    thickness_m: float
+    cg_m: tuple[float, float] | None = None
+    unbalance_own_deg: float | None = None
+    inertia_kg_m2: float | None = None
+    outer_radius_m: float | None = None
+    opening_deg: float | None = None
+    angle_own_deg: float | None = None
+    swing_radius_m: float | None = None
+    clearance_m: float | None = None
+    clearance_deg: float | None = None
+    clearance_cylinder: CylinderNumber | None = None
+    crankcase_m: float | None = None
+    worst_kg_m: float | None = None
+    rss_kg_m: float | None = None
+    asked_clearance_m: Annotated[float, HIDDEN] = 0.0
+
+    @property
+    def doubts(self) -> Iterator[Doubt]:
+        """Warnings about gaps below the clearance of the file."""
+        least = f"at least {1e3 * self.asked_clearance_m:.4g} mm (web.{self.table}.clearance)"
+        limit = self.asked_clearance_m - _CLEARANCE_ROUNDING_M
+        if self.clearance_m is not None and self.clearance_m < limit:
+            yield Doubt(
+                f"web.{self.table}",
+                f"web {self.web} has a clearance of {1e3 * self.clearance_m:.4g} mm to the piston "
+                f"of cylinder {self.clearance_cylinder} at crank angle {self.clearance_deg:.4g} "
+                f"deg, where {least} is wanted; make it smaller",
+            )
+        if self.crankcase_m is not None and self.crankcase_m < limit:
+            yield Doubt(
+                f"web.{self.table}",
+                f"web {self.web} has a clearance of {1e3 * self.crankcase_m:.4g} mm to the "
+                f"crankcase, where {least} is wanted; make it smaller",
+            )
+
+
+_CLEARANCE_ROUNDING_M = 1e-6
+
+
+class ThrowPart(NamedTuple):
+    """A throw of the crankshaft and what balances it.
+
+    Attributes:
+        throw: Its number, from the free end.
+        throw_mass_kg: Unbalanced mass of the throw itself (pin and cheeks) at the crank radius;
+            left out if it is not known.
+        degree_of_balance: Unbalance of its counterweights over that of throw and big ends; left out
+            if it is not known.
+        factor: Share of the reciprocating mass that its counterweights balance besides all rotating
+            mass; negative if they do not balance all of it; left out without such a mass.
+    """
+
+    throw: int
+    throw_mass_kg: float | None = None
+    degree_of_balance: float | None = None
+    factor: float | None = None
+
+
+class CrankPart(NamedTuple):
+    """Webs and pins of the crankshaft together.
+
+    Attributes:
+        mass_kg: Mass.
+        inertia_kg_m2: Polar moment of inertia; left out if that of a web is not known.
+    """
+
+    mass_kg: float
+    inertia_kg_m2: float | None = None
+
+
 class BalanceParts(NamedTuple):
     """Bearing loads of balancer shafts, and shapes of counterweights and eccentrics.
 
@@ -546,15 +650,25 @@ class BalanceParts(NamedTuple):
         shafts: Balancer shafts.
         counterweights: Counterweights.
         eccentrics: Eccentrics in the shape of a sector; left out if there are none.
+        webs: Webs of the crankshaft; left out without [[web]].
+        throws: Throws of the crankshaft; left out where no counterweight belongs to a throw.
+        crank: Webs and pins together; left out without [[web]].
     """
 
     shafts: tuple[BalancerShaft, ...]
     counterweights: tuple[CounterweightPart, ...]
     eccentrics: tuple[Eccentric, ...] | None = None
+    webs: tuple[WebPart, ...] | None = None
+    throws: tuple[ThrowPart, ...] | None = None
+    crank: CrankPart | None = None
 
     @property
     def doubts(self) -> Iterator[Doubt]:
-        """Warnings about counterweights that would touch a piston."""
+        """Warnings about counterweights that would touch a piston, and about webs too close to
+        piston or crankcase.
+        """
+        for web in self.webs or ():
+            yield from web.doubts
         for number, part in enumerate(self.counterweights, 1):
             if part.clearance_m is not None and part.clearance_m < 0:
                 gap = f"{1e3 * part.clearance_m:.4g} mm"

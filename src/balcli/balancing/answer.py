@@ -271,11 +271,12 @@ def _answer(
     remedy = shape_devices(engine, remedy, shapes)
     has_sectors = any(shaft.sector for shaft in remedy.shafts)
     shafts = remedy.shafts if has_sectors or shapes.bearings is not None else ()
-    if shafts or any(weight.sector for weight in remedy.counterweights):
-        parts = find_parts(engine, shafts, remedy.counterweights)
     if changed is None:
         changed = fit_devices(engine, remedy)
         remedy = remedy.add_details(speed=_UNEVEN) if engine.ripple else remedy
+    has_webs = engine.webs is not None
+    if shafts or has_webs or any(weight.sector for weight in remedy.counterweights):
+        parts = find_parts(changed, shafts, remedy.counterweights, throws=has_webs)
     before, after = analyze_alike((engine, changed), orders, analyze)
     return Balance(
         remedy=remedy,

@@ -155,6 +155,7 @@ class Device(NamedTuple):
         crank: Index of the crank that carries or drives the device.
         is_coupling: Whether it is the mass of a locomotive's coupling rods, which turns with the
             crank like a counterweight but is fitted to drive an axle.
+        web: Number of the crankshaft's web that this is; 0: it is no web.
     """
 
     order: float
@@ -168,6 +169,7 @@ class Device(NamedTuple):
     axle: str = ""
     crank: int = 0
     is_coupling: bool = False
+    web: int = 0
 
     @property
     def is_counterweight(self) -> bool:

@@ -24,12 +24,14 @@ replace figures of the file, and every stage accepts arrays as well as numbers.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import partial
+from itertools import pairwise
 from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
+from ..core.cylinders import Device
 from ..core.mechanisms import harmonics
 from ..core.mechanisms.linkage import STEPS, Articulated, Linkage, Rotary, revolution
 from ..core.mechanisms.motion import Motion
@@ -42,7 +44,7 @@ from ..file.read import Draft
 from ..limits import MOST_SAMPLES, NEAREST_TO_LOCK
 from .devices import build_devices, check_drifting, check_shafts
 from .engine import Bearings, Engine, Rating
-from .figures import column, divide, find_wheel, value_or
+from .figures import column, find_wheel, value_or
 from .firing.rules import check_numbering
 from .layout import Plan, are_places_known
 from .left_out import list_inferred
@@ -84,7 +86,7 @@ def build(
     figures = parts.figures
     places = parts.places
     bore = figures.take_optional("piston.bore", model.piston.bore)
-    inertia = figures.take_optional("crank.inertia", model.crank.inertia)
+    devices = tuple(build_devices(parts))
     bearings = None
     power = model.operation.power
     if (table := model.bearing) is not None:
@@ -113,11 +115,12 @@ def build(
         ripple=parts.find_ripple(),
         reference_m=places.reference,
         up_deg=model.frame.up,
-        devices=tuple(build_devices(parts)),
+        devices=devices,
         weighed=tuple(parts.weighed[number] for number in parts.numbers),
         places_known=are_places_known(model, parts.plan, varied or ()),
         gas=parts.gas,
-        crank_inertia=divide(inertia, 1e6),
+        crank_inertia=find_crank_inertia(parts, devices),
+        webs=parts.webs,
         flywheel_inertia=None if model.flywheel is None else find_wheel(figures, model.flywheel),
         bearings=bearings,
         rated=Rating(model.operation.speed, None if power is None else 1e3 * power),
@@ -133,6 +136,23 @@ def _find_bores(parts: Parts, general: Figure) -> tuple[Figure, ...]:
     if all(bore is None for bore in bores):
         return ()
     return tuple(value_or(bore, general) / 1e3 for bore in bores)
+
+
+def find_crank_inertia(parts: Parts, devices: Iterable[Device]) -> Figure | None:
+    """Return the polar moment of inertia of the crankshaft, kg m2: `crank.inertia`, or that of
+    webs, pins and counterweights together; None if it is not known.
+
+    Args:
+        parts: Stages of the engine.
+        devices: All devices of the file.
+    """
+    given = parts.figures.take_optional("crank.inertia", parts.model.crank.inertia)
+    if given is not None:
+        return given / 1e6
+    if parts.webs is None or parts.webs.inertia is None:
+        return None
+    of_weights = [device.spin for device in devices if device.is_counterweight]
+    return sum(of_weights, parts.webs.inertia)
 
 
 def assemble(
@@ -154,7 +174,7 @@ def assemble(
 _NEEDED = frozenset(
     {
         *("crank", "rod", "piston", "layout", "articulation", "cylinder", "gas"),
-        *("locomotive", "axle", "counterweight"),
+        *("locomotive", "axle", "counterweight", "bearing", "web"),
     }
 )
 
@@ -217,14 +237,39 @@ def check_rods(parts: Parts) -> Iterator[Problem]:
 
 
 def check_main_bearings(parts: Parts) -> Iterator[Problem]:
-    """Check that no main bearing is at a throw."""
+    """Check that there are at least two main bearings, ascending, and none at a throw."""
     bearing = parts.model.bearing
     places = () if bearing is None else bearing.main_positions or ()
+    listed = ", ".join(f"{place:g}" for place in places)
+    if len(places) == 1:
+        told = f"[{listed}] is a single place; give two or more"
+        yield Problem("bearing.main_positions", told)
+    for before, after in pairwise(places):
+        if before >= after:
+            told = f"[{listed}]: {after:g} follows {before:g}; give the places ascending"
+            yield Problem("bearing.main_positions", told)
+            return
     throws = {round(1e3 * float(z), 9) for z in np.ravel(parts.places.throws)}
     for place in places:
         if round(place, 9) in throws:
             told = f"{place:g} mm is the position of a throw; give the middle of each main bearing"
             yield Problem("bearing.main_positions", told)
+
+
+def check_webs(parts: Parts) -> Iterator[Problem]:
+    """Check that [[web]] fits the crank: the rules of `engine.web_rules`."""
+    if parts.model.web:
+        from .web_rules import check_webs  # loaded only for files with [[web]]
+
+        yield from check_webs(parts)
+
+
+def check_web_places(parts: Parts) -> Iterator[Problem]:
+    """Check that throws with webs have places of their own."""
+    if parts.model.web:
+        from .web_rules import check_web_places
+
+        yield from check_web_places(parts)
 
 
 def check_carriers(parts: Parts) -> Iterator[Problem]:
@@ -419,6 +464,8 @@ RULES: tuple[tuple[Callable[[Parts], Iterator[Problem]], ...], ...] = (
     # plan and running gears
     (check_cylinders, check_articulation, check_rods, check_half_orders, check_speed),
     (check_carriers, check_main_bearings),
+    (check_webs,),
+    (check_web_places,),
     (check_knuckles, check_shafts, check_drifting),  # pins and balancer shafts
     (check_numbering,),  # firing angles
     (check_samples,),  # cylinders

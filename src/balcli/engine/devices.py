@@ -22,14 +22,16 @@ if TYPE_CHECKING:
 
 
 def build_devices(parts: Parts) -> Iterator[Device]:
-    """Yield all devices of a file in SI units: first the coupling masses of a locomotive, then
-    counterweights, shafts and sliders.
+    """Yield all devices of a file in SI units: first the coupling masses of a locomotive and the
+    webs of the crankshaft, then counterweights, shafts and sliders.
 
     Args:
         parts: Parts of the engine, whose figures may vary.
     """
     first_axis_deg = parts.pins.axes_deg[1]
     yield from _build_coupling_pins(parts, first_axis_deg)
+    if parts.webs is not None:
+        yield from (web.device for web in parts.webs.webs)
     for path, table in parts.model.tables():
         if isinstance(table, Shaft) and table.drifts:
             continue

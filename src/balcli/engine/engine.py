@@ -33,6 +33,7 @@ from .rods import CylinderMasses
 
 if TYPE_CHECKING:
     from .gas import EngineGas
+    from .webs.build import Webs
 
 
 CylinderNumber: TypeAlias = int | str  # 3, or "upper.3" with the name of a geared engine
@@ -215,6 +216,7 @@ class Engine:
         speed_rpm: Mean crank speed.
         ripple: Orders of the uneven speed; empty for a steady speed.
         reference_m: x, y, z of the point about which moments are taken.
+        webs: Webs and pins of the crankshaft; None for a file without [[web]].
         up_deg: Direction that points up, deg from x; None where the file gives none.
         devices: Counterweights, shafts and sliders of the file, in this order.
         weighed: Masses of piston, rod and throw for each row of `cylinders`.
@@ -261,6 +263,7 @@ class Engine:
     flywheel_inertia: Figure | None = None
     bearings: Bearings | None = None
     rated: Rating | None = None
+    webs: Webs | None = None
     up_deg: float | None = None
     inferred: tuple[Assumed, ...] = ()
     model: EngineFile | None = None

@@ -88,6 +88,10 @@ class FileFigures:
             return self.take_each(path, given)
         return (self.take(path, given),) * count
 
+    def find_varied(self, *starts: str) -> list[str]:
+        """Return the names of varied figures that begin with one of these words."""
+        return [path for path in self._varied if path.startswith(starts)]
+
     def of_table(self, start: str) -> dict[str, Figure]:
         """Return the varied figures of the table with the dotted name `start`, by their keys."""
         return {

@@ -90,11 +90,11 @@ def _list_crank_defaults(parts: Parts) -> Iterator[Assumed]:
         yield assume("crank.spacing", crank, 0.0)
     if parts.plan.rods_on_throw > 1 and model.articulation is None and not layout.has("stagger"):
         yield assume("layout.stagger", layout, layout.stagger)
-    if not (crank.has("throw_mass") or layout.rotary):
+    if not (crank.has("throw_mass") or layout.rotary or model.web):
         yield assume("crank.throw_mass", crank, 0.0)
     weighed = any(one.inertia or one.sector for one in model.counterweight)
     is_uneven = model.flywheel is not None or running.speed_ripple
-    if crank.inertia is None and is_uneven and not weighed:
+    if crank.inertia is None and is_uneven and not (weighed or model.web):
         yield assume("crank.inertia", crank, 0.0)
     if crank.inertia is not None and model.flywheel is None:
         yield Assumed("flywheel.inertia", 0.0, INERTIA.unit)

@@ -50,6 +50,7 @@ from .rods import CylinderMasses, RodPlace, RunningGear, weigh_rod
 if TYPE_CHECKING:
     from ..core.mechanisms.linkage import Linkage
     from .gas import EngineGas
+    from .webs.build import Webs
 
 
 # ------------------------------------------------------------------ pistons and rods
@@ -164,13 +165,36 @@ def find_fires(parts: Parts) -> dict[int, Figure]:
     return find_instants(parts.order, intervals, cycle)
 
 
+def find_throw_masses(parts: Parts) -> tuple[Figure, ...]:
+    """Return the unbalanced mass of each throw, kg; in a file with [[web]], that of its crank pin,
+    because each web has its own plane.
+    """
+    if parts.webs is not None:
+        return tuple(pin.mass for pin in parts.webs.pins)
+    given = parts.model.crank.throw_mass
+    return parts.figures.take_for_each("crank.throw_mass", given, parts.plan.throws)
+
+
+def find_webs(parts: Parts) -> Webs | None:
+    """Return the webs of the crank; None for a file without [[web]]."""
+    if not parts.model.web:
+        return None
+    from .webs.build import BareThrow, build_webs  # loaded only for files with [[web]]
+
+    throws = []
+    for throw, stroke in enumerate(parts.throw_strokes):
+        number = next(cell.number for cell in parts.plan.cells if cell.throw == throw)
+        pin_deg = parts.pins.axes_deg[1] + parts.pins.leads_deg[number]
+        throws.append(BareThrow(float(stroke) / 2, parts.places.pins[throw], pin_deg))
+    return build_webs(parts.model, throws)
+
+
 def weigh_cylinders(parts: Parts) -> dict[int, CylinderMasses]:
     """Return the masses of each cylinder as a workshop weighs them, by cylinder number."""
     take = parts.figures.take
     bobweight = parts.model.bobweight
-    throw_mass = parts.model.crank.throw_mass
     plan = parts.plan
-    of_throws = parts.figures.take_for_each("crank.throw_mass", throw_mass, plan.throws)
+    of_throws = find_throw_masses(parts)
     rod_bearing = take("bobweight.rod_bearing", bobweight.rod_bearing)
     oil = parts.figures.take_optional("bobweight.oil", bobweight.oil)
     oil_per_pin = parts.figures.take_optional("bobweight.oil_per_pin", bobweight.oil_per_pin)
@@ -291,7 +315,8 @@ def arrange_cylinders(parts: Parts) -> Cylinders:
     masters = parts.masters
     radius = parts.find_radius
     same_gear = all(gears[n] is gears[numbers[0]] for n in numbers)
-    alike = same_gear and not isinstance(parts.model.crank.throw_mass, tuple)
+    same_throws = not (isinstance(parts.model.crank.throw_mass, tuple) or parts.model.web)
+    alike = same_gear and same_throws
 
     def of_each(find: Callable[[int], Figure]) -> Array:
         """Return a figure of all cylinders, as a single row if they are equal."""
@@ -396,6 +421,7 @@ class Parts:
     true_tops_deg = cached_property(find_true_tops)
     weighed = cached_property(weigh_cylinders)
     places = cached_property(find_places)
+    webs = cached_property(find_webs)
     banks = cached_property(group_banks)
     cylinders = cached_property(arrange_cylinders)
 

@@ -488,17 +488,6 @@ class Bearing(FileTable):
         if self.pin_width is not None and self.pin_diameter is None:
             yield "has pin_width without pin_diameter; give both pin_diameter and pin_width"
 
-    def _check_main_positions(self) -> Iterator[str]:
-        places = self.main_positions or ()
-        if len(places) == 1:
-            yield f"main_positions = [{places[0]:g}]: give two or more places"
-        for before, after in pairwise(places):
-            if before >= after:
-                listed = ", ".join(f"{place:g}" for place in places)
-                told = f"{after:g} after {before:g}; give them ascending"
-                yield f"main_positions = [{listed}]: {told}"
-                break
-
     def _check_bores(self) -> Iterator[str]:
         """Check that a hollow journal has a diameter larger than its bore."""
         for kind in ("pin", "main"):

@@ -69,6 +69,7 @@ if TYPE_CHECKING:
     from .locomotive_tables import Axle, Locomotive
     from .mount_tables import Body, Mount, Point
     from .torsion_tables import Torsion
+    from .web_tables import Web
 
 
 class Crank(FileTable):
@@ -576,6 +577,8 @@ class EngineFile(FileTable):
     """Points whose motion is wanted."""
     axle: "tuple[Axle, ...]" = ()
     """Coupled axles of a locomotive."""
+    web: "tuple[Web, ...]" = ()
+    """Webs of the crankshaft."""
 
     _folder: Path = PrivateAttr(Path())
     _cranks: tuple["EngineFile", ...] = PrivateAttr(())

@@ -117,6 +117,8 @@ def _list_obstacles(engine: Engine) -> Iterator[str]:
         yield "it has articulated rods"
     if c.harmonic:
         yield "its pistons have harmonic motion"
+    if model.web:
+        yield "its webs are described by [[web]]"
     if model.locomotive is not None:
         yield "it is a locomotive"
     if len(c.radius) > 1 or any(isinstance(figure, tuple) for figure in of_throws):

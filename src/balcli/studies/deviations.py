@@ -147,7 +147,7 @@ def _spell_out_throws(model: EngineFile, *, angles: bool) -> EngineFile:
     """
     parts = assemble(model)
     masses = model.crank.throw_masses
-    if len(masses) == 1:
+    if len(masses) == 1 and not model.web:
         model = model.with_table("crank", throw_mass=masses * parts.plan.throws)
     if model.crank.throws is not None or not angles:
         return model

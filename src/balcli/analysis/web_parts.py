@@ -1,0 +1,330 @@
+"""Describe the webs of a crankshaft, its throws and what balances them (`analyze --only parts`).
+
+With the unbalance U of pin, webs and nearest counterweights along the crank pin, the rotating mass
+m_rot and the reciprocating mass m_rec of the rods on it, and the crank radius r, the *balance
+factor* is `K = -(U + m_rot r)/(m_rec r)`. The *degree of balance* is the unbalance of the weights
+over that of throw and rotating mass, `-U_weights/(U_throw + m_rot r)`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from ..core.phasors import unit
+from ..engine.engine import Engine
+from ..show.figures import FigureRow, record_rows
+from ..show.sheet import UNKNOWN, Column, Facts, Grid, number, size_text
+from .records import BalanceParts, CrankPart, ThrowPart, WebPart
+
+if TYPE_CHECKING:
+    from ..engine.webs.build import CrankWeb
+    from ..show.units import System
+
+_SAME_DEG = 1e-9
+
+
+# ------------------------------------------------------------------ webs
+def describe_webs(engine: Engine) -> tuple[WebPart, ...] | None:
+    """Return the webs of an engine; None for a file without [[web]]."""
+    if engine.webs is None or engine.model is None:
+        return None
+    return tuple(_describe_web(engine, web) for web in engine.webs.webs)
+
+
+def _describe_web(engine: Engine, web: CrankWeb) -> WebPart:
+    from ..engine.webs.tolerance import find_deviation, measure_own_deg
+    from ..sizing.web_clearance import find_gap
+
+    body = web.body
+    model = engine.model
+    assert model is not None
+    table = model.web[web.table - 1]
+    cg = body.unbalance / body.mass if body.mass else None
+    part = WebPart(
+        web=web.number,
+        table=web.table,
+        throw=web.throw + 1,
+        position_mm=1e3 * float(web.z),
+        mass_kg=body.mass,
+        cg_m=None if cg is None else (cg.real, cg.imag),
+        unbalance_kg_m=abs(body.unbalance),
+        unbalance_own_deg=measure_own_deg(body.unbalance),
+        inertia_kg_m2=body.inertia,
+        thickness_m=body.thickness,
+        asked_clearance_m=table.clearance / 1e3,
+    )
+    if body.shape is None:
+        return part
+    if (sector := body.shape.sector) is not None:
+        part = part._replace(
+            outer_radius_m=sector.radius,
+            opening_deg=sector.opening,
+            angle_own_deg=sector.angle % 360,
+        )
+    swing = body.shape.swing_radius
+    part = part._replace(swing_radius_m=swing)
+    if model.frame.crankcase is not None:
+        part = part._replace(crankcase_m=model.frame.crankcase / 1e3 - swing)
+    if (gap := find_gap(engine, web)) is not None:
+        part = part._replace(
+            clearance_m=gap.size, clearance_deg=gap.crank_deg, clearance_cylinder=gap.cylinder
+        )
+    if (deviation := find_deviation(table, body.shape)) is not None:
+        part = part._replace(worst_kg_m=deviation.worst, rss_kg_m=deviation.rss)
+    return part
+
+
+def describe_crank(engine: Engine) -> CrankPart | None:
+    """Return mass and inertia of webs and pins together; None for a file without [[web]]."""
+    if engine.webs is None:
+        return None
+    return CrankPart(engine.webs.mass, engine.webs.inertia)
+
+
+# ------------------------------------------------------------------ throws
+class _Throw(NamedTuple):
+    """A throw of a crankshaft, SI units.
+
+    Attributes:
+        pin: Direction of its crank pin at crank angle 0, a unit vector.
+        z: Position along the crank.
+        radius: Crank radius.
+        rotating: Rotating mass of its rods.
+        reciprocating: Reciprocating mass of its cylinders.
+        mass: Unbalanced mass at the crank radius that turns with the pin: the pin alone if the file
+            has [[web]].
+    """
+
+    pin: complex
+    z: float
+    radius: float
+    rotating: float
+    reciprocating: float
+    mass: float
+
+
+def describe_throws(engine: Engine) -> tuple[ThrowPart, ...] | None:
+    """Return the throws of an engine; None where counterweights do not turn with crank pins, or for
+    split pins.
+    """
+    if engine.rotary or engine.of_locomotive or engine.placed:
+        return None
+    throws = _list_throws(engine)
+    if throws is None:
+        return None
+    added = _sum_counterweights(engine, throws)
+    return tuple(
+        _describe_throw(engine, index, throw, weights)
+        for index, (throw, weights) in enumerate(zip(throws, added, strict=True))
+    )
+
+
+def _list_throws(engine: Engine) -> list[_Throw] | None:
+    """Return the throws of an engine, from the free end; None if a throw has several pins."""
+    c = engine.cylinders
+    throws = []
+    for index in range(len(engine.throws_m)):
+        rows = [row for row, own in enumerate(engine.weighed) if own.throw == index]
+        pins = [float(c.pin_deg[row]) for row in rows]
+        radii = [float(c.radius_of_each[row]) for row in rows]
+        apart = np.abs((np.array(pins) - pins[0] + 180) % 360 - 180)
+        if np.any(apart > _SAME_DEG) or np.ptp(radii) > 0:
+            return None
+        weighed = [engine.weighed[row] for row in rows]
+        throws.append(
+            _Throw(
+                pin=complex(unit(float(engine.first_axis_deg) + pins[0])),
+                z=float(np.ravel(engine.pins_m)[index]),
+                radius=radii[0],
+                rotating=sum(float(own.rotating) for own in weighed),
+                reciprocating=sum(float(own.reciprocating) for own in weighed),
+                mass=sum(float(own.share) for own in weighed),
+            )
+        )
+    return throws
+
+
+def _sum_counterweights(engine: Engine, throws: list[_Throw]) -> list[complex]:
+    """Return the counterweights nearest to each throw, kg m, without webs; of equally near throws,
+    the first has the counterweight.
+    """
+    sums = [0j] * len(throws)
+    for device in engine.devices:
+        if device.is_counterweight and not device.web:
+            distances = [round(abs(throw.z - float(device.z)), 9) for throw in throws]
+            sums[distances.index(min(distances))] += complex(device.forward)
+    return sums
+
+
+def _describe_throw(engine: Engine, index: int, throw: _Throw, weights: complex) -> ThrowPart:
+    """Return a throw and what balances it.
+
+    Args:
+        engine: Engine.
+        index: Index of the throw.
+        throw: The throw.
+        weights: Sum of its counterweights, kg m.
+    """
+    own_weights = (weights * throw.pin.conjugate()).real
+    of_throw: float | None = throw.mass * throw.radius
+    total = throw.mass * throw.radius + own_weights
+    if engine.webs is not None:
+        webs = [web for web in engine.webs.webs if web.throw == index]
+        sum_of_webs = sum(web.body.unbalance.real for web in webs)
+        total += sum_of_webs
+        at_pin = [web.body.at_pin for web in webs]
+        known = [unbalance.real for unbalance in at_pin if unbalance is not None]
+        if len(known) < len(webs):
+            of_throw = None
+        else:
+            of_throw = throw.mass * throw.radius + sum(known)
+            own_weights += sum_of_webs - sum(known)
+    rotating = throw.rotating * throw.radius
+    reciprocating = throw.reciprocating * throw.radius
+    degree = None
+    if of_throw is not None and of_throw + rotating > 0:
+        degree = -own_weights / (of_throw + rotating) + 0.0
+    return ThrowPart(
+        throw=index + 1,
+        throw_mass_kg=None if of_throw is None else of_throw / throw.radius,
+        degree_of_balance=degree,
+        factor=-(total + rotating) / reciprocating if reciprocating else None,
+    )
+
+
+# ------------------------------------------------------------------ how it is shown
+_WEBS_NOTE = (
+    "Angles count from each web's own crank pin in the direction of rotation. Clearance: smallest "
+    "gap to a piston over a revolution."
+)
+_THROWS_NOTE = (
+    "Factor: share of the reciprocating mass that is balanced besides all rotating mass. Degree: "
+    "unbalance of the weights over that of throw and big ends."
+)
+
+
+class _Row(NamedTuple):
+    """Webs that are alike: their numbers, those of their throws, and one of them."""
+
+    webs: list[int]
+    throws: list[int]
+    part: WebPart
+
+
+def lay_out_webs(parts: BalanceParts, system: System) -> Iterator[Grid | Facts]:
+    """Yield a table of the webs, a table of the throws, and mass and inertia of the crankshaft.
+
+    Args:
+        parts: Parts of an engine.
+        system: System of units.
+    """
+    if parts.webs:
+        yield _lay_out_webs(parts.webs, system)
+    if parts.throws:
+        yield _lay_out_throws(parts.throws, system)
+    if parts.crank is not None:
+        pairs = [("mass", size_text(parts.crank.mass_kg, system.mass))]
+        if parts.crank.inertia_kg_m2 is not None:
+            inertia = size_text(parts.crank.inertia_kg_m2, system.of_parts["kg·m²"])
+            pairs.append(("polar inertia", inertia))
+        yield Facts(tuple(pairs), "Webs and crank pins")
+
+
+def _group_webs(parts: Iterable[WebPart]) -> list[_Row]:
+    """Return webs with equal figures as one row."""
+    rows: dict[tuple[object, ...], _Row] = {}
+    for part in parts:
+        alike = tuple(
+            round(value, 9) if isinstance(value, float) else None
+            for key, value in part._asdict().items()
+            if key not in ("position_mm", "clearance_deg")
+        )
+        row = rows.setdefault((part.table, *alike), _Row([], [], part))
+        row.webs.append(part.web)
+        row.throws.append(part.throw)
+    return list(rows.values())
+
+
+def _list_numbers(numbers: Iterable[int]) -> str:
+    """Return numbers with ranges: 1-4,7."""
+    runs: list[list[int]] = []
+    for each in sorted(set(numbers)):
+        if runs and each == runs[-1][1] + 1:
+            runs[-1][1] = each
+        else:
+            runs.append([each, each])
+    return ",".join(str(low) if low == high else f"{low}-{high}" for low, high in runs)
+
+
+def _lay_out_webs(webs: Iterable[WebPart], system: System) -> Grid:
+    rows = _group_webs(webs)
+    length = system.length
+    unbalance = system.unbalance.fit(max(row.part.unbalance_kg_m for row in rows))
+    columns = [
+        Column("web", [_list_numbers(row.webs) for row in rows], words=True),
+        Column("throw", [_list_numbers(row.throws) for row in rows], words=True),
+        Column(f"mass, {system.mass.name}", [number(system.mass.of(r.part.mass_kg)) for r in rows]),
+        Column(unbalance.name, [number(unbalance.of(row.part.unbalance_kg_m)) for row in rows]),
+        Column("at, deg", [_cell(row.part.unbalance_own_deg) for row in rows]),
+        Column("opening, deg", [_cell(row.part.opening_deg) for row in rows]),
+    ]
+    radii = [row.part.outer_radius_m or row.part.swing_radius_m for row in rows]
+    columns.append(Column(f"R, {length.name}", [_cell(r, length.size) for r in radii]))
+    clearances = []
+    for row in rows:
+        gap = row.part.clearance_m
+        place = "" if gap is None else f" at {number(row.part.clearance_deg or 0.0)} deg"
+        clearances.append(_cell(gap, length.size, digits_m=6) + place)
+    columns.append(Column(f"clearance, {length.name}", clearances, words=True))
+    if any(row.part.worst_kg_m is not None for row in rows):
+        for label, key in (("worst ±", "worst_kg_m"), ("rss ±", "rss_kg_m")):
+            cells = []
+            for row in rows:
+                deviation = getattr(row.part, key)
+                cells.append(UNKNOWN if deviation is None else number(unbalance.of(deviation)))
+            columns.append(Column(f"{label}, {unbalance.name}", cells))
+    shown = [column for column in columns if {*column.cells} != {UNKNOWN}]
+    return Grid("Webs", shown, _WEBS_NOTE)
+
+
+def _cell(value: float | None, size: float = 1.0, digits_m: int = 12) -> str:
+    """Return a figure for a table.
+
+    Args:
+        value: Figure; None: not known.
+        size: Size of the unit, in SI units.
+        digits_m: Decimals to which the figure is rounded.
+    """
+    return UNKNOWN if value is None else number((round(value, digits_m) + 0.0) / size)
+
+
+def _lay_out_throws(throws: Iterable[ThrowPart], system: System) -> Grid:
+    rows = list(throws)
+    degrees = [throw.degree_of_balance for throw in rows]
+    factors = [throw.factor for throw in rows]
+    masses = [throw.throw_mass_kg for throw in rows]
+    columns = [
+        Column("throw", [str(throw.throw) for throw in rows], words=True),
+        Column(f"throw itself, {system.mass.name}", [_cell(m, system.mass.size) for m in masses]),
+        Column("degree of balance, %", [_percent(degree) for degree in degrees]),
+        Column("balance factor, %", [_percent(factor) for factor in factors]),
+    ]
+    shown = [column for column in columns if {*column.cells} != {UNKNOWN}]
+    return Grid("Throws", shown, _THROWS_NOTE)
+
+
+def _percent(share: float | None) -> str:
+    return UNKNOWN if share is None else number(round(100 * share, 9) + 0.0)
+
+
+def list_web_rows(parts: BalanceParts) -> Iterator[FigureRow]:
+    """Yield every figure of webs, throws and crankshaft in SI units."""
+    for web in parts.webs or ():
+        yield from record_rows(0, f"web {web.web}", None, web, "web")
+    for throw in parts.throws or ():
+        yield from record_rows(0, f"throw {throw.throw}", None, throw, "throw")
+    if parts.crank is not None:
+        yield from record_rows(0, "crank", None, parts.crank)

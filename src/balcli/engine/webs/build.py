@@ -1,0 +1,203 @@
+"""Place the webs of a file along its crank, and weigh its crank pins."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, NamedTuple
+
+from ...core.cylinders import Device, DeviceKind
+from ...core.phasors import Figure, unit
+from ...errors import BalcliError, InputError, Message, Problem
+from ...file.csv_columns import locate_beside
+from ...file.model import EngineFile
+from .bodies import MM, Pin, WebBody, describe_web, weigh_pin
+from .dxf import Drawing, read_drawing
+
+if TYPE_CHECKING:
+    from ...file.gas_tables import Bearing
+    from ...file.web_tables import Web
+
+WEBS_ON_THROW = 2
+
+
+class CrankWeb(NamedTuple):
+    """A web of a crankshaft.
+
+    Attributes:
+        number: Its number, from 1 at the free end.
+        table: Number of its [[web]] table, from 1.
+        throw: Index of its throw, from 0.
+        z: Position along the crank, m.
+        pin_deg: Direction of its crank pin at crank angle 0, deg.
+        body: Mass, unbalance and inertia, in its own axes.
+    """
+
+    number: int
+    table: int
+    throw: int
+    z: Figure
+    pin_deg: Figure
+    body: WebBody
+
+    @property
+    def device(self) -> Device:
+        """The web as an unbalance on the crank."""
+        turning = self.body.unbalance * unit(self.pin_deg)
+        return Device(1, turning, 0j, 0j, self.z, DeviceKind.COUNTERWEIGHT, web=self.number)
+
+
+class Webs(NamedTuple):
+    """All webs of a crankshaft, and the pin of each throw."""
+
+    webs: tuple[CrankWeb, ...]
+    pins: tuple[Pin, ...]
+
+    @property
+    def mass(self) -> float:
+        """Mass of webs and pins, kg."""
+        return sum(web.body.mass for web in self.webs) + sum(pin.mass for pin in self.pins)
+
+    @property
+    def inertia(self) -> float | None:
+        """Polar inertia of webs and pins about the crank axis, kg m2; None if that of a web is not
+        known.
+        """
+        inertias = [web.body.inertia for web in self.webs]
+        of_webs = [inertia for inertia in inertias if inertia is not None]
+        if len(of_webs) < len(inertias):
+            return None
+        return sum(of_webs) + sum(pin.inertia for pin in self.pins)
+
+
+def assign_tables(model: EngineFile, throws: int) -> dict[int, int]:
+    """Return the number of the [[web]] table of each web, by the number of the web.
+
+    Args:
+        model: Engine file.
+        throws: Number of throws.
+
+    Raises:
+        InputError: A web does not exist, or has two tables or none.
+    """
+    count = WEBS_ON_THROW * throws
+    tables: dict[int, int] = {}
+    problems = []
+    rest = []
+    for number, table in enumerate(model.web, 1):
+        if table.webs is None:
+            rest.append(number)
+        for web in table.webs or ():
+            if web > count:
+                told = f"{web}, but the crank has {count} webs; give numbers from 1 to {count}"
+                problems.append(Problem(f"web.{number}.webs", told))
+            elif web in tables:
+                told = f"web {web} stands in web.{tables[web]} as well; give each web once"
+                problems.append(Problem(f"web.{number}.webs", told))
+            else:
+                tables[web] = number
+    if len(rest) > 1:
+        told = f"is left out in web.{rest[0]} as well; give the numbers of the webs in all but one"
+        problems.append(Problem(f"web.{rest[1]}.webs", told))
+    missing = [web for web in range(1, count + 1) if web not in tables]
+    if missing and not rest and not problems:
+        told = f"no table has web {missing[0]}; the crank has {count} webs: list each in a [[web]]"
+        problems.append(Problem("web", told))
+    if problems:
+        raise InputError(problems)
+    if rest:
+        tables |= dict.fromkeys(missing, rest[0])
+    return dict(sorted(tables.items()))
+
+
+class BareThrow(NamedTuple):
+    """A throw without webs.
+
+    Attributes:
+        radius_mm: Crank radius, mm.
+        z: Position along the crank, m.
+        pin_deg: Direction of its crank pin at crank angle 0, deg.
+    """
+
+    radius_mm: float
+    z: Figure
+    pin_deg: Figure
+
+
+def build_webs(model: EngineFile, throws: Sequence[BareThrow]) -> Webs:
+    """Return the webs and pins of a file with [[web]] tables.
+
+    Args:
+        model: Engine file.
+        throws: Throws of its crank, from the free end.
+
+    Raises:
+        InputError: A table has "fit", or the dimensions make no web.
+    """
+    bearing = take_pin(model)
+    tables = assign_tables(model, len(throws))
+    drawings = {number: _read_profile(model, number) for number in sorted(set(tables.values()))}
+    bodies: dict[tuple[int, float], WebBody] = {}
+    webs = []
+    pins = []
+    for throw, (throw_mm, z, pin_deg) in enumerate(throws):
+        for side in range(WEBS_ON_THROW):
+            web = WEBS_ON_THROW * throw + side + 1
+            number = tables[web]
+            key = number, throw_mm
+            if key not in bodies:
+                table = model.web[number - 1]
+                _refuse_fit(table, number)
+                bodies[key] = describe_web(table, f"web.{number}", throw_mm, drawings[number])
+            body = bodies[key]
+            apart = (MM * bearing.length + body.thickness) / 2
+            place = z - apart if side == 0 else z + apart
+            webs.append(CrankWeb(web, number, throw, place, pin_deg, body))
+        density = model.web[tables[WEBS_ON_THROW * throw + 1] - 1].density
+        pins.append(weigh_pin(bearing.diameter, bearing.bore, bearing.length, throw_mm, density))
+    return Webs(tuple(webs), tuple(pins))
+
+
+class PinSize(NamedTuple):
+    """Diameter, bore and length of the crank pins, mm."""
+
+    diameter: float
+    bore: float
+    length: float
+
+
+def take_pin(model: EngineFile) -> PinSize:
+    """Return the dimensions of the crank pins.
+
+    Raises:
+        InputError: One of them is missing.
+    """
+    bearing: Bearing | None = model.bearing
+    problems = []
+    for key, example in (("pin_diameter", 45), ("pin_length", 27)):
+        if bearing is None or getattr(bearing, key) is None:
+            hint = f"[[web]] needs it; give it, such as {key} = {example}"
+            problems.append(Problem.of_missing(f"bearing.{key}", hint))
+    if problems or bearing is None or bearing.pin_diameter is None or bearing.pin_length is None:
+        raise InputError(problems)
+    return PinSize(bearing.pin_diameter, bearing.pin_bore, bearing.pin_length)
+
+
+def _read_profile(model: EngineFile, number: int) -> Drawing | None:
+    """Return the drawing of a table's profile; None if it has none."""
+    name = model.web[number - 1].profile
+    if name is None:
+        return None
+    try:
+        return read_drawing(locate_beside(model.folder, name))
+    except BalcliError as error:
+        raise InputError([Problem(f"web.{number}.profile", str(error))]) from None
+
+
+def _refuse_fit(table: Web, number: int) -> None:
+    if key := table.to_fit:
+        message = Message(
+            '{path} is "fit": run balcli balance, which puts a figure in its place ({write} names '
+            "the new file)",
+            path=f"web.{number}.{key}",
+        )
+        raise InputError([Problem("", message)])
