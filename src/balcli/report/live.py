@@ -103,6 +103,8 @@ def explain_still(engine: Engine) -> str:
     """Return the reason why the page cannot compute an engine itself; empty if it can."""
     if engine.placed:
         return "it has several cranks"
+    if engine.webs is not None:
+        return "its webs are described by [[web]]"
     return next(_list_obstacles(engine), "")
 
 
@@ -117,8 +119,6 @@ def _list_obstacles(engine: Engine) -> Iterator[str]:
         yield "it has articulated rods"
     if c.harmonic:
         yield "its pistons have harmonic motion"
-    if model.web:
-        yield "its webs are described by [[web]]"
     if model.locomotive is not None:
         yield "it is a locomotive"
     if len(c.radius) > 1 or any(isinstance(figure, tuple) for figure in of_throws):
