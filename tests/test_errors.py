@@ -13,7 +13,7 @@ from typing import Any
 import pytest
 import typer
 from support.paths import ROOT
-from support.trees import list_trees
+from support.trees import list_nodes
 from typer.main import get_command
 
 import balcli
@@ -70,17 +70,17 @@ def test_errors_can_be_copied_and_pickled(renew: Any, error: BalcliError) -> Non
 
 
 # ------------------------------------------------------------------ all messages of the source
-def _list_trees() -> Iterator[tuple[str, ast.Module]]:
-    """The path of every module below `balcli`, and its syntax tree."""
-    for file, tree in list_trees():
-        yield str(file.relative_to(SOURCE)), tree
+def _list_modules() -> Iterator[tuple[str, tuple[ast.AST, ...]]]:
+    """The path of every module below `balcli`, and the nodes of its syntax tree."""
+    for file, nodes in list_nodes():
+        yield str(file.relative_to(SOURCE)), nodes
 
 
-def _list_kinds(trees: list[tuple[str, ast.Module]]) -> set[str]:
+def _list_kinds() -> set[str]:
     """The names of classes whose first argument is a text with arguments in braces."""
     kinds = {"ArgumentError", "Message"}
-    for _, tree in trees:
-        for node in ast.walk(tree):
+    for _, nodes in _list_modules():
+        for node in nodes:
             if isinstance(node, ast.ClassDef) and "ArgumentError" in map(ast.unparse, node.bases):
                 kinds.add(node.name)
     return kinds
@@ -88,10 +88,9 @@ def _list_kinds(trees: list[tuple[str, ast.Module]]) -> set[str]:
 
 def _list_texts() -> Iterator[tuple[str, ast.Call]]:
     """The place and the call of every `ArgumentError(…)` and `Message(…)`."""
-    trees = list(_list_trees())
-    kinds = _list_kinds(trees)
-    for path, tree in trees:
-        for node in ast.walk(tree):
+    kinds = _list_kinds()
+    for path, nodes in _list_modules():
+        for node in nodes:
             if path != "errors.py" and isinstance(node, ast.Call) and getattr(node.func, "id", None) in kinds:
                 yield f"{path}:{node.lineno}", node
 
@@ -149,11 +148,11 @@ def _is_of_a_command(path: str) -> bool:
 
 def test_no_message_below_the_commands_names_an_option() -> None:
     wrong = []
-    for path, tree in _list_trees():
+    for path, nodes in _list_modules():
         if _is_of_a_command(path):
             continue
-        docstrings = {id(node.value) for node in ast.walk(tree) if isinstance(node, ast.Expr)}
-        for node in ast.walk(tree):
+        docstrings = {id(node.value) for node in nodes if isinstance(node, ast.Expr)}
+        for node in nodes:
             if isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in docstrings:
                 wrong += [f"{path}:{node.lineno}: {node.value}"] if OPTION.search(node.value) else []
     assert wrong == []

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from support.commands import run_python
 from support.paths import PACKAGE, ROOT
-from support.trees import list_trees
+from support.trees import list_nodes
 
 import balcli
 from balcli import names
@@ -132,8 +132,8 @@ def find_layer(module: str) -> int:
 
 def find_users(table: str) -> Iterator[Path]:
     """The modules that import a table of names."""
-    for path, tree in list_trees():
-        for node in ast.walk(tree):
+    for path, nodes in list_nodes():
+        for node in nodes:
             if (
                 isinstance(node, ast.ImportFrom)
                 and node.module == "names"

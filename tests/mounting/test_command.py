@@ -92,21 +92,22 @@ def test_a_scheme_is_shown_next_to_the_engine(four):
 
 def test_other_engines_on_the_same_mounts(four, tmp_path):
     """Each as if it stood there alone; a body without an engine takes any."""
+    asked = ("--speeds", "1000:3000:500")
     text = ENGINE.replace("mass = 0.5\n", "mass = 0.4\n").replace('"four"', '"light four"')
     light = write(tmp_path / "light.toml", f"{text}[layout]\nfiring_order = [1, 3, 4, 2]\n{WIEBE}")
     gas = "Inertia and gas torque, with the same gas diagram at every speed."
-    assert " ".join(run_here("mounts", four, light).out.split()).count(gas) == 1
+    assert " ".join(run_here("mounts", four, light, *asked).out.split()).count(gas) == 1
     light.write_text(text, encoding="utf-8")
-    out = " ".join(run_here("mounts", four, light).out.split())
+    out = " ".join(run_here("mounts", four, light, *asked).out.split())
     assert re.search(r"With light four the largest force .* rpm \(.*%\); ", out)
     assert gas not in out
-    said = ask_json("mounts", four, light)
+    said = ask_json("mounts", four, light, *asked)
     (other,) = said["others"]
-    own = ask_json("mounts", "-", stdin=DAMPED.replace(ENGINE, text))
+    own = ask_json("mounts", "-", *asked, stdin=DAMPED.replace(ENGINE, text))
     assert (other["name"], other["response"]) == ("light four", own["response"])
-    on_bare = ask_json("mounts", "-", light, stdin=DAMPED.replace(ENGINE, ""))
+    on_bare = ask_json("mounts", "-", light, *asked, stdin=DAMPED.replace(ENGINE, ""))
     assert (on_bare["name"], on_bare["response"]) == ("light four", own["response"])
-    parts = {row["part"] for row in ask_csv("mounts", four, light)}
+    parts = {row["part"] for row in ask_csv("mounts", four, light, *asked)}
     assert {"mount", "light four: mount", "light four: point"} <= parts
 
 
@@ -119,7 +120,7 @@ def test_a_misfire_is_a_cylinder_whose_gas_does_nothing(tmp_path):
     assert ask_json("mounts", fired, "--misfire", "3", *asked) == ask_json("mounts", weak, *asked)
     beside = ask_json("mounts", fired, weak, "--misfire", "1", *asked)
     assert beside["response"]["no_gas_in"] == [1]
-    assert "no gas in cylinder 1, 3" in run_here("mounts", fired, weak, "--misfire", "1").out
+    assert "no gas in cylinder 1, 3" in run_here("mounts", fired, weak, "--misfire", "1", *asked).out
     assert "there is no cylinder 9: " in refusal("mounts", fired, "--misfire", "9")
 
 

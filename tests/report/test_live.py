@@ -215,8 +215,8 @@ def test_the_kernel_needs_nothing():
     assert "require(" not in text
 
 
-def test_the_site_page_is_small():
-    assert len(make_play_page().encode()) <= 600_000
+def test_the_site_page_is_small(play):
+    assert play.stat().st_size <= 600_000
 
 
 # ------------------------------------------------------------------ the address

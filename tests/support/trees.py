@@ -8,7 +8,7 @@ from .paths import PACKAGE
 
 
 @cache
-def list_trees() -> tuple[tuple[Path, ast.Module], ...]:
-    """The path of every module of the package, and its syntax tree."""
+def list_nodes() -> tuple[tuple[Path, tuple[ast.AST, ...]], ...]:
+    """The path of every module of the package, and all nodes of its syntax tree, a parent before its children."""
     files = sorted(PACKAGE.rglob("*.py"))
-    return tuple((file, ast.parse(file.read_text(encoding="utf-8"))) for file in files)
+    return tuple((file, tuple(ast.walk(ast.parse(file.read_text(encoding="utf-8"))))) for file in files)

@@ -338,6 +338,7 @@ def list_series(document: Node, place: int) -> Iterator[Figure]:
             yield Figure(key, value[place], find_unit(key).translate(IN_CSV))
 
 
+@cache  # a record has few different keys, many times
 def find_unit(key: str) -> str:
     """Return the unit with which a key ends; empty if there is none."""
     return next((UNITS[end] for end in UNITS if key == end or key.endswith(f"_{end}")), "")

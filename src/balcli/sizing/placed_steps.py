@@ -187,7 +187,8 @@ def _stay_at_throws(own: Remedy, options: SchemeOptions) -> Remedy:
     if options.planes != "throws":
         raise ArgumentError(
             "{planes}: the row has counterweights at every throw, which stay in the planes of the "
-            "throws; give throws, or {step} " + WEIGHTS
+            "throws; give throws, or {step} {weights}",
+            weights=WEIGHTS,
         )
     return own
 
