@@ -460,3 +460,27 @@ def test_an_internal_error_is_told_as_one(options):
         assert told.endswith(FAULT)
         assert (told == FAULT) is whole
         assert ("Traceback" in told) is not whole
+
+
+@pytest.mark.parametrize(
+    ("refusal", "coloured"), [({}, True), ({"NO_COLOR": "1"}, False), ({"TERM": "dumb"}, False), (None, False)]
+)
+def test_colours_are_for_terminals_and_change_no_word(balcli, monkeypatch, refusal, coloured):
+    """Red: an order that is not small; green: balanced; bold: the steps that are fitted. None: no terminal."""
+    monkeypatch.delenv("NO_COLOR", raising=False)
+    monkeypatch.setenv("TERM", "xterm")
+    for name, value in (refusal or {}).items():
+        monkeypatch.setenv(name, value)
+    args = "analyze", ENGINES / "i3.toml"
+    out = balcli(*args, terminal=refusal is not None).out
+    found = re.findall(r"\x1b\[(\d+)m *(.*?) *\x1b", out)
+    assert ("\x1b" in out) == coloured
+    if coloured:
+        assert [text for code, text in found if code == "31"] == ["2734", "282.9"]
+        assert {text for code, text in found if code == "32"} == {"balanced"}
+        steps = [text for code, text in found if code == "1" and text[0].isdigit()]
+        assert steps == ["2 counterweights at every throw", "3 shaft at -1"]
+    assert ESCAPE.sub("", out).split() == balcli(*args).out.split()
+    err = balcli("analyze", "none.toml", terminal=refusal is not None).err
+    assert ESCAPE.sub("", err) == "balcli: none.toml: no such file\n"
+    assert err.startswith("\x1b[31mbalcli:\x1b[0m ") == coloured

@@ -20,7 +20,17 @@ import typer
 from typer.core import TyperCommand, TyperGroup, TyperOption
 from typer.main import get_command
 
-from .errors import BalcliError, Exit, Loudness, name_option, note, say, set_loudness, warn
+from .errors import (
+    BalcliError,
+    Exit,
+    Loudness,
+    name_option,
+    note,
+    say,
+    say_error,
+    set_loudness,
+    warn,
+)
 from .limits import MOST_DIGITS
 from .names import import_name
 from .show.sheet import USUAL_DIGITS, set_digits
@@ -235,13 +245,13 @@ def main() -> NoReturn:
     try:
         sys.exit(_run())
     except BalcliError as error:
-        say(f"balcli: {error.tell(name_option)}")
+        say_error(error.tell(name_option))
     except typer.TyperException as error:
         say(_usage(error))
     except BrokenPipeError:  # the reader of the output closed the pipe
         sys.exit(Exit.DONE)
     except (OSError, MemoryError, UnicodeEncodeError) as error:
-        say(f"balcli: {_tell_what_the_system_lacks(error)}")
+        say_error(_tell_what_the_system_lacks(error))
     except typer.Abort:  # Ctrl-C when balcli runs inside another process
         sys.exit(Exit.INTERRUPTED)
     except SystemExit as end:

@@ -13,7 +13,7 @@ from functools import partial
 from itertools import islice
 from numbers import Real
 from os import PathLike
-from typing import Any, NamedTuple, Self, TypeVar
+from typing import Any, NamedTuple, Self, TextIO, TypeVar
 
 from .limits import MOST_LIST_VALUES
 
@@ -37,6 +37,21 @@ def say(text: str) -> None:
     """Print a message on standard error; if standard error is closed, do nothing."""
     with suppress(OSError):
         print(legible(text), file=sys.stderr, flush=True)
+
+
+def say_error(text: str) -> None:
+    """Print a message on standard error that begins with the name of the program; on a terminal,
+    the name is red.
+    """
+    name = "\x1b[31mbalcli:\x1b[0m" if is_coloured(sys.stderr) else "balcli:"
+    with suppress(OSError):
+        print(name, legible(text), file=sys.stderr, flush=True)
+
+
+def is_coloured(stream: TextIO | None) -> bool:
+    """Return whether a stream is a terminal whose user does not refuse colours."""
+    refused = os.environ.get("NO_COLOR") or os.environ.get("TERM") == "dumb"
+    return stream is not None and stream.isatty() and not refused
 
 
 class Loudness(IntEnum):

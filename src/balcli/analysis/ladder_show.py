@@ -19,6 +19,7 @@ from ..show.sheet import (
     UNKNOWN,
     Column,
     Grid,
+    Shade,
     capitalized,
     given,
     number,
@@ -53,7 +54,9 @@ def ladder_grid(
     """
     steps = ladder.steps
     scale = ladder.scale
-    columns = [Column("step", [f"{row} {step.step}" for row, step in enumerate(steps)], words=True)]
+    names = [f"{row} {step.step}" for row, step in enumerate(steps)]
+    applied = {row: Shade.APPLIED for row, step in enumerate(steps) if step.step in ladder.auto}
+    columns = [Column("step", names, words=True, shades=applied)]
     forces = [step.peak_force_N for step in steps]
     columns.append(_size_column(FORCE, forces, scale.force_N, system))
     if scale.moment_Nm is not None:
@@ -95,7 +98,9 @@ def _size_column(kind: Kind, sizes: list[float], of_one: float, system: System) 
     """
     unit = system.unit(kind).fit(max(sizes))
     cells = [_size_cell(size, of_one, unit) for size in sizes]
-    return Column(f"{kind.name}, {unit.name}", cells)
+    limit = _ROUNDING * of_one
+    shades = {row: Shade.BALANCED for row, size in enumerate(sizes) if size <= limit}
+    return Column(f"{kind.name}, {unit.name}", cells, shades=shades)
 
 
 def _size_cell(size: float, of_one: float, unit: ShownUnit) -> str:

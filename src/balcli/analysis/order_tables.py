@@ -21,6 +21,7 @@ from ..show.sheet import (
     Column,
     Facts,
     Grid,
+    Shade,
     capitalized,
     degrees,
     number,
@@ -29,6 +30,7 @@ from ..show.sheet import (
     size_text,
     small_text,
 )
+from ..sizing.residual import is_small
 
 if TYPE_CHECKING:
     from ..core.peaks import Peak
@@ -280,6 +282,22 @@ def _vector_table(kind: Kind, phasors: Phasors, unit: ShownUnit, every: bool) ->
     heads = ("largest", "smallest", "axis, deg", "with crank", "against")
     title = f"{capitalized(kind.label)} by order, {unit.name}"
     return _table(title, heads, [phasors], lambda k: write_vector(phasors, k, unit), every)
+
+
+def shade_sizes(phasors: Phasors, least: float | None) -> dict[int, Shade]:
+    """Return the shades of the largest values of all orders.
+
+    Args:
+        phasors: Force or moment.
+        least: Size from which a value is not small, SI; None: it is not known.
+    """
+    shades = {}
+    for k, size in enumerate(phasors.major.tolist()):
+        if phasors.balanced[k]:
+            shades[k] = Shade.BALANCED
+        elif least is not None and not is_small(size, least):
+            shades[k] = Shade.LARGE
+    return shades
 
 
 def _scalar_table(spectra: Spectra, unit: ShownUnit, roll: str, subject: str, every: bool) -> Grid:

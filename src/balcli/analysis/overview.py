@@ -4,6 +4,7 @@ peaks.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -14,7 +15,7 @@ from ..forces.spectrum import Spectra
 from ..show.engine_facts import tell_pivot
 from ..show.sheet import NEGLIGIBLE, Column, Facts, Grid, number, order_name, size_text, small_text
 from ..show.units import System
-from .order_tables import fit_largest, peak_facts, write_vector
+from .order_tables import fit_largest, peak_facts, shade_sizes, write_vector
 
 if TYPE_CHECKING:
     from .answer import Analysis
@@ -34,7 +35,14 @@ def find_orders_that_matter(spectra: Spectra, single: dict[str, float]) -> list[
     return [float(order) for order in spectra.orders[matters]]
 
 
-def vectors_grid(spectra: Spectra, shown: list[float], system: System, *, hints: bool) -> Grid:
+def vectors_grid(
+    spectra: Spectra,
+    shown: list[float],
+    system: System,
+    *,
+    hints: bool,
+    least: Mapping[str, float],
+) -> Grid:
     """Return a table of force and moment side by side, each with its vectors that turn with and
     against the crank. A line on the other orders follows.
 
@@ -43,13 +51,16 @@ def vectors_grid(spectra: Spectra, shown: list[float], system: System, *, hints:
         shown: Orders that have rows.
         system: System of units.
         hints: Whether to name the option that shows more.
+        least: Size from which a force or moment is not small, SI, by the name of its kind.
     """
     chosen = spectra.select_orders(shown)
     columns = [Column("order", [*map(order_name, chosen.orders)], words=True)]
     for kind, phasors in chosen.vectors():
         unit = fit_largest(system.unit(kind), phasors)
         rows = [write_vector(phasors, k, unit, 4) for k in range(len(shown))]
-        columns.append(Column(f"{kind.name}, {unit.name}", [row.largest for row in rows]))
+        sizes = [row.largest for row in rows]
+        shades = shade_sizes(phasors, least.get(kind.name))
+        columns.append(Column(f"{kind.name}, {unit.name}", sizes, shades=shades))
         columns.append(Column("with crank", [row.ahead for row in rows]))
         columns.append(Column("against", [row.against for row in rows]))
     title = "Largest by order, and its parts that turn with the crank and against it"

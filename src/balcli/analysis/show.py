@@ -182,7 +182,9 @@ def lay_out_orders(result: Analysis, system: System, view: View) -> Iterator[Gri
     if not view.every_order:
         shown = find_orders_that_matter(vectors, result.of_one_cylinder)
     if vectors.vectors():
-        yield vectors_grid(vectors, shown, system, hints=view.hints)
+        of_one = result.of_one_cylinder
+        least = {kind.name: result.small * of_one[kind.name] for kind in FREE}
+        yield vectors_grid(vectors, shown, system, hints=view.hints, least=least)
 
 
 def lay_out_couple(result: Analysis, system: System) -> Iterator[Grid]:

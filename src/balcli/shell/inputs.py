@@ -21,7 +21,7 @@ from ..errors import (
     legible,
     name_option,
     note,
-    say,
+    say_error,
     warn,
 )
 from ..file.toml import find_near_file, name_file, read_bytes
@@ -151,7 +151,7 @@ def try_each(
 def exit_on_errors(errors: Sequence[str]) -> None:
     """If there are messages, print them on standard error and end with exit status 2."""
     for text in errors:
-        say(f"balcli: {text}")
+        say_error(text)
     if errors:
         raise typer.Exit(Exit.BAD_INPUT)
 

@@ -5,8 +5,8 @@ precision, documents as JSON.
 from __future__ import annotations
 
 import json
-import os
 import re
+import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
@@ -15,6 +15,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Generic, NamedTuple, TypeAlias, TypeVar
 
 from ..core.records import Node, to_document
+from ..errors import is_coloured
 from ..version import __version__
 from .table import markdown, write_text
 
@@ -183,5 +184,4 @@ def lay_out(sheets: list[Sheet], form: Format, *, seen: bool) -> str:
         return markdown(sheets)
     if not seen:
         return write_text(sheets)
-    styled = not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb"
-    return write_text(sheets, get_terminal_size().columns, styled=styled)
+    return write_text(sheets, get_terminal_size().columns, styled=is_coloured(sys.stdout))

@@ -5,7 +5,9 @@ texts; and format their numbers.
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from enum import Enum, auto
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Generic, NamedTuple, TypeVar
 
 if TYPE_CHECKING:
@@ -41,6 +43,14 @@ NOTHING = "balanced"
 UNKNOWN = "–"  # words for a force of 0, and for an unknown force
 
 
+class Shade(Enum):
+    """What a terminal shows by the look of a cell, beside its words."""
+
+    LARGE = auto()  # a force or moment of an order that is not small
+    BALANCED = auto()
+    APPLIED = auto()  # a step whose devices are fitted
+
+
 class Column(NamedTuple):
     """A column of a table.
 
@@ -50,12 +60,14 @@ class Column(NamedTuple):
         words: Whether the cells are words, which are left-aligned and may be folded; figures are
             right-aligned and never folded.
         marked: Numbers of the rows whose cells are highlighted; the first row is 0.
+        shades: Shades of cells by the number of their row; other cells have none.
     """
 
     head: str
     cells: Sequence[str] = ()
     words: bool = False
     marked: Collection[int] = ()
+    shades: Mapping[int, Shade] = MappingProxyType({})
 
 
 class Grid(NamedTuple):

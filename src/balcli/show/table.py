@@ -12,7 +12,7 @@ from itertools import chain, zip_longest
 from typing import NamedTuple
 
 from ..errors import legible
-from .sheet import Column, Facts, Grid, Sheet, Text
+from .sheet import Column, Facts, Grid, Shade, Sheet, Text
 
 WIDTH = 80  # width of prose, and of tables if folding allows
 GAP = 3  # number of blanks between the columns of a grid
@@ -28,6 +28,7 @@ _BOLD = "1"
 _DIM = "2"
 _RED = "1;31"
 _PLAIN = ""  # ANSI codes
+_LOOKS = {Shade.LARGE: "31", Shade.BALANCED: "32", Shade.APPLIED: _BOLD}
 
 
 def write_text(sheets: Sequence[Sheet], width: int | None = None, *, styled: bool = False) -> str:
@@ -38,7 +39,8 @@ def write_text(sheets: Sequence[Sheet], width: int | None = None, *, styled: boo
     Args:
         sheets: Sheets to write.
         width: Width of the terminal; None: no terminal shows the text, and no table is divided.
-        styled: Whether escape sequences make titles bold and notes dim.
+        styled: Whether escape sequences make titles bold, notes dim, and large, balanced and
+            applied cells red, green and bold.
     """
     written = []
     for sheet in sheets:
@@ -116,10 +118,12 @@ def _grid_lines(grid: Grid, width: int) -> Iterator[list[Piece]]:
     yield from _row_lines(grid, [column.head for column in grid.columns], plain, widths, gap)
     yield [(rule, _PLAIN)]
     for i, row in enumerate(grid.rows):
-        styles = [_BOLD, *plain[1:]]
+        styles = list(plain)
         for k, column in enumerate(grid.columns):
             if i in column.marked:
                 styles[k] = _RED
+            elif i in column.shades:
+                styles[k] = _LOOKS[column.shades[i]]
         yield from _row_lines(grid, row, styles, widths, gap)
 
 
