@@ -95,6 +95,24 @@ def test_a_card_has_the_area_of_its_polygon(tmp_path):
         assert ask_json("torque", path)["imep_Pa"] == pytest.approx(1e5 * area, rel=1e-10)
 
 
+@pytest.mark.parametrize(
+    ("rows", "told"),
+    [
+        ([2, 4, 1, 3], "line 2: the first row is not at the smallest value"),
+        ([1, 3, 2, 4, 2], "line 4: the value turns back between the dead centres"),
+        ([1, 2, 4], "line 4: no row follows in the stroke that begins here"),
+        ([1, 3, 4, 2, 1, 2, 4, 2], "line 6: the card has 4 strokes; a cycle has 2"),
+    ],
+)
+def test_mistakes_in_a_card_have_lines(tmp_path, rows, told):
+    path = tmp_path / "steam.toml"
+    head, _, _ = PUMP.partition("[gas]")
+    path.write_text(head + '[gas]\nindicator = "card.csv"\n')
+    lines = "\n".join(f"{value},5" for value in rows)
+    (tmp_path / "card.csv").write_text(f"volume_cm3,pressure_bar\n{lines}\n")
+    assert f"gas.indicator: card.csv: {told}" in refusal("torque", path)
+
+
 def test_what_is_refused(pump):
     for old, new, told in (
         ("discharge = 4", "discharge = 1", "gas.discharge: 1 bar is not above suction = 1 bar"),

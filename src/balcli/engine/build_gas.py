@@ -497,7 +497,9 @@ def _list_contradictions(
     yield from _list_pump_mistakes(parts, gas, bores, rods)
     if not all(bores):
         yield Problem.of_missing("piston.bore", "the gas force needs it, such as bore = 86")
-    if not two_stroke and parts.order is None and len(parts.numbers) > 1:
+    compressor_only = all(_find_source(parts, gas, number).compresses for number in parts.numbers)
+    needs_order = not two_stroke and not compressor_only
+    if needs_order and parts.order is None and len(parts.numbers) > 1:
         message = "it sets in which of two turns each cylinder fires; example: [1, 3, 4, 2]"
         yield Problem.of_missing("layout.firing_order", message)
     for number, table in parts.model.cylinder.items():

@@ -73,9 +73,11 @@ def draw_card(
     each = zip(shares.tolist(), pressure.tolist(), columns.lines, strict=True)
     stroke_rows = _split_strokes(name, [_Row(*row) for row in each])
     if len(stroke_rows) != strokes:
+        superfluous = stroke_rows[strokes:]
+        line = superfluous[0][0].line if superfluous else columns.lines[-1]
         raise BalcliError(
-            f"{name}: has {counted(len(stroke_rows), 'stroke')}; a cycle has {strokes}, from the "
-            "smallest value to the largest and back"
+            f"{name}: line {line}: the card has {counted(len(stroke_rows), 'stroke')}; a cycle has "
+            f"{strokes}, from the smallest value to the largest and back"
         )
     from_inner = from_volume and crank_end  # the smallest value is at the inner dead centre
     first = piston.bottom if from_inner else 0.0
