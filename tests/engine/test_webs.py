@@ -9,8 +9,8 @@ import pytest
 from numpy.testing import assert_allclose
 from support.commands import ask
 
-from balcli import analyze, load
-from balcli.errors import InputError
+from balcli import SchemeOptions, analyze, balance, load
+from balcli.errors import ArgumentError, InputError
 
 FOUR = {
     "crank": {"stroke": 88, "throws": [0, 180, 180, 0], "spacing": 93},
@@ -210,3 +210,32 @@ def test_card_of_a_file_with_webs(tmp_path):
     (tmp_path / "e.toml").write_text(write_toml(FOUR) + "[[web]]\n" + write_toml({"": WEB}).replace("[]\n", ""))
     result = json.loads(ask("balance", str(tmp_path / "e.toml"), "--factor", "50%", "-f", "json"))
     assert result["counterweights"] == []
+
+
+def ask_weights(file, *options):
+    return json.loads(ask("balance", str(file), *options, "-f", "json"))["counterweights"]
+
+
+def test_planes_of_the_webs_halve_the_weights_at_every_throw(tmp_path):
+    """The webs balance 50 %: for 90 %, each needs 40 % of half of a cylinder's reciprocating mass."""
+    file = tmp_path / "e.toml"
+    file.write_text(write_toml(FOUR) + "[[web]]\n" + write_toml({"": WEB}).replace("[]\n", ""))
+    halves = ask_weights(file, "--factor", "90%", "--planes=webs")
+    assert_allclose([half["unbalance_kg_m"] for half in halves], 0.4 * 0.6936 * 0.044 / 2, rtol=1e-9)
+    places = [half["position_mm"] for half in halves]
+    assert_allclose(places, [-163.25, -115.75, -70.25, -22.75, 22.75, 70.25, 115.75, 163.25])
+    bare = {key: value for key, value in WEB.items() if key not in ("outer_radius", "opening")}
+    file.write_text(write_toml(FOUR) + "[[web]]\n" + write_toml({"": bare}).replace("[]\n", ""))
+    step = ["--step", "counterweights at every throw"]
+    whole = ask_weights(file, *step)
+    halves = ask_weights(file, *step, "--planes=webs")
+    assert [half["position_mm"] for half in halves] == pytest.approx(places)
+    sizes = np.array(
+        [[weight["unbalance_kg_m"] for weight in weights] for weights in (halves[::2], halves[1::2], whole)]
+    )
+    assert_allclose(sizes[:2], [sizes[2] / 2] * 2)
+
+
+def test_planes_of_webs_need_webs():
+    with pytest.raises(ArgumentError, match="webs: the file has no"):
+        balance(load({**FOUR}), "auto", SchemeOptions(planes="webs"))

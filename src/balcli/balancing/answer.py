@@ -41,7 +41,7 @@ from ..sizing.fit import list_to_fit, size_fit
 from ..sizing.ladder import Ladder, find_ladder
 from ..sizing.options import FIT, KNUCKLES, LADDER, SCHEMES, SchemeOptions
 from ..sizing.placed_steps import fit_steps
-from ..sizing.planes import FIELDS, DeviceTable, find_free, name_kind
+from ..sizing.planes import FIELDS, DeviceTable, find_free, name_kind, take_webs
 from ..sizing.remedy import Remedy, fit_devices
 from ..sizing.room import assume_skirt
 from ..sizing.sizing import size
@@ -209,6 +209,8 @@ def balance(
         asked = asked._replace(orders=orders)
     if tools is not None and tools.radius is not None and "radius" in SCHEMES.get(scheme, ()):
         asked = asked._replace(radius=tools.radius)
+    if asked.planes == "webs":
+        take_webs(engine)
     if scheme in LADDER:
         asked.check(scheme)
         ladder = find_ladder(engine, asked.read_small())

@@ -40,8 +40,8 @@ Position = Annotated[
 Planes = Annotated[
     str | None,
     optional(
-        "ends|throws|Z,Z...",
-        "Planes of the weights: at the end throws, at every throw, or at z in mm.",
+        "ends|throws|webs|Z,Z...",
+        "Planes of the weights: at the end throws, at every throw or web, or at z in mm.",
     ),
 ]
 Factor = Annotated[
@@ -70,7 +70,7 @@ def parse_scheme_options(
         order: Order to balance.
         at: Positions of shafts, each as `x,y`.
         position: Axial position of new devices.
-        planes: "ends", "throws", or axial positions of new weights.
+        planes: "ends", "throws", "webs", or axial positions of new weights.
         factor: Share of the reciprocating mass, or a range of shares.
         measured: Mass that, on a bare crank pin, balances the crankshaft.
         roll: "zero" to cancel the roll of inertia.
@@ -130,9 +130,9 @@ def choose_beside(asked: str | None, options: SchemeOptions) -> str | None:
 
 
 def _parse_planes(text: str, units: Units) -> str | tuple[float, ...]:
-    if text in ("ends", "throws"):
+    if text in ("ends", "throws", "webs"):
         return text
-    wanted = "ends, throws, or places along z in mm, such as -200,200"
+    wanted = "ends, throws, webs, or places along z in mm, such as -200,200"
     places = read_lengths("planes", text, wanted, units=units)
     if len(places) > 2 and len(set(places)) < len(places):
         warn(f'--planes "{text[:60]}": names a place twice; decimals take a point, not a comma')

@@ -111,7 +111,7 @@ _NUMBERS: dict[str, tuple[type, str]] = {
     "order": (Integral, "a whole number, such as 2"),
     "at": (Complex, "places x + iy in m, such as (-0.04 + 0.06j,)"),
     "position": (Real, "a place z in m, such as 0.1"),
-    "planes": (Real, '"ends", "throws", or places z in m, such as (-0.1, 0.1)'),
+    "planes": (Real, '"ends", "throws", "webs", or places z in m, such as (-0.1, 0.1)'),
     "factor": (Real, "shares, such as (0.5,)"),
     "measured": (Real, "a mass in kg, such as 0.812"),
     "orders": (Real, "orders, such as (1, 2)"),
@@ -136,7 +136,7 @@ class SchemeOptions(NamedTuple):
             shaft, in the order -1, -2, +2.
         position: Position z of new devices; compensators take one z, or two (fore and aft). Shafts
             of steps of the ladder take one z, which cancels only the force, or two.
-        planes: "ends", "throws", or positions z of new devices.
+        planes: "ends", "throws", "webs", or positions z of new devices.
         factor: Shares of the reciprocating mass to try; the best share is fitted; default: 0.5.
         measured: Mass on each bare pin that balances the crank, kg; the factor that
             follows from this mass is fitted, unless `factor` gives another one.
@@ -211,9 +211,10 @@ class SchemeOptions(NamedTuple):
             raise ArgumentError(
                 "{radius}: {value:g} mm; give a radius above 0", value=1e3 * self.radius
             )
-        if isinstance(self.planes, str) and self.planes not in ("ends", "throws"):
+        if isinstance(self.planes, str) and self.planes not in ("ends", "throws", "webs"):
             raise ArgumentError(
-                '{planes} "{word}": give ends, throws, or places along z', word=self.planes[:60]
+                '{planes} "{word}": give ends, throws, webs, or places along z',
+                word=self.planes[:60],
             )
         self._check_choices()
 

@@ -7,13 +7,15 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
+import numpy as np
+
 from ..engine.engine import Engine
 from ..errors import MOMENTS_UNKNOWN, Argument, ArgumentError
 from ..file.fields import join_words
 from .fitting import Fitting, Slot, explain_shaft, tell_moment
 from .ladder import WEIGHTS, WEIGHTS_AT_THROWS, Ladder, Step
 from .options import SchemeOptions
-from .planes import SAME_PLACE, find_carriers, find_planes, takes_moment
+from .planes import SAME_PLACE, find_carriers, find_planes, read_planes, takes_moment
 from .remedy import MomentLeft, Remedy, join_remedies
 from .residual import Residual, list_parts
 from .steps import add_at_ends, add_at_throws, ignore_compensators
@@ -171,7 +173,7 @@ def _place_step(start: Fitting, step: Step, options: SchemeOptions, places: _Pla
         if options.planes is None:
             return own
         if step.step == WEIGHTS_AT_THROWS:
-            return _stay_at_throws(own, options)
+            return _stay_at_throws(own, options, start.engine)
         names = {weight.engine or "" for weight in own.counterweights}
         carriers = find_carriers(start.engine)
         due = [sense for sense, crank in carriers.items() if crank.name in names]
@@ -182,8 +184,12 @@ def _place_step(start: Fitting, step: Step, options: SchemeOptions, places: _Pla
     return own
 
 
-def _stay_at_throws(own: Remedy, options: SchemeOptions) -> Remedy:
-    """Return counterweights at every throw; ArgumentError for other planes."""
+def _stay_at_throws(own: Remedy, options: SchemeOptions, engine: Engine) -> Remedy:
+    """Return counterweights at every throw, or halves of them in the planes of the webs;
+    ArgumentError for other planes.
+    """
+    if options.planes == "webs":
+        return _halve_between_webs(own, engine)
     if options.planes != "throws":
         raise ArgumentError(
             "{planes}: the row has counterweights at every throw, which stay in the planes of the "
@@ -191,6 +197,19 @@ def _stay_at_throws(own: Remedy, options: SchemeOptions) -> Remedy:
             weights=WEIGHTS,
         )
     return own
+
+
+def _halve_between_webs(own: Remedy, engine: Engine) -> Remedy:
+    """Return the remedy with half of each counterweight in the plane of each web of its throw."""
+    planes = np.array(read_planes(engine, SchemeOptions(planes="webs")))
+    devices = []
+    reasons = []
+    for weight, reason in zip(own.counterweights, own.reasons, strict=True):
+        for nearest in sorted(np.argsort(np.abs(1e3 * planes - weight.position))[:2]):
+            half = {"unbalance": (weight.unbalance or 0.0) / 2, "position": 1e3 * planes[nearest]}
+            devices.append(weight.model_copy(update=half))
+            reasons.append(reason)
+    return own._replace(devices=tuple(devices), reasons=tuple(reasons))
 
 
 def _add_weights(

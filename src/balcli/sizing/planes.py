@@ -10,7 +10,7 @@ import cmath
 import math
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
@@ -21,6 +21,9 @@ from ..file.fields import limit_digits
 from ..file.model import Counterweight, Shaft, Slider
 from .options import SchemeOptions
 from .residual import Residual, ResidualPart
+
+if TYPE_CHECKING:
+    from ..engine.webs.build import Webs
 
 SAME_PLACE = (
     "one plane, or planes at the same z, cannot take a moment; choose two planes with some "
@@ -141,10 +144,21 @@ def read_planes(engine: Engine, options: SchemeOptions) -> tuple[float, ...]:
         return tuple(dict.fromkeys(find_ends(engine)))
     if options.planes == "throws":
         return tuple(dict.fromkeys(float(z) for z in engine.throws_m))
+    if options.planes == "webs":
+        return tuple(float(web.z) for web in take_webs(engine).webs)
     places = options.planes if isinstance(options.planes, tuple) else ()
     if len(set(places)) > 1 and not engine.places_known:
         raise ArgumentError("{planes}: {unknown}", unknown=MOMENTS_UNKNOWN)
     return places
+
+
+def take_webs(engine: Engine) -> Webs:
+    """Return the webs of an engine; ArgumentError for a file without [[web]]."""
+    if engine.webs is None:
+        raise ArgumentError(
+            "{planes} webs: the file has no [[web]]; give ends, throws, or places along z"
+        )
+    return engine.webs
 
 
 def read_two_planes(engine: Engine, options: SchemeOptions) -> tuple[float, float]:
