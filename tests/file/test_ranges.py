@@ -145,6 +145,14 @@ def test_a_round_part_of_a_turn_in_radians_is_doubted(angle, doubted):
     assert ("counterweight.1.angle" in list_doubted(make(counterweight=[weight]))) == doubted
 
 
+@pytest.mark.parametrize(("opening", "doubted"), [(2.618, True), (150, False)])
+def test_the_opening_of_a_sector_in_radians_is_doubted(opening, doubted):
+    """Which keys are angles follows from the types of the tables, also of tables within tables."""
+    sector = {"outer_radius": 75, "opening": opening, "thickness": 18}
+    weight = {"position": 90, "sector": sector}
+    assert ("counterweight.1.sector.opening" in list_doubted(make(counterweight=[weight]))) == doubted
+
+
 def test_an_angle_with_its_unit_is_not_doubted():
     weight = {"unbalance": 3000, "position": 90, "angle": "2.618 deg"}
     assert list_doubted(make(counterweight=[weight])) == []

@@ -37,9 +37,6 @@ from ..sizing.sizing import size
 from ..sizing.workshop import Tools, find_practical
 
 AS_DRAWN = "as drawn"
-# Schemes whose devices no engine file can describe
-_ECCENTRIC_SLIDER = "eccentric-slider"
-_OLDHAM = "oldham"
 _NO_DEVICE = "it fits no device to this engine"
 
 
@@ -149,8 +146,8 @@ def _list_schemes() -> Iterator[tuple[str, str | None]]:
     """Yield each scheme but the rows of the ladder, with its designs. A scheme that needs an option
     is left out by its error.
     """
-    for scheme in SCHEMES:
-        if scheme == _ECCENTRIC_SLIDER:
+    for scheme, options in SCHEMES.items():
+        if "design" in options:
             yield from ((scheme, design) for design in DESIGNS)
         elif scheme not in LADDER or scheme == "auto":
             yield scheme, None
@@ -177,15 +174,12 @@ def _measure(
 
 
 def _count_parts(engine: Engine, remedy: Remedy) -> tuple[int, float]:
-    """Return number and mass of a scheme's parts. An eccentric slider is a pair of equal shafts.
-    Two Oldham couplings are two weights and two blocks, each of one mass.
-    """
+    """Return number and mass of a scheme's parts."""
     parts = len(remedy.devices)
     mass = sum(device.mass_kg for device in find_practical(engine, remedy, Tools()))
-    if remedy.scheme == _ECCENTRIC_SLIDER:
-        return parts + 2, mass + 2 * remedy.details["fitted"]["mass_kg"]
-    if remedy.scheme == _OLDHAM:
-        return parts + 4, mass + 4 * remedy.details["mass_kg"]
+    if remedy.parts_beyond is not None:
+        parts += remedy.parts_beyond.number
+        mass += remedy.parts_beyond.mass_kg
     return parts, mass
 
 

@@ -9,15 +9,27 @@ kind, only the value farthest out is named.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from itertools import pairwise
 from typing import NamedTuple
 
 from .doubt import Figure, walk_figures
 from .fields import WrittenFigure
-from .model import PISTON_PARTS, Counterweight, EngineFile, Shaft, Slider
+from .model import (
+    PISTON_PARTS,
+    Counterweight,
+    Crank,
+    EngineFile,
+    Gear,
+    Layout,
+    Override,
+    Sector,
+    Shaft,
+    Slider,
+)
 from .plain_tables import list_tables
-from .units import INERTIA, LENGTH, PRESSURE, UNBALANCE, Dimension, convert
+from .table import FileTable
+from .units import ANGLE, INERTIA, LENGTH, PRESSURE, UNBALANCE, Dimension, convert
 
 
 class Sizes(NamedTuple):
@@ -299,21 +311,14 @@ def _guess_unit(value: float, usual: Range) -> str:
 
 
 # ------------------------------------------------------------------ angles in radians
-_TABLES_OF_ANGLES = ("crank", "layout", "cylinder", "counterweight", "shaft", "slider")
-_ANGLES = frozenset(
-    {
-        "throws",
-        "splay",
-        "bank_angle",
-        "banks",
-        "row_angle",
-        "firing_intervals",
-        "bank",
-        "throw",
-        "angle",
-        "direction",
-    }
-)
+_TABLES_OF_ANGLES: dict[str, tuple[type[FileTable], ...]] = {
+    "crank": (Crank,),
+    "layout": (Layout,),
+    "cylinder": (Override,),
+    "counterweight": (Counterweight, Sector),
+    "shaft": (Shaft, Sector, Gear),
+    "slider": (Slider,),
+}
 _PARTS_OF_PI = (math.pi / 4, math.pi / 5, math.pi / 6, 2 * math.pi / 7)
 _NEAR = 0.002
 _SMALLEST_RADIANS = 0.5
@@ -325,21 +330,31 @@ def find_radians(model: EngineFile) -> Iterator[tuple[str, float]]:
     each key.
     """
     tables = list_tables(model)
-    seen = set()
-    for name in _TABLES_OF_ANGLES:
+    for name, classes in _TABLES_OF_ANGLES.items():
+        angles = _list_angles(classes)
+        seen = set()
         for path, _, value in walk_figures(name, tables.get(name)):
-            key = _name_key(path)
-            if key in seen or key.rpartition(".")[2] not in _ANGLES:
+            key = _name_key(path, angles)
+            if key in seen or key.rpartition(".")[2] not in angles:
                 continue
             if isinstance(value, float | int) and _is_radian(value):
                 seen.add(key)
                 yield key, value
 
 
-def _name_key(path: str) -> str:
-    """Return the key of a figure: without the number of a member of a list."""
+def _list_angles(classes: Iterable[type[FileTable]]) -> frozenset[str]:
+    """Return the keys of these tables whose bare numbers are degrees."""
+    angles = set[str]()
+    for table in classes:
+        keys = table.keys()
+        angles.update(key for key in keys if table.find_unit(key) == ANGLE.unit)
+    return frozenset(angles)
+
+
+def _name_key(path: str, angles: Collection[str]) -> str:
+    """Return the key of an angle: without the number of a member of a list."""
     parent, _, last = path.rpartition(".")
-    return parent if last.isdigit() and parent.rpartition(".")[2] in _ANGLES else path
+    return parent if last.isdigit() and parent.rpartition(".")[2] in angles else path
 
 
 def _is_radian(value: float) -> bool:

@@ -28,6 +28,18 @@ class MomentLeft(NamedTuple):
     moment_Nm: float
 
 
+class PartsBeyond(NamedTuple):
+    """Parts for which an engine file has no table.
+
+    Attributes:
+        number: Number of the parts.
+        mass_kg: Their mass, each at its radius.
+    """
+
+    number: int
+    mass_kg: float
+
+
 class Remedy(NamedTuple):
     """New devices as tables of the engine file, with reasons and notes.
 
@@ -45,7 +57,8 @@ class Remedy(NamedTuple):
             (scheme factor).
         sweep: Largest values for each of several factors (scheme factor).
         knuckle_angles_deg: New `articulation.knuckle_angles` (scheme knuckles).
-        beyond: Devices that no engine file can describe, in SI units.
+        beyond: Devices that no engine file can describe, in SI units: one for each order.
+        parts_beyond: The parts of which `beyond` are the orders; None: there are no such parts.
         start: Engine to which the devices are fitted, if it is not the engine of the file.
         step: Name of the step of the ladder whose row is fitted (scheme step).
         steps: Names of the steps of the ladder whose devices are fitted (scheme auto, and scheme
@@ -65,6 +78,7 @@ class Remedy(NamedTuple):
     sweep: tuple[FactorPeaks, ...] = ()
     knuckle_angles_deg: tuple[float, ...] = ()
     beyond: tuple[Device, ...] = ()
+    parts_beyond: PartsBeyond | None = None
     start: Engine | None = None
     step: str = ""
     steps: tuple[str, ...] | None = None

@@ -35,7 +35,7 @@ from ..engine.engine import Engine
 from ..errors import BalcliError
 from .fitting import Fitting
 from .options import CRITERIA, DESIGNS, SchemeOptions
-from .remedy import Remedy
+from .remedy import PartsBeyond, Remedy
 
 FORCES = ("orders 1+2", "all orders")  # engine force: cos theta + lambda cos 2 theta; exact force
 _LEAST_K = 1.2
@@ -301,7 +301,10 @@ def size_eccentric_slider(engine: Engine, options: SchemeOptions) -> Remedy:
         speed_law=_SPEED_LAW,
         definition=_ECCENTRIC_SLIDER,
     )
-    return fitting.remedy._replace(beyond=_make_shafts(engine, optima[chosen[0]], unit_kg_m))
+    return fitting.remedy._replace(
+        beyond=_make_shafts(engine, optima[chosen[0]], unit_kg_m),
+        parts_beyond=PartsBeyond(2, 2 * designs[chosen[0]]["mass_kg"]),  # a pair of equal shafts
+    )
 
 
 def _describe_shaft(
@@ -370,11 +373,12 @@ def size_oldham(engine: Engine, options: SchemeOptions) -> Remedy:
     weight = abs(first.force(-1))
     block = abs(second.force(-1))
     radius = options.radius or float(engine.cylinders.radius[0])
+    mass = weight / radius  # of a weight, and of a block
     fitting = fitting.add_details(
         first_order_kg_m=weight,
         block_kg_m=block,
         radius_mm=1e3 * radius,
-        mass_kg=weight / radius,
+        mass_kg=mass,
         eccentricity_mm=1e3 * radius * block / weight if weight else 0.0,
         shaft_speed_rpm=float(engine.speed_rpm),
         block_speed_rpm=2 * float(engine.speed_rpm),
@@ -382,7 +386,7 @@ def size_oldham(engine: Engine, options: SchemeOptions) -> Remedy:
         block_force_N=block * second.newtons_per_kg_m,
         definition=_OLDHAM,
     )
-    return fitting.remedy._replace(beyond=tuple(devices))
+    return fitting.remedy._replace(beyond=tuple(devices), parts_beyond=PartsBeyond(4, 4 * mass))
 
 
 def _require_one_cylinder(engine: Engine, scheme: str) -> None:
