@@ -104,10 +104,10 @@ def test_a_limit_of_stress_without_any_diameter_is_not_judged():
     asked = ("torsion", "-", "--speeds", "800,1600")
     said = run_here(*asked, stdin=text).out
     assert "barred speeds" not in said
-    assert "not checked  engine-flywheel, flywheel-pinion, wheel-pump: stress unknown" in said
+    assert "engine-flywheel, flywheel-pinion, wheel-pump: not checked (no diameter)." in said
     said = run_here(*asked, stdin=text.replace("limit = 40", "limit = 40\nangle_limit = 0.1")).out
-    assert "limit          40 N/mm² and ±0.1 deg at engine\nbarred speeds  800 to " in said
-    assert "not checked    engine-flywheel" in said
+    assert "limit          ±0.1 deg at engine\nbarred speeds  800 to " in said
+    assert "wheel-pump: not checked (no diameter)." in said
 
 
 def test_what_pendulums_leave_undamped_is_told():

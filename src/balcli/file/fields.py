@@ -8,7 +8,7 @@ import math
 import re
 import sys
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
-from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, get_args
 
 from ..core.records import Node
 from ..limits import (
@@ -359,6 +359,34 @@ class OneOrEach:
     ) -> Node:
         one = self.one.json()
         return {"anyOf": [one, handler(schema)]} | {key: one[key] for key in one.keys() & {"unit"}}
+
+
+class NumberOrTable:
+    """A figure, or a table that says how it depends on something else.
+
+    Args:
+        number: Type of a figure.
+    """
+
+    def __init__(self, number: Number) -> None:
+        self.number = number
+
+    def __get_pydantic_core_schema__(
+        self, source: object, handler: GetCoreSchemaHandler
+    ) -> CoreSchema:
+        from pydantic_core import core_schema
+
+        def read(value: object, read_table: Callable[[object], object]) -> object:
+            return read_table(value) if isinstance(value, Mapping) else self.number.read(value)
+
+        table = next(part for part in get_args(source) if part is not float)
+        schema = handler.generate_schema(table)
+        return core_schema.no_info_wrap_validator_function(read, schema)
+
+    def __get_pydantic_json_schema__(
+        self, schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> Node:
+        return {"anyOf": [self.number.json(), handler(schema)]}
 
 
 class ListOrEach:

@@ -4,19 +4,31 @@ between two nodes, and a damper on a node. Units are kg mm2, N m/rad, N m s/rad,
 
 import math
 from collections.abc import Iterator
+from itertools import pairwise
 from typing import Annotated
 
 from pydantic import Field
 
-from ..limits import MOST_TORSION_NODES
-from .fields import RIGID, Number, OneOf, OneOrEach, Whole
-from .table import INERTIA_ABOVE_0, Density, FileTable, GivenInertia, Name, Size
+from ..limits import MOST_LIST_VALUES, MOST_TORSION_NODES
+from .fields import (
+    RIGID,
+    Number,
+    NumberOrTable,
+    OneOf,
+    OneOrEach,
+    Whole,
+    WrittenFigure,
+    counted,
+    shorten,
+)
+from .table import INERTIA_ABOVE_0, Density, FileTable, GivenInertia, Name, Size, Speed
 from .units import (
     ANGLE,
     MASS,
     PLAIN,
     SHEAR_MODULUS,
     STRESS,
+    TORQUE,
     TORSIONAL_DAMPING,
     TORSIONAL_STIFFNESS,
 )
@@ -30,6 +42,99 @@ Loss = Annotated[float, Number(PLAIN, least=0, most=10)]
 
 
 STEEL = 7.85  # density of steel, g/cm3
+
+
+# Factors c_K of IACS UR M68 by the design of a shaft.
+DESIGN_FACTORS = {
+    "flange": 1.0,
+    "shrink-fit": 1.0,
+    "keyed-taper": 0.60,
+    "keyed-cylinder": 0.45,
+    "radial-hole": 0.50,
+    "slot": 0.30,
+    "thrust-collar": 0.85,
+    "propeller-keyless": 0.55,
+    "propeller-keyed": 0.55,
+    "stern-tube": 0.80,
+}
+
+
+class _DesignFactor(Number):
+    """The factor c_K of M68, or the word for a design."""
+
+    def read(self, value: object) -> float:
+        if not isinstance(value, str):
+            return super().read(value)
+        if value not in DESIGN_FACTORS:
+            words = ", ".join(DESIGN_FACTORS)
+            raise ValueError(f"{shorten(value)} is no design; give a number up to 1, or {words}")
+        return WrittenFigure(DESIGN_FACTORS[value], value)
+
+
+_STRESS = Number(STRESS, above=0, most=1e9)
+_TORQUE = Number(TORQUE, above=0, most=1e18)
+_SPEEDS = Annotated[tuple[Speed, ...], Field(min_length=2, max_length=MOST_LIST_VALUES)]
+
+
+class LimitBySpeed(FileTable):
+    """A limit that depends on the speed."""
+
+    speed: _SPEEDS | None = None
+    """Rising speeds. Example: [40, 60, 100]"""
+
+    def check_values(self, key: str) -> Iterator[str]:
+        """Yield messages about speeds and values that do not belong together.
+
+        Args:
+            key: Key of the values.
+        """
+        values = getattr(self, key)
+        if self.speed is None or values is None:
+            missing = "speed" if self.speed is None else key
+            yield f"lacks {missing}; give lists of speeds and values of the same length"
+            return
+        if len(values) != len(self.speed):
+            yield f"has {len(self.speed)} speeds, but {counted(len(values), 'value')} of {key}"
+        for before, after in pairwise(self.speed):
+            if after <= before:
+                yield f"has speeds that do not rise: {after:g} rpm after {before:g} rpm"
+                return
+
+
+class StressLimit(LimitBySpeed):
+    """A limit of the stress: a table over the speed, or a rule."""
+
+    stress: Annotated[tuple[Annotated[float, _STRESS], ...], Field(min_length=2)] | None = None
+    """Limits at these speeds, linear between them. Example: [70, 52, 30]"""
+    rule: Annotated[str, OneOf("M68")] | None = None
+    """Rule that gives the limit: IACS UR M68, for propulsion shafts. Example: 'M68'"""
+    tensile: Annotated[float, Number(STRESS, least=400, most=800)] | None = None
+    """Tensile strength, for a rule. Example: 600"""
+    ck: Annotated[float, _DesignFactor(PLAIN, above=0, most=1)] | None = None
+    """Factor of the design, for a rule: a number, or a word. Example: 'propeller-keyless'"""
+    rated_speed: Speed | None = None
+    """Rated speed, for a rule; default: operation.speed. Example: 99"""
+
+    def _check_form(self) -> Iterator[str]:
+        if self.rule is None:
+            yield from self.check_values("stress")
+            return
+        missing = [key for key in ("tensile", "ck") if not self.has(key)]
+        if missing:
+            yield f'has rule = "{self.rule}" and lacks {" and ".join(missing)}'
+        for key in ("speed", "stress"):
+            if self.has(key):
+                yield f"has rule and {key}; leave one of them out"
+
+
+class TorqueLimit(LimitBySpeed):
+    """A limit of the vibratory torque over the speed."""
+
+    torque: Annotated[tuple[Annotated[float, _TORQUE], ...], Field(min_length=2)] | None = None
+    """Limits at these speeds, linear between them. Example: [3800, 3000]"""
+
+    def _check_form(self) -> Iterator[str]:
+        yield from self.check_values("torque")
 
 
 class ShaftKeys(FileTable):
@@ -54,6 +159,12 @@ class ShaftKeys(FileTable):
     """Loss factor: imaginary part of the stiffness divided by its real part. Example: 0.035"""
     damping: Damping = 0.0
     """Damping of a dashpot between the ends of the shaft. Example: 20"""
+    limit: Annotated[float | StressLimit, NumberOrTable(_STRESS)] | None = None
+    """Largest permitted stress of this shaft: a number, a table over the speed, or a rule; left
+    out: that of all shafts. Example: 40"""
+    torque_limit: Annotated[float | TorqueLimit, NumberOrTable(_TORQUE)] | None = None
+    """Largest permitted vibratory torque of this shaft: a number, or a table over the speed.
+    Example: 5200"""
 
     @property
     def is_of_unnamed_steel(self) -> bool:
@@ -73,6 +184,11 @@ class ShaftKeys(FileTable):
 
     def _check_bore(self) -> Iterator[str]:
         yield from self.check_below("bore", "diameter")
+
+    def _check_limit(self) -> Iterator[str]:
+        rule = getattr(self.limit, "rule", None)
+        if rule is not None and self.diameter is None:
+            yield f'has limit with rule = "{rule}" without a diameter; give the diameter'
 
     def _check_density(self) -> Iterator[str]:
         if self.density is not None and (self.length is None or self.diameter is None):
@@ -152,8 +268,12 @@ class ChainKeys(FileTable):
 
     loss: Loss = 0.0
     """Loss factor of every shaft for which the file gives none. Example: 0.035"""
-    limit: Annotated[float, Number(STRESS, above=0, most=1e9)] | None = None
-    """Largest permitted stress of a shaft; speeds with a larger stress are barred. Example: 40"""
+    limit: Annotated[float, _STRESS] | None = None
+    """Largest permitted stress of every shaft without a limit of its own; speeds with a larger
+    stress are barred. Example: 40"""
+    torque_limit: Annotated[float, _TORQUE] | None = None
+    """Largest permitted vibratory torque of every shaft without a torque limit of its own; speeds
+    with a larger torque are barred. Example: 9000"""
     angle_limit: Annotated[float, Number(ANGLE, above=0, most=1e3)] | None = None
     """Largest permitted amplitude of the free end (in a chain file: of the first node); speeds with
     a larger amplitude are barred. Example: 0.3

@@ -44,8 +44,9 @@ from .modes import (
     find_natural_modes,
     tabulate_holzer,
 )
-from .response import TorsionResponse, find_barred, find_response
+from .response import TorsionResponse, find_response
 from .system import TorsionalSystem
+from .verdicts import Judgment, LimitVerdict, judge_system
 
 BEYOND = 1.5  # criticals up to this multiple of the file's speed are listed: engines overspeed
 BREAKING = 1000e6  # vibratory stress above which a warning is given, Pa: no steel bears it
@@ -170,6 +171,8 @@ class TorsionAnalysis(Result):
         holzer: Holzer's tables; left out if none was requested.
         response: Forced vibration; left out without speeds.
         damper: Sized damper, included in the other results; left out if none was requested.
+        limits: Verdict on each limit of a shaft, and the shafts that are not checked; left out
+            without a limit or without speeds.
         barred_rpm: First and last speed of each range in which a limit is exceeded; left out
             without a limit or without speeds.
         system: Analyzed system.
@@ -189,6 +192,7 @@ class TorsionAnalysis(Result):
     holzer: tuple[HolzerTable, ...] | None = None
     response: Asked[TorsionResponse] = Asked("speeds=[1500, 2000]")
     damper: Asked[SizedDamper] = Asked('damper="viscous", speeds=[1500, 2000]')
+    limits: Asked[tuple[LimitVerdict, ...]] = Asked(_LIMITED)
     barred_rpm: Asked[tuple[tuple[float, float], ...]] = Asked(_LIMITED)
     system: Annotated[TorsionalSystem, HIDDEN]
 
@@ -203,13 +207,21 @@ class TorsionAnalysis(Result):
         of_response = _find_doubts(self.response)
         law = excitation and excitation.gas and excitation.gas.law
         of_gas = law.list_doubts(self.response.speeds_rpm) if law else ()
-        return *self.system.doubts, *of_gas, *of_response
+        of_limits = _doubt_limits(self.system, self.response.speeds_rpm)
+        return *self.system.doubts, *of_gas, *of_response, *of_limits
 
     @property
     def summary(self) -> str:
         """Name, and the natural frequencies."""
         modes = ", ".join(f"{mode.frequency_Hz:.4g}" for mode in self.modes[:6])
         return f"of {self.name or 'a chain'}: modes at {modes} Hz"
+
+
+def _doubt_limits(system: TorsionalSystem, rpm: Real) -> Iterator[Doubt]:
+    """Yield warnings of limits that do not cover the range of speeds."""
+    for limit in system.limits:
+        for text in limit.limit.list_doubts(float(rpm[0]), float(rpm[-1])):
+            yield Doubt("", f"limit of {printable(system.shafts[limit.column])}: {text}")
 
 
 def _find_doubts(response: TorsionResponse) -> Iterator[Doubt]:
@@ -289,11 +301,11 @@ def _analyze_system(
     span = (0.0, BEYOND * system.rated_rpm) if system.rated_rpm else None
     outside = None
     response = None
-    barred = None
+    judgment = Judgment(None, None)
     if speeds is not None:
         span = float(speeds[0]), float(speeds[-1])
         response = find_response(system, speeds, tell)
-        barred = find_barred(system, speeds)
+        judgment = judge_system(system, speeds)
         outside = find_criticals_outside(system.require_excitation(), modes, span)
     return TorsionAnalysis(
         name=system.name or None,
@@ -308,7 +320,8 @@ def _analyze_system(
         criticals_outside=outside,
         holzer=tuple(_tabulate(system, modes, asked) for asked in question.holzer) or None,
         response=response,
-        barred_rpm=barred,
+        limits=judgment.verdicts,
+        barred_rpm=judgment.barred_rpm,
         system=system,
     )
 

@@ -11,7 +11,7 @@ part in front or behind is another node.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from types import MappingProxyType
 from typing import Any, NamedTuple
@@ -36,6 +36,7 @@ from ..file.torsion_tables import (
     NodeKeys,
     Part,
     ShaftKeys,
+    StressLimit,
     Torsion,
     find_shaft_inertia,
     find_stiffness,
@@ -55,6 +56,7 @@ from .chain import (
     rigid_motions,
 )
 from .chain_file import ChainFile, refuse_node
+from .permitted import LimitTable, ShaftLimit, list_limits
 from .system import Excitation, Pendulums, TorsionalSystem, ViscousRing
 
 NO_DAMPERS: Mapping[str, Damper | None] = MappingProxyType({})
@@ -130,6 +132,12 @@ def assemble_system(
     halves = np.array([find_shaft_inertia(table, table.density) / 2 for table in tables])
     np.add.at(chain.inertia, chain.start, halves * chain.ratio**2)
     np.add.at(chain.inertia, chain.end, halves)
+    stress_by_torque = np.array([*map(_find_stress, tables)])
+    own = len(joining)  # rubber rings have no limits
+    limits = list_limits(tables[:own], stress_by_torque[:own], keys, others.get("rated_rpm"))
+    if keys.angle_limit is not None:
+        permitted = LimitTable((1.0,), (math.radians(keys.angle_limit),))
+        limits = *limits, ShaftLimit(len(shafts), "angle", 1.0, permitted)
     losses = (keys.loss if table.loss is None else table.loss for table in tables)
     return TorsionalSystem(
         nodes=tuple(node.table.name for node in nodes),
@@ -140,7 +148,13 @@ def assemble_system(
             np.array([table.damping for table in tables]),
             np.array([node.damping for node in nodes]),
         ),
-        stress_by_torque=np.array([*map(_find_stress, tables)]),
+        stress_by_torque=stress_by_torque,
+        limits=limits,
+        unknown_stress=tuple(
+            k
+            for k, table in enumerate(tables[:own])
+            if not stress_by_torque[k] and (table.limit or keys.limit) is not None
+        ),
         rings=tuple(rings),
         pendulums=tuple(pendulums),
         limit_pa=None if keys.limit is None else keys.limit * 1e6,
@@ -290,11 +304,27 @@ def build_chain(
         assumed=assumed,
         file=name,
     )
+    named = [(f"shaft.{k}", shaft) for k, shaft in enumerate(file.shaft, 1)]
+    if problems := list(_find_unrated(named, "rated_speed")):
+        raise InputError(problems, name)
     paths = [f"shaft.{k}" for k, _ in enumerate(file.shaft, 1)]
     paths += [f"gear.{k}" for k, _ in enumerate(file.gear, 1)]
     if problems := list(_find_faults(system, paths)):
         raise InputError(problems, name)
     return system
+
+
+def _find_unrated(tables: Iterable[tuple[str, ShaftKeys]], wanted: str) -> Iterator[Problem]:
+    """Yield a problem for each rule of a limit that has no rated speed.
+
+    Args:
+        tables: Paths and tables of the shafts.
+        wanted: What would give the rated speed.
+    """
+    for path, table in tables:
+        limit = table.limit
+        if isinstance(limit, StressLimit) and limit.rule and limit.rated_speed is None:
+            yield Problem(f"{path}.limit", f"has no rated speed; give {wanted}")
 
 
 def _tell_apart(names: Sequence[str]) -> Iterator[str]:
@@ -418,7 +448,12 @@ def build_engine_system(
     throws = list_throws(engine)
     joints = _join_parts(torsion, throws)
     front = len(torsion.front)
-    if problems := list(_find_misfits(torsion, engine, throws, joints)):
+    problems = list(_find_misfits(torsion, engine, throws, joints))
+    own_speed = "speed" in model.operation.model_fields_set
+    if not own_speed:
+        wanted = "rated_speed, or the engine's operation.speed"
+        problems += _find_unrated(((path, part) for path, part, _ in joints), wanted)
+    if problems:
         raise InputError(problems, name)
     parts = [PlannedNode(part, part.node_damping) for _, part, _ in joints]
     nodes = [*parts[:front][::-1], *_plan_throws(torsion, engine, throws), *parts[front:]]
@@ -445,7 +480,6 @@ def build_engine_system(
         place[_find_end([j for j in led if j.path.startswith(f"torsion.{key}")], gears, start)]
         for key, start in (("front", throws[0]), ("rear", throws[-1]))
     )
-    own_speed = "speed" in model.operation.model_fields_set
     return assemble_system(
         nodes,
         [*leading[:front][::-1], *between, *leading[front:]],

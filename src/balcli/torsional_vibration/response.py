@@ -9,13 +9,12 @@ highest is then refined.
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
 import numpy as np
 
-from ..core.peaks import find_highest, find_peaks_between, find_swing, sum_amplitudes
+from ..core.peaks import find_highest, find_swing, sum_amplitudes
 from ..core.phases import RPM
 from ..core.vibration import ROUNDING, Indices, Real
 from ..file.fields import order_number
@@ -54,7 +53,7 @@ def find_largest(
     """
     refuse_unbounded(system, rpm)
     orders = system.require_excitation().orders
-    speeds = _add_resonances(system, rpm)
+    speeds = add_resonances(system, rpm)
     parts = compute_in_parts(system, speeds)
     heights = np.concatenate([np.append(sum_amplitudes(c), heat, axis=1) for c, heat in parts])
     columns = np.arange(heights.shape[1])
@@ -83,7 +82,7 @@ def find_largest(
     return find_highest(judge, speeds, heights, level, _NEAR)
 
 
-def _add_resonances(system: TorsionalSystem, rpm: Real) -> Real:
+def add_resonances(system: TorsionalSystem, rpm: Real) -> Real:
     """Return the speeds (rpm) and additional speeds about the damped resonances that orders meet
     between them. Resonances that are wide compared with the steps need no additional speeds.
     """
@@ -332,68 +331,3 @@ def _find_edge(speeds_rpm: Real, at: float, value: float) -> Edge | None:
     if at <= speeds_rpm[0]:
         return "first"
     return "last" if at >= speeds_rpm[-1] else None
-
-
-# ------------------------------------------------------------------ barred speeds
-_FINE = 0.003  # relative step with which a range is searched for barred speeds
-_CLOSE = 0.9  # a peak above this share of a limit may exceed the limit between the steps
-_HALVINGS = 24  # number of bisections of an interval of speeds in which a limit is passed
-
-
-def find_barred(system: TorsionalSystem, rpm: Real) -> tuple[tuple[float, float], ...] | None:
-    """Return the ranges of speed (rpm) in which a limit of the file is exceeded, between the first
-    and last of the speeds `rpm` (speeds,). None if no limit can be checked: a stress limit needs a
-    shaft with a diameter.
-
-    The examined speeds depend only on the ends of the range: fine steps, resonances, the tops of
-    peaks just below a limit and the bottoms of valleys just above it. The ends of a barred range
-    are found by bisection.
-    """
-    stress = system.stress_by_torque / (system.limit_pa or np.inf)
-    weights = np.append(stress, 1 / (system.angle_limit or np.inf))
-    if not weights.any():
-        return None
-    orders = system.require_excitation().orders
-
-    def measure(some: Real) -> Real:
-        """Return the largest ratio of stress or angle to its limit at speeds; 0 if far below 1."""
-        largest = []
-        for phasors, _ in compute_in_parts(system, some):
-            curves = phasors[:, :, : len(weights)] * weights
-            speed, curve = np.nonzero(sum_amplitudes(curves) > _CLOSE)
-            highest = np.zeros(curves.shape[1])
-            np.maximum.at(highest, speed, find_swing(orders, curves[:, speed, curve]).half)
-            largest.append(highest)
-        return np.concatenate(largest)
-
-    def judge(at: Real, which: Indices) -> Real:
-        return measure(at.ravel()).reshape(at.shape) * sign[which]
-
-    steps = max(math.ceil(math.log(rpm[-1] / rpm[0]) / _FINE), 1) if len(rpm) > 1 else 0
-    speeds = _add_resonances(system, np.geomspace(rpm[0], rpm[-1], steps + 1))
-    values = measure(speeds)
-    inner = values[1:-1]
-    before = values[:-2]
-    after = values[2:]
-    sign = np.where(inner <= 1, 1, -1)  # peaks below the limit, valleys above it
-    turns = np.all(sign * (inner - np.stack([before, after])) >= 0, axis=0)
-    places = np.flatnonzero(turns & (inner > _CLOSE) & (inner < 1 / _CLOSE))
-    if len(places):
-        sign = sign[places]
-        each = np.arange(len(places))
-        found, _ = find_peaks_between(judge, speeds[places], speeds[places + 2], each)
-        speeds = np.unique(np.append(speeds, found))
-    above = measure(speeds) > 1
-    changes = np.flatnonzero(above[1:] != above[:-1])
-    low = speeds[changes]
-    high = speeds[changes + 1]
-    upward = above[changes + 1]
-    for _ in range(_HALVINGS if len(changes) else 0):
-        middle = (low + high) / 2
-        same = (measure(middle) > 1) == upward
-        low = np.where(same, low, middle)
-        high = np.where(same, middle, high)
-    ends = (low + high) / 2
-    starts = [*speeds[:1][above[:1]].tolist(), *ends[upward].tolist()]
-    stops = [*ends[~upward].tolist(), *speeds[-1:][above[-1:]].tolist()]
-    return tuple(zip(starts, stops, strict=True))

@@ -42,6 +42,7 @@ from .answer import BEYOND, HolzerTable, TorsionAnalysis
 from .dampers import DAMPER_KEYS, FIGURES, SizedDamper
 from .response import Edge, TorsionResponse, WorstTorque
 from .system import TorsionalSystem
+from .verdicts import BarredRange, LimitVerdict
 
 _MOST_MODES = 5  # largest number of shapes in a table; more do not fit into a terminal
 _MOST_CRITICALS = 24  # largest number of listed criticals
@@ -131,9 +132,22 @@ def _list_extras(document: Node) -> Iterator[Line]:
         figures = list_figures(damper, ("node", "kind"))
         yield from _put(Line("damper", name=damper["node"]), figures)
     yield from _list_response(document.get("response", {}))
+    yield from _list_limits(document.get("limits", ()))
     for k, ends in enumerate(document.get("barred_rpm", ()), 1):
         for key, end in zip(("from", "to"), ends, strict=True):
             yield Line("barred", k, figure=key, value=end, unit="rpm")
+
+
+def _list_limits(limits: Iterable[Node]) -> Iterator[Line]:
+    """Yield the lines of each limit, and of the ranges in which it is exceeded."""
+    for k, limit in enumerate(limits, 1):
+        head = Line("limit", k, limit.get("speed_rpm"), name=limit["shaft"])
+        yield from _put(head, list_figures(limit, ("shaft", "speed_rpm", "barred")))
+        for span in limit.get("barred", ()):
+            of_range = Line("barred", k, span["peak_rpm"], name=limit["shaft"])
+            yield from _put(of_range, list_figures(span, ("peak_rpm", "rule_rpm")))
+            for key, end in zip(("rule_from", "rule_to"), span.get("rule_rpm", ()), strict=False):
+                yield from _put(of_range, [Figure(key, end, "rpm")])
 
 
 def _list_response(response: Node) -> Iterator[Line]:
@@ -199,8 +213,7 @@ def sheet(result: TorsionAnalysis, system: System) -> Sheet:
     parts += [_show_holzer(result, table, system) for table in result.holzer or ()]
     if hasattr(result, "response"):
         parts.append(_show_response(result, result.response, system))
-        if limits := tuple(_judge_limits(result, system)):
-            parts.append(Facts(limits, "Limits"))
+        parts += _show_limits(result, system)
     return Sheet(f"{result.name or 'shafts without a name'}: torsion", tuple(parts))
 
 
@@ -528,36 +541,123 @@ def _name_orders(torque: WorstTorque, unit: ShownUnit) -> str:
     return ", ".join(named)
 
 
-def _judge_limits(result: TorsionAnalysis, units: System) -> Iterator[tuple[str, str]]:
-    """Yield the limits of the file, the barred speeds, and the shafts that cannot be checked."""
-    system = result.system
-    limits = []
-    bare: list[str] = []
-    if system.limit_pa is not None:
-        limits.append(size_text(system.limit_pa, units.stress, None))
-        bare = list(_list_without_section(system))
-    if system.angle_limit is not None:
-        limits.append(f"±{number(math.degrees(system.angle_limit))} deg at {system.free_end}")
-    if limits:
-        yield "limit", " and ".join(limits)
+def _show_limits(result: TorsionAnalysis, system: System) -> Iterator[Grid | Facts | Text]:
+    """Yield the verdicts on shafts, the barred ranges of each, and the barred speeds of all."""
+    if hasattr(result, "limits"):
+        yield _show_verdicts(result, system)
+        if ranges := _show_ranges(result):
+            yield ranges
     if hasattr(result, "barred_rpm"):
         spans = ", ".join(map(_name_span, result.barred_rpm))
-        yield "barred speeds", spans or "none in this range"
-    if bare:
-        named = bare[:_MOST_LISTED]
-        if len(bare) > _MOST_LISTED:
+        facts = [("barred speeds", spans or "none in this range")]
+        if result.system.angle_limit is not None:
+            limit = number(math.degrees(result.system.angle_limit))
+            facts.insert(0, ("limit", f"±{limit} deg at {result.system.free_end}"))
+        yield Facts(tuple(facts))
+
+
+def _show_verdicts(result: TorsionAnalysis, system: System) -> Grid | Text:
+    """Return the verdict on each limit; the note names shafts that are not checked or fail."""
+    checked = [verdict for verdict in result.limits if verdict.share is not None]
+    title = f"Limits, {_name_span(result.response.speeds_rpm)}"
+    note = " ".join((*_name_unchecked(result.limits), *_name_failures(result.limits)))
+    if not checked:
+        return Text(title, (note,))
+    torque = system.moment.fit(max(verdict.limit_Nm or 0.0 for verdict in checked))
+    ruled = any(verdict.rule for verdict in checked)
+    heads = [
+        Column("shaft", words=True),
+        Column("largest"),
+        Column("limit"),
+        Column("unit", words=True),
+        Column("at rpm"),
+        Column("share"),
+        Column("verdict", words=True),
+    ]
+    if ruled:
+        heads.insert(1, Column("rule", words=True))
+    rows = []
+    for verdict in checked:
+        row = _show_verdict(verdict, system.stress.fit(0.0), torque)
+        if ruled:
+            row.insert(1, verdict.rule or UNKNOWN)
+        rows.append(row)
+    return Grid.of_rows(title, heads, rows, note)
+
+
+def _show_verdict(verdict: LimitVerdict, stress: ShownUnit, torque: ShownUnit) -> list[str]:
+    """Return the row of a limit, without its rule."""
+    stressed = verdict.kind == "stress"
+    unit = stress if stressed else torque
+    value = verdict.value_Pa if stressed else verdict.value_Nm
+    limit = verdict.limit_Pa if stressed else verdict.limit_Nm
+    return [
+        verdict.shaft,
+        number(unit.of(value or 0.0)),
+        number(unit.of(limit or 0.0)),
+        unit.name,
+        number(verdict.speed_rpm or 0.0),
+        f"{verdict.share:.0%}",
+        verdict.verdict,
+    ]
+
+
+def _name_unchecked(verdicts: Iterable[LimitVerdict]) -> Iterator[str]:
+    """Yield a sentence for each reason why shafts are not checked."""
+    reasons: dict[str, list[str]] = {}
+    for verdict in verdicts:
+        if verdict.share is None:
+            reasons.setdefault(verdict.reason or "", []).append(verdict.shaft)
+    for reason, names in reasons.items():
+        named = names[:_MOST_LISTED]
+        if len(names) > _MOST_LISTED:
             named.append("...")
-        yield "not checked", f"{', '.join(named)}: stress unknown without a diameter"
+        yield f"{', '.join(named)}: not checked ({reason})."
 
 
-def _list_without_section(system: TorsionalSystem) -> Iterator[str]:
-    """Yield the names of the elastic shafts of unknown section, whose stress is not known."""
-    rings = system.nodes[system.last + 1 :]  # rubber has no section
-    for name, stress, stiffness in zip(
-        system.shafts, system.stress_by_torque, system.chain.stiffness, strict=True
-    ):
-        if not stress and math.isfinite(stiffness) and name not in rings:
-            yield name
+def _name_failures(verdicts: Iterable[LimitVerdict]) -> Iterator[str]:
+    """Yield a sentence for each limit that fails."""
+    for verdict in verdicts:
+        if verdict.verdict == "fails":
+            yield f"{verdict.shaft} fails: {verdict.reason}."
+
+
+def _show_ranges(result: TorsionAnalysis) -> Grid | None:
+    """Return the barred ranges of each limit; None if there are none."""
+    ruled = any(verdict.rule and verdict.barred for verdict in result.limits)
+    heads = [
+        Column("shaft", words=True),
+        Column("rpm", words=True),
+        Column("peak"),
+        Column("share"),
+    ]
+    if ruled:
+        heads += [Column("transient"), Column("M68 range, rpm", words=True)]
+    rows = []
+    for verdict in result.limits:
+        for span in verdict.barred or ():
+            row = [verdict.shaft, _name_range(span), number(span.peak_rpm), f"{span.share:.0%}"]
+            if ruled:
+                share = span.transient_share
+                row.append(UNKNOWN if share is None else f"{share:.0%}")
+                row.append(UNKNOWN if span.rule_rpm is None else _name_ends(span.rule_rpm))
+            rows.append(row)
+    return Grid.of_rows("Barred speeds", heads, rows, "") if rows else None
+
+
+def _name_range(span: BarredRange) -> str:
+    """Return a barred range in words; a side on which only the speeds end is open."""
+    if span.open == "both":
+        return f"all from {number(span.from_rpm)} to {number(span.to_rpm)}"
+    if span.open == "below":
+        return f"below {number(span.to_rpm)}"
+    if span.open == "above":
+        return f"above {number(span.from_rpm)}"
+    return _name_ends((span.from_rpm, span.to_rpm))
+
+
+def _name_ends(ends: tuple[float, float]) -> str:
+    return f"{number(ends[0])} to {number(ends[1])}"
 
 
 RENDERER = Renderer(sheet=sheet, rows=rows)

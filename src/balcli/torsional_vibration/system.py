@@ -18,6 +18,7 @@ from ..file.assumed import Assumed
 from ..file.doubt import Doubt
 from ..forces.spectrum import GasAtSpeeds
 from .chain import Chain, Damping, find_pieces, pendulum_inertia, pendulum_swing, viscous_inertia
+from .permitted import ShaftLimit
 
 
 class ViscousRing(NamedTuple):
@@ -86,6 +87,8 @@ class TorsionalSystem:
         pendulums: Pendulums, which are not nodes of the chain.
         excitation: Torques by order; None: no excitation.
         limit_pa: Stress above which a speed is barred.
+        unknown_stress: Indices of shafts with a stress limit, but without a diameter.
+        limits: Limits of stress and torque, in the order of the shafts, stress first.
         angle_limit: Half swing of the free end, rad, above which a speed is barred.
         last: Index of the last node that is not a rubber ring.
         ends: Indices of the nodes at the free end and at the rear end, without branches.
@@ -108,6 +111,8 @@ class TorsionalSystem:
     excitation: Excitation | None = None
     limit_pa: float | None = None
     angle_limit: float | None = None
+    unknown_stress: tuple[int, ...] = ()
+    limits: tuple[ShaftLimit, ...] = ()
     last: int = -1
     ends: tuple[int, int] = (0, -1)
     doubts: tuple[Doubt, ...] = ()
@@ -129,6 +134,18 @@ class TorsionalSystem:
         if not len(self.excitation.orders):
             raise BalcliError("has no excitation at the requested orders").within(self.file)
         return self.excitation
+
+    @property
+    def checkable(self) -> frozenset[int]:
+        """Indices of the shafts that a limit may judge: elastic, and not the rubber of a ring."""
+        first_ring = len(self.shafts) - (len(self.nodes) - 1 - self.last)
+        elastic = np.flatnonzero(np.isfinite(self.chain.stiffness)).tolist()
+        return frozenset(shaft for shaft in elastic if shaft < first_ring)
+
+    @property
+    def without_diameter(self) -> frozenset[int]:
+        """Indices of the shafts with a stress limit whose stress is not known."""
+        return frozenset(self.unknown_stress)
 
     @property
     def free_end(self) -> str:

@@ -1,0 +1,90 @@
+"""Limits of stress and torque by part and speed, and the verdict on each shaft."""
+
+import json
+
+import pytest
+from support.chains import chain_text
+from support.commands import ask_torsion, refusal, run_here
+
+from balcli.torsional_vibration.permitted import M68, LimitTable
+
+TORQUES = [("engine", 2, 300, 60), ("engine", 1, 0, 95)]
+NODES = {"engine": 12, "pump": {"inertia": "5 kg m^2", "damping": 30}}
+
+
+def write_pair(**shaft):
+    own = {"stiffness": 9.0e4, "loss": 0.03, "diameter": 70} | shaft
+    return chain_text(NODES, {("engine", "pump"): own}, TORQUES)
+
+
+def test_a_limit_over_the_speed_is_linear_and_judged_on_the_curve_itself():
+    """Figures of a dense complex solution with the roots of the derivative's polynomial."""
+    text = write_pair(limit={"speed": [600, 1500], "stress": [20, 11]})
+    out = run_here("torsion", "-", "--speeds", "500:1600:25", "--format", "json", stdin=text)
+    assert "outside its speeds the limit of 600 rpm is used at 500 rpm" in out.err
+    answer = json.loads(out.out)
+    (limit,) = answer["limits"]
+    assert (limit["shaft"], limit["kind"], limit["verdict"]) == ("engine-pump", "stress", "barred")
+    assert limit["share"] == pytest.approx(1.3092519018553002, rel=1e-8)
+    assert limit["speed_rpm"] == pytest.approx(762.3125507640616, rel=1e-6)
+    assert limit["value_Pa"] == pytest.approx(24059957.879277676, rel=1e-7)
+    assert limit["limit_Pa"] == pytest.approx(18376874.492359385, rel=1e-7)
+    (barred,) = limit["barred"]
+    assert barred["from_rpm"] == pytest.approx(743.9019219602983, rel=1e-8)
+    assert barred["to_rpm"] == pytest.approx(780.666410861686, rel=1e-8)
+    assert answer["barred_rpm"] == [[barred["from_rpm"], barred["to_rpm"]]]
+
+
+@pytest.mark.parametrize(
+    ("speeds", "side"),
+    [("700:760:5", "above"), ("770:900:5", "below"), ("750:770:5", "both"), ("700:900:5", None)],
+)
+def test_a_range_that_ends_only_with_the_speeds_is_open(speeds, side):
+    (limit,) = ask_torsion(write_pair(limit=18), "--speeds", speeds)["limits"]
+    (barred,) = limit["barred"]
+    assert barred.get("open") == side
+
+
+@pytest.mark.parametrize(("share", "verdict"), [(0.999, "barred"), (1.001, "passes")])
+def test_a_shaft_passes_if_its_largest_value_is_below_the_limit(share, verdict):
+    worst = ask_torsion(write_pair(), "--speeds", "700:900:5")["response"]["shafts"][0]["worst"]
+    limits = {"limit": worst["stress_Pa"] / 1e6 * share, "torque_limit": worst["half_peak_to_peak_Nm"] * share}
+    stress, torque = ask_torsion(write_pair(**limits), "--speeds", "700:900:5")["limits"]
+    assert (stress["kind"], torque["kind"]) == ("stress", "torque")
+    for limit in (stress, torque):
+        assert limit["verdict"] == verdict
+        assert limit["share"] == pytest.approx(1 / share, rel=1e-7)
+
+
+def test_m68_at_two_diameters_and_speeds():
+    """By hand: c_D = 0.35 + 0.93/sqrt(4) at 1024 mm and 0.35 + 0.93/2 = 0.815 at 32 mm."""
+    rule = M68(tensile=560, factor=0.5, diameter=1024, rated_rpm=100)
+    assert rule.at(50) == pytest.approx(40 * 0.5 * (0.35 + 0.93 / 4) * 2.5 * 1e6)
+    assert rule.at(89.9999) == pytest.approx(float(rule.at(90)), rel=1e-5)
+    assert rule.at(120) == pytest.approx(40 * 0.5 * (0.35 + 0.93 / 4) * 1.38 * 1e6)
+    assert rule._replace(diameter=32).at(50) == pytest.approx(40 * 0.5 * 0.815 * 2.5 * 1e6)
+    assert rule._replace(factor=1).transient == pytest.approx(1.7)
+    assert rule._replace(factor=0.25).transient == pytest.approx(3.4)
+    assert rule.range_about(50) == pytest.approx((16 * 50 / 17.5, 17.5 * 50 / 16))
+
+
+def test_a_limit_by_speed_has_the_nearest_value_outside():
+    table = LimitTable((40, 60, 100), (70, 52, 30))
+    assert [float(table.at(rpm)) for rpm in (20, 40, 50, 80, 100, 200)] == pytest.approx([70, 70, 61, 41, 30, 30])
+
+
+@pytest.mark.parametrize(
+    ("shaft", "told"),
+    [
+        ({"limit": {"rule": "M68", "ck": 1, "rated_speed": 900}}, 'shaft.1.limit: has rule = "M68" and lacks tensile'),
+        ({"limit": {"rule": "M68", "tensile": 500, "ck": 1}}, "shaft.1.limit: has no rated speed; give rated_speed"),
+        ({"limit": {"rule": "M68", "tensile": 399, "ck": 1}}, "399 is less than 400"),
+        ({"limit": {"rule": "M53", "tensile": 500, "ck": 1}}, '"M53" is not "M68"'),
+        ({"limit": {"rule": "M68", "tensile": 500, "ck": "hub"}}, "keyed-taper"),
+        ({"limit": {"speed": [600, 500], "stress": [1, 2]}}, "speeds that do not rise: 500 rpm after 600 rpm"),
+        ({"limit": {"speed": [600, 700], "stress": [1, 2, 3]}}, "has 2 speeds, but 3 values of stress"),
+        ({"torque_limit": {"speed": [600, 700]}}, "lacks torque"),
+    ],
+)
+def test_a_mistake_in_a_limit_is_told(shaft, told):
+    assert told in refusal("torsion", "-", "--speeds", "700:900:5", stdin=write_pair(**shaft))
