@@ -76,7 +76,7 @@ def test_an_option_makes_a_difference_or_is_refused(scheme, option):
 
 def test_planes_are_named_or_given():
     engine = build_text(SMALL["vee"])
-    with pytest.raises(BalcliError, match=r'planes "left": give ends, throws, or places along z$'):
+    with pytest.raises(BalcliError, match=r'planes "left": give ends, throws, webs, or places along z$'):
         size_scheme(engine, "counterweights", planes="left")
     with pytest.raises(BalcliError, match=r"planes: give ends, or two places along z, for opposite eccentrics$"):
         size_scheme(engine, "couple-shaft", planes=(-0.1, 0.0, 0.1))

@@ -44,8 +44,8 @@ def test_shafts_cancel_both_rotating_vectors_at_every_bank_angle(gamma):
     engine = flat_plane(gamma)
     half = math.radians(gamma / 2)
     found = unbalances(engine)
-    assert abs(found.get(2, 0j)) * 4 == pytest.approx(K * abs(math.cos(half)), abs=1e-13 * K)  # (2 omega)^2 = 4 omega^2
-    assert abs(found.get(-2, 0j)) * 4 == pytest.approx(K * abs(math.cos(3 * half)), abs=1e-13 * K)
+    assert abs(found.get(2, 0j)) * 4 == pytest.approx(K * abs(math.cos(half)), abs=1e-11 * K)  # (2 omega)^2 = 4 omega^2
+    assert abs(found.get(-2, 0j)) * 4 == pytest.approx(K * abs(math.cos(3 * half)), abs=1e-11 * K)
     after = compute_spectra(fit_scheme(engine, "two-shaft", order=2), [2], ("force", "moment"))
     assert after.force.balanced.all()
     assert after.moment.balanced.all()
@@ -58,21 +58,21 @@ def test_places_that_add_no_roll(gamma):
     remedy = size_scheme(engine, "two-shaft", order=2, at=(0.06 + 0.08j,))
     place = {s.ratio: complex(*s.at) for s in remedy.shafts}
     ratio = abs(place[2]) / abs(place[-2])
-    assert ratio == pytest.approx(abs(math.cos(3 * half)) / math.cos(half), rel=1e-12)  # (4.2), corrected
+    assert ratio == pytest.approx(abs(math.cos(3 * half)) / math.cos(half), rel=1e-11)  # (4.2), corrected
     between = (cmath.phase(place[2]) + cmath.phase(place[-2])) / math.pi  # beta1 + beta2 = k pi from its x axis
     assert between == pytest.approx(round(between), abs=1e-12)  # (4.1); his x is our y: k odd and even swap
     rolls = [compute_spectra(e, [2], ("roll",)).roll.forward[0] for e in (engine, fit_devices(engine, remedy))]
-    assert abs(rolls[1] - rolls[0]) <= 1e-13 * K * engine.omega**2 * 0.1
+    assert abs(rolls[1] - rolls[0]) <= 1e-11 * K * engine.omega**2 * 0.1
 
 
 def test_sixty_degrees_needs_one_shaft_on_the_crank_axis_or_two_halves():
     engine = flat_plane(60)
     (one,) = size_scheme(engine, "two-shaft", order=2).shafts
     assert (one.ratio, one.at) == (2, (0.0, 0.0))
-    assert 4 * one.unbalance / 1e6 == pytest.approx(2 * math.sqrt(3) * K / 4, rel=1e-14)  # 2 sqrt3 A2 m r omega^2
+    assert 4 * one.unbalance / 1e6 == pytest.approx(2 * math.sqrt(3) * K / 4, rel=1e-11)  # 2 sqrt3 A2 m r omega^2
     halves = size_scheme(engine, "two-shaft", order=2, at=(0.03 + 0.04j,)).shafts
     assert sorted(h.at for h in halves) == [(-30.0, -40.0), (30.0, 40.0)]
-    assert [h.unbalance for h in halves] == [one.unbalance / 2] * 2
+    assert [h.unbalance for h in halves] == pytest.approx([one.unbalance / 2] * 2, rel=1e-11)
 
 
 @pytest.mark.parametrize("gamma", EVERY_ANGLE)
@@ -82,7 +82,7 @@ def test_sliders(gamma):
     wanted = sorted(K / 4 * abs(math.cos(3 * half) + sign * math.cos(half)) for sign in (1, -1))
     found = {s.direction: s.unbalance / 1e6 for s in size_scheme(flat_plane(gamma), "slider", order=2).sliders}
     sizes = sorted([0.0] * (2 - len(found)) + list(found.values()))
-    assert sizes == pytest.approx(wanted, abs=1e-13 * K)
+    assert sizes == pytest.approx(wanted, abs=1e-11 * K)
     assert set(found) <= {0.0, 90.0, -90.0}
     if gamma == 90:
         assert set(found) <= {90.0, -90.0}  # m_zv = 0

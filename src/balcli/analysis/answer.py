@@ -356,7 +356,7 @@ def list_idle_defaults(engine: Engine, wanted: Collection[str]) -> set[str]:
     due = {*wanted}
     if engine.gas is not None and due.intersection(EXTRAS) - {"masses"}:
         due.add("gas")
-    of_throws = {*_WITH_THROWS, "masses"}
+    of_throws = {*_WITH_THROWS, "masses", "parts"}
     if engine.ripple:
         of_throws |= list_with("turning")
     if any(engine.reference_m[:2]):

@@ -12,7 +12,7 @@ from contextlib import suppress
 from typing import Any
 
 from ..core.records import Node
-from .fields import limit_digits
+from .fields import drop_last_digits
 
 HEADER = re.compile(r"^[ \t]*\[{1,2}[ \t]*([\w.-]+)[ \t]*\]{1,2}[ \t]*(?:#.*)?$", re.MULTILINE)
 
@@ -34,7 +34,7 @@ def set_keys(text: str, table: str, keys: Mapping[str, object], note: str) -> st
     """
     from tomlkit.exceptions import TOMLKitError
 
-    keys = {key: limit_digits(value) for key, value in keys.items()}
+    keys = {key: drop_last_digits(value) for key, value in keys.items()}
     wanted = tomllib.loads(text)
     place: Any = wanted
     for name in table.split("."):
@@ -89,8 +89,8 @@ def rewrite(data: Mapping[str, object], reason: str) -> str:
 
 
 def format_value(value: object) -> str:
-    """Return a value, list or table in TOML, on one line. Numbers have at most twelve significant
-    digits.
+    """Return a value, list or table in TOML, on one line. Rounding errors in the last digits are
+    left out (40480.2 in place of 40480.200000000004); a seventh of a turn keeps all digits.
     """
     if isinstance(value, (list, tuple)):
         return f"[{', '.join(map(format_value, value))}]"
@@ -99,7 +99,7 @@ def format_value(value: object) -> str:
         return f"{{ {inner} }}"
     if isinstance(value, (str, bool)):
         return json.dumps(value, ensure_ascii=False)
-    return repr(limit_digits(value))
+    return repr(drop_last_digits(value))
 
 
 def _find_section(text: str, table: str) -> Iterator[tuple[int, int, str]]:

@@ -98,6 +98,24 @@ def limit_digits(value: object) -> Any:
     return value
 
 
+_LAST_DIGITS = 1e-15  # relative rounding error of a few operations
+
+
+def drop_last_digits(value: object) -> Any:
+    """Return a value, list or table without the rounding errors in the last digits of its numbers:
+    40480.2 in place of 40480.200000000004. Numbers that need all their digits keep them, such as
+    the degrees of a seventh of a turn.
+    """
+    if isinstance(value, float):
+        shorter = float(limit_digits(value))
+        return shorter if abs(shorter - value) <= _LAST_DIGITS * abs(value) else value
+    if isinstance(value, Mapping):
+        return {key: drop_last_digits(part) for key, part in value.items()}
+    if isinstance(value, (list, tuple)):
+        return type(value)(map(drop_last_digits, value))
+    return value
+
+
 def counted(count: int, noun: str) -> str:
     """Return a number with its noun: "1 place", "2 places".
 
