@@ -87,7 +87,7 @@ class Web(FileTable):
     webs: Numbers | None = None
     """Numbers of these webs; left out: all webs that no other table lists. Example: [1, 4, 5, 8]"""
     thickness: SizeOrFit
-    """Axial thickness; "fit": `balcli balance` computes it. Example: 20.5"""
+    """Axial thickness. Example: 20.5"""
     hub: Size | None = None
     """Diameter of the web around the main journal; the convex hull of both diameters is the cheek.
     Example: 65"""
@@ -95,9 +95,9 @@ class Web(FileTable):
     """Diameter of the web around the crank pin. Example: 53"""
     outer_radius: SizeOrFit | None = None
     """Outer radius of the counterweight, a sector from the hub outwards; left out with opening: no
-    counterweight; "fit": `balcli balance` computes it. Example: 78"""
+    counterweight. Example: 78"""
     opening: OpeningOrFit | None = None
-    """Full angle of the counterweight; "fit": `balcli balance` computes it. Example: 115"""
+    """Full angle of the counterweight. Example: 115"""
     angle: Angle = 180.0
     """Angle of the middle of the counterweight from the web's own crank pin. Example: 180"""
     profile: Annotated[str, FileName()] | None = None
@@ -115,7 +115,7 @@ class Web(FileTable):
     holes: tuple[Hole, ...] = ()
     """Holes through the web. Example: [{ x = 44, diameter = 22 }]"""
     clearance: Distance = 0.0
-    """Gap to pistons and crankcase that "fit" keeps. Example: 1"""
+    """Gap to pistons and crankcase; a smaller one gets a warning. Example: 1"""
     tolerance: WebTolerance | None = None
     """Largest deviations of the dimensions."""
 

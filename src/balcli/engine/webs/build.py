@@ -196,8 +196,8 @@ def _read_profile(model: EngineFile, number: int) -> Drawing | None:
 def _refuse_fit(table: Web, number: int) -> None:
     if key := table.to_fit:
         message = Message(
-            '{path} is "fit": run balcli balance, which puts a figure in its place ({write} names '
-            "the new file)",
+            '{path} is "fit", but balancing sizes no webs yet; give a figure, and read the '
+            "unbalance in the parts of analyze",
             path=f"web.{number}.{key}",
         )
         raise InputError([Problem("", message)])
