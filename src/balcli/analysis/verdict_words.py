@@ -319,7 +319,7 @@ class VerdictWords(NamedTuple):
         largest = self.spectra["couple"].select_orders([couple.order]).major[0]
         size = size_text(float(largest), self.system.moment)
         written = f"Transverse couple: up to {size} (order {order_name(couple.order)})"
-        if couple.causes is None:
+        if not couple.causes:
             return f"{written}."
         written += f", from {join_words([_CAUSES[cause] for cause in couple.causes])}"
         if couple.causes == ("rods",) and not self._has_linkage():

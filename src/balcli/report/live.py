@@ -123,6 +123,8 @@ def _list_obstacles(engine: Engine) -> Iterator[str]:
         yield "it is a locomotive"
     if len(c.radius) > 1 or any(isinstance(figure, tuple) for figure in of_throws):
         yield "its throws differ"
+    if engine.bores_m:
+        yield "its cylinders have different bores"
     if engine.ripple:
         yield "its speed is uneven"
     yield from _list_obstacles_of_devices(engine, model)

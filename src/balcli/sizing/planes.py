@@ -184,7 +184,9 @@ FIELDS: dict[type[DeviceTable], tuple[str, ...]] = {
 }
 KINDS = tuple(FIELDS)
 TABLES = ("counterweight", "shaft", "slider")  # tables of these kinds in an engine file
-_ROUNDING = 1e-12  # a sum of eccentrics below this share of the largest eccentric counts as 0
+_ROUNDING = (
+    1e-10  # a sum of eccentrics below this share of the largest counts as 0: figures have 12 digits
+)
 
 
 def name_kind(device: DeviceTable) -> str:

@@ -1002,7 +1002,7 @@ const Kernel = (() => {
   function isFree({ kind, ratio }, devices) {
     const same = devices.filter((other) => other.kind === kind && other.ratio === ratio);
     const total = addAll(same.map(({ forward, backward }) => add(forward, backward)));
-    return same.length > 1 && size(total) <= 1e-12 * largest(same.map(({ U }) => U));
+    return same.length > 1 && size(total) <= 1e-10 * largest(same.map(({ U }) => U));
   }
 
   // Force and moment of the orders that devices change.
