@@ -12,6 +12,7 @@ A compensator is a pair of equal masses far from the engine: their force along x
 from __future__ import annotations
 
 import cmath
+import math
 from collections.abc import Sequence
 
 from ..errors import ArgumentError
@@ -50,6 +51,11 @@ def place_pair(residual: Residual, wanted: complex, against: complex | None = No
     """
     forward = residual.force(1)
     backward = residual.force(-1)
+    # Squares of tiny forces would be 0; a power of two changes no digit.
+    scale = 2.0 ** math.frexp(max(abs(forward), abs(backward)))[1]
+    forward = forward / scale
+    backward = backward / scale
+    wanted = wanted / scale
     if against is None:
         against = -wanted * backward / (abs(forward) ** 2 + abs(backward) ** 2)
     with_crank = (wanted + against * backward.conjugate()) / forward
