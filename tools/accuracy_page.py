@@ -3,15 +3,14 @@
 Usage: python tools/accuracy_page.py
 """
 
-import re
 import sys
 from pathlib import Path
 
 from balcli.bench.records import Bench
-from balcli.bench.show import RENDERER
+from balcli.bench.show import list_grids
 from balcli.bench.tasks import measure
-from balcli.show.formats import Format, render
-from balcli.show.units import SYSTEMS
+from balcli.show.formats import Format, lay_out
+from balcli.show.sheet import Sheet
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "accuracy.md"
 START = "<!-- tables -->\n"
@@ -20,9 +19,9 @@ END = "<!-- end of tables -->\n"
 
 def write_tables(result: Bench) -> str:
     """Return the tables of the page: those of the command, without its ratios and its title."""
-    text = render([result], RENDERER, Format.MARKDOWN, SYSTEMS["si"])
-    tables = text.partition("\n")[2].partition("Ratios of run times")[0]
-    return re.sub(r"\n#+ *$", "\n", tables.rstrip()) + "\n"
+    sheet = Sheet("", tuple(list_grids(result)))
+    _title, _, tables = lay_out([sheet], Format.MARKDOWN, seen=False).partition("\n")
+    return tables
 
 
 def main() -> None:

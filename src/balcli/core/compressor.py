@@ -60,6 +60,22 @@ class Compression(NamedTuple):
         return 1 - self.expanded
 
 
+def _check_valves(process: Compression) -> None:
+    """Raise GasError if the clearance leaves no suction or no discharge."""
+    ratio = process.ratio
+    for name, left, index in (
+        ("suction", process.volumetric_efficiency, process.expansion_index),
+        ("discharge", process.compressed, process.compression_index),
+    ):
+        if left <= 0:
+            most = 1 / (ratio ** (1 / index) - 1)
+            raise GasError(
+                "clearance",
+                f"{process.clearance:g} leaves no {name} at a pressure ratio of {ratio:.4g}; it "
+                f"has to be below {most:.4g}",
+            )
+
+
 def compress(piston: GasPiston, process: Compression, *, crank_end: bool) -> PiecewiseCurve:
     """Return the absolute pressure in one end over a revolution, Pa, by the angle from the outer
     dead centre, rad.
@@ -72,21 +88,7 @@ def compress(piston: GasPiston, process: Compression, *, crank_end: bool) -> Pie
     Raises:
         GasError: No suction or no discharge is left.
     """
-    ratio = process.ratio
-    if process.volumetric_efficiency <= 0:
-        most = 1 / (ratio ** (1 / process.expansion_index) - 1)
-        raise GasError(
-            "clearance",
-            f"{process.clearance:g} leaves no suction at a pressure ratio of {ratio:.4g}; it has "
-            f"to be below {most:.4g}",
-        )
-    if process.compressed <= 0:
-        most = 1 / (ratio ** (1 / process.compression_index) - 1)
-        raise GasError(
-            "clearance",
-            f"{process.clearance:g} leaves no discharge at a pressure ratio of {ratio:.4g}; it has "
-            f"to be below {most:.4g}",
-        )
+    _check_valves(process)
     stroke = piston.stroke
     expanded = process.expanded * stroke
     compressed = process.compressed * stroke

@@ -11,11 +11,12 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from ..core.vibration import Real
-from ..file.torsion_tables import ChainKeys, ShaftKeys, StressLimit
+from ..file.torsion_tables import ChainKeys, ShaftKeys, StressLimit, TorqueLimit
 
 M68_FACTOR_ENDS = 0.9  # speed over rated speed up to which the speed factor of M68 falls
 M68_ALLOY = 600.0  # N/mm2; M68 counts a higher strength of intermediate shafts only
 M68_HIGHEST = 1.05  # speed over rated speed above which M68 says nothing
+_PASCALS = 1e6  # Pa in 1 N/mm2
 M68_BARRED_BELOW = 0.8  # speed over rated speed up to which M68 allows barred ranges
 
 
@@ -141,7 +142,7 @@ def list_limits(
             limits.append(ShaftLimit(k, "stress", by_torque, permitted))
         torque = keys.torque_limit if table.torque_limit is None else table.torque_limit
         if torque is not None:
-            limits.append(ShaftLimit(k, "torque", 1.0, _make_table(torque, "torque", 1.0)))
+            limits.append(ShaftLimit(k, "torque", 1.0, _make_torque_limit(torque)))
     return tuple(limits)
 
 
@@ -149,8 +150,10 @@ def _make_stress_limit(
     given: float | StressLimit, table: ShaftKeys, rated_rpm: float | None
 ) -> LimitTable | M68:
     """Return the limit of the stress of a shaft."""
-    if isinstance(given, float) or given.rule is None:
-        return _make_table(given, "stress", 1e6)
+    if isinstance(given, float):
+        return _make_table(None, (given,), _PASCALS)
+    if given.rule is None:
+        return _make_table(given.speed, given.stress or (), _PASCALS)
     return M68(
         tensile=given.tensile or math.nan,
         factor=given.ck or math.nan,
@@ -159,15 +162,20 @@ def _make_stress_limit(
     )
 
 
-def _make_table(given: object, key: str, size: float) -> LimitTable:
+def _make_torque_limit(given: float | TorqueLimit) -> LimitTable:
+    """Return the limit of the torque of a shaft."""
+    if isinstance(given, float):
+        return _make_table(None, (given,), 1.0)
+    return _make_table(given.speed, given.torque or (), 1.0)
+
+
+def _make_table(rpm: Sequence[float] | None, values: Sequence[float], size: float) -> LimitTable:
     """Return a limit as a table over the speed, in SI units.
 
     Args:
-        given: Number or table of the file.
-        key: Key of the values in the table.
+        rpm: Speeds; None: one value holds at all speeds.
+        values: Limits at these speeds.
         size: Unit of the values in SI units.
     """
-    if isinstance(given, float):
-        return LimitTable((1.0,), (given * size,))
-    values = [value * size for value in getattr(given, key)]
-    return LimitTable(tuple(given.speed), tuple(values))  # type: ignore[attr-defined]
+    in_si = tuple(value * size for value in values)
+    return LimitTable((1.0,) if rpm is None else tuple(rpm), in_si)
