@@ -186,3 +186,19 @@ def test_a_sheet_names_the_orders_as_packagers_do(pump):
     assert "Unbalanced forces and couples" in sheet
     assert "1 (primary)" in sheet
     assert "2 (secondary)" in sheet
+
+
+def test_a_compressor_is_balanced_as_machines_with_frames_are_and_not_as_ships_engines(pump):
+    """Two strokes and crossheads do not make a marine engine: the whole moment counts, not the vertical one alone."""
+    two_stage = ENGINES / "pumps" / "compressor.toml"
+    verdict = ask("analyze", two_stage, "--only", "verdict")
+    (moment,) = ask_json("analyze", two_stage, "--orders", "1")["orders"]
+    assert f"moment of {moment['moment_Nm']['major'] / 1e3:.4g} kN·m" in verdict
+    assert "shaft at -1" in verdict
+    assert "compensator" not in ask("analyze", two_stage)
+
+
+def test_power_related_unbalance_is_not_that_of_a_machine_that_takes_power(pump):
+    assert refusal("analyze", pump, "--only", "pru").endswith(
+        "pru: the gas of this machine takes power; give operation.power"
+    )

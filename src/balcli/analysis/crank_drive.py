@@ -420,6 +420,8 @@ def relate_to_power(engine: Engine) -> PowerRelatedUnbalance:
     """
     power = find_power(engine)
     if power is None:
+        if engine.gas is not None:
+            raise BalcliError("pru: the gas of this machine takes power; give operation.power")
         raise BalcliError("pru needs operation.power, or [gas]")
     moments = compute_spectra(at_rated_speed(engine), [1, 2], ("moment",))["moment"].major.tolist()
     orders = []

@@ -214,7 +214,7 @@ def find_marine_sheet(
     """
     torque = TORQUE if engine.gas is None else TORQUE_TOTAL
     words = ["force", "moment", "guide", torque.name]
-    drives = engine.gas is not None and not _is_pump(engine)
+    drives = engine.gas is not None and not engine.is_pump
     if drives or (engine.rated and engine.rated.power_W):
         words.append("pru")
     ask = partial(analyze, only=words, guide_height=guide_height_m)
@@ -375,7 +375,7 @@ def lay_out_marine(named: NamedResult[MarineSheet], system: System) -> Sheet:
     if len(result.speeds) == 1:
         title = f"Guide-force moments Hn, Xn and torque on the crank Tn, {of_what}"
         external = _grid_by_order("External forces and moments", _EXTERNAL, result, system)
-        if _is_pump(result.engine):
+        if result.engine.is_pump:
             external = _name_unbalanced(external)
         parts.append(external._replace(note=_NAMES))
         parts.append(_grid_by_order(title, _INTERNAL, result, system))
@@ -386,15 +386,10 @@ def lay_out_marine(named: NamedResult[MarineSheet], system: System) -> Sheet:
             whole = result.every_order
             parts.append(_kind_part(kind, lines, speeds, system, whole=whole))
         parts.append(Text("", (f"Guide-force moments and torque are {of_what}.",)))
-    if result.related is not None and not _is_pump(result.engine):
+    if result.related is not None and not result.engine.is_pump:
         parts.append(lay_out_related(result.related, system))
     notes = (_AXES, define_guide_moments(result.height_m, system))
     return Sheet(result.engine.name or NAMELESS, (*parts, Text("", notes)))
-
-
-def _is_pump(engine: Engine) -> bool:
-    """Return whether any cylinder has a crank end or a compressor cycle."""
-    return engine.gas is not None and engine.gas.has_pump_ends
 
 
 def _name_unbalanced(external: Grid) -> Grid:

@@ -141,8 +141,7 @@ def _list_work(result: TorqueAnalysis, system: System) -> Iterator[tuple[str, st
         if result.max_pressure_Pa is not None:
             size = _size(result.max_pressure_Pa, system.pressure)
             at = result.max_pressure_deg
-            is_pump = engine.gas is not None and engine.gas.has_pump_ends
-            start = "the outer dead centre" if is_pump else "firing"
+            start = "the outer dead centre" if engine.is_pump else "firing"
             yield "largest pressure", f"{size}, {degrees(at or 0.0)} deg after {start}"
         yield from list_silent(engine.silent)
     for name, value, of in (

@@ -431,6 +431,11 @@ class Engine:
         return float(np.ravel(self.throw_radii_m)[near])
 
     @property
+    def is_pump(self) -> bool:
+        """Whether any cylinder compresses, or has gas at its crank end."""
+        return self.gas is not None and self.gas.has_pump_ends
+
+    @property
     def compressing(self) -> list[CylinderNumber]:
         """Numbers of the cylinders with a compressor cycle."""
         if self.gas is None:

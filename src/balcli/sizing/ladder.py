@@ -423,9 +423,10 @@ def is_judged_by_power(engine: Engine) -> bool:
 
 def is_crosshead_two_stroke(engine: Engine) -> bool:
     """Return whether a single engine is a two-stroke engine with crossheads: its file gives the
-    mass of a crosshead, or its stroke is longer than any trunk piston allows.
+    mass of a crosshead, or its stroke is longer than any trunk piston allows. Compressors and
+    double-acting steam engines are not meant, although they work in every turn.
     """
-    if engine.strokes != 2:
+    if engine.strokes != 2 or engine.is_pump:
         return False
     stroke = 2 * float(np.max(engine.throw_radii_m))
     long_for_its_bore = stroke > _LONG_STROKE_IN_BORES * float(engine.bore_m)
