@@ -381,7 +381,7 @@ def fit_unit(kind: Kind, lines: Iterable[Line], system: System) -> ShownUnit:
         lines: Lines with values of this kind.
         system: System of units.
     """
-    return system.unit(kind).fit(max((line.largest for line in lines), default=0.0))
+    return system.unit(kind).fit_values(line.largest for line in lines)
 
 
 def find_lines_that_matter(lines: list[Line]) -> list[Line]:
@@ -432,7 +432,9 @@ def _show_ratio(line: Line, k: int) -> str:
     """Return the ratio of an engine's value to that of the first engine, unless the latter is
     negligible.
     """
-    return UNKNOWN if line.negligible[0] else number(line.ratios[k])
+    if line.negligible[0]:
+        return UNKNOWN
+    return number(line.ratios[k])
 
 
 RENDERER = Renderer(sheet=sheet, rows=rows)

@@ -41,7 +41,17 @@ from ..forces.power import at_rated_speed, find_power, name_need
 from ..forces.quantity import TargetQuantity, refuse_stranger
 from ..forces.spectrum import compute_spectra, find_relevant_orders
 from ..show.engine_facts import name_cylinders
-from ..show.sheet import UNKNOWN, Column, Grid, degrees, number, order_name, size_cell, size_text
+from ..show.sheet import (
+    UNKNOWN,
+    Column,
+    Grid,
+    degrees,
+    number,
+    order_name,
+    size_cell,
+    size_text,
+    unit_cell,
+)
 from ..show.units import ShownUnit, System
 from .parts import list_columns
 from .records import (
@@ -279,28 +289,42 @@ def _grid(
     system: System,
     with_stress: bool,
 ) -> Grid:
-    unit = system.moment.fit(max(torque.range_Nm for torque in torques))
+    unit = system.moment.fit_values(torque.range_Nm for torque in torques)
     length = system.length
-    stress = system.stress.fit(1e9)
-    columns = [
-        Column("place", [journal.place for journal in journals], words=True),
-        Column(f"z, {length.name}", [_write_place(journal, length) for journal in journals]),
-        Column(f"largest, {unit.name}", [number(unit.of(torque.max_Nm)) for torque in torques]),
-        Column("deg", [_write_angle(torque.max_deg) for torque in torques]),
-        Column("smallest", [number(unit.of(torque.min_Nm)) for torque in torques]),
-        Column("deg", [_write_angle(torque.min_deg) for torque in torques]),
-        Column("range", [number(unit.of(torque.range_Nm)) for torque in torques]),
-        Column("mean", [number(unit.of(torque.mean_Nm)) for torque in torques]),
+    heads = [
+        Column("place", words=True),
+        Column(f"z, {length.name}"),
+        Column(f"largest, {unit.name}"),
+        Column("deg"),
+        Column("smallest"),
+        Column("deg"),
+        Column("range"),
+        Column("mean"),
     ]
+    rows = []
+    for journal, torque in zip(journals, torques, strict=True):
+        row = [
+            journal.place,
+            _write_place(journal, length),
+            unit_cell(torque.max_Nm, unit),
+            _write_angle(torque.max_deg),
+            unit_cell(torque.min_Nm, unit),
+            _write_angle(torque.min_deg),
+            unit_cell(torque.range_Nm, unit),
+            unit_cell(torque.mean_Nm, unit),
+        ]
+        rows.append(row)
     if with_stress and any(journal.stress for journal in journals):
-        stresses = [_write_stress(journal.stress, stress) for journal in journals]
-        columns.append(Column(f"stress, ±{stress.name}", stresses))
+        unit_of_stress = system.stress.fit(1e9)
+        heads.append(Column(f"stress, ±{unit_of_stress.name}"))
+        for row, journal in zip(rows, journals, strict=True):
+            row.append(_write_stress(journal.stress, unit_of_stress))
     ranges = [torque.range_Nm for torque in torques]
     note = ""
     if any(ranges):
         widest = journals[ranges.index(max(ranges))]
         note = f"The range is largest in {widest.place}."
-    return Grid(title, columns, note)
+    return Grid.of_rows(title, heads, rows, note)
 
 
 def _write_place(journal: Journal, unit: ShownUnit) -> str:
@@ -310,11 +334,15 @@ def _write_place(journal: Journal, unit: ShownUnit) -> str:
 
 
 def _write_angle(angle_deg: float | None) -> str:
-    return "" if angle_deg is None else degrees(angle_deg, 1e9)
+    if angle_deg is None:
+        return ""
+    return degrees(angle_deg, 1e9)
 
 
 def _write_stress(stress: ShearStress | None, unit: ShownUnit) -> str:
-    return UNKNOWN if stress is None else number(unit.of(stress.amplitude_Pa))
+    if stress is None:
+        return UNKNOWN
+    return unit_cell(stress.amplitude_Pa, unit)
 
 
 # ------------------------------------------------------------------ masses
@@ -442,11 +470,16 @@ def lay_out_related(related: PowerRelatedUnbalance, system: System) -> Grid:
     kind = "" if related.power_kind == "file" else f"{related.power_kind} "
     title = f"Power related unbalance ({kind}power {size_text(related.power_W, system.power)})"
     moments = related.orders
-    unit = system.moment.fit(max(moment.moment_Nm for moment in moments))
-    columns = [
-        Column("order", [order_name(moment.order) for moment in moments]),
-        Column(f"M, {unit.name}", [size_cell(moment.moment_Nm, unit) for moment in moments]),
-        Column("PRU, N·m/kW", [number(moment.Nm_per_kW) for moment in moments]),
-        Column("compensator", [moment.need or UNKNOWN for moment in moments], words=True),
+    unit = system.moment.fit_values(moment.moment_Nm for moment in moments)
+    heads = [
+        Column("order"),
+        Column(f"M, {unit.name}"),
+        Column("PRU, N·m/kW"),
+        Column("compensator", words=True),
     ]
-    return Grid(title, columns, "Moments and power at the speed of the file.")
+    rows = []
+    for moment in moments:
+        size = size_cell(moment.moment_Nm, unit)
+        need = moment.need or UNKNOWN
+        rows.append((order_name(moment.order), size, number(moment.Nm_per_kW), need))
+    return Grid.of_rows(title, heads, rows, "Moments and power at the speed of the file.")

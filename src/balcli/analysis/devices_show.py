@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from ..file.fields import join_words
 from ..file.model import Counterweight, Shaft, Slider
-from ..show.sheet import UNKNOWN, Column, Grid, degrees, given, number, size_text
+from ..show.sheet import UNKNOWN, Column, Grid, degrees, given, number, size_text, unit_cell
 from ..sizing.planes import FIELDS, DeviceTable, find_free, find_unbalance, name_kind
 from ..sizing.remedy import Remedy
 from .records import find_value
@@ -38,20 +38,27 @@ def device_grid(remedy: Remedy, system: System) -> Grid:
     devices = remedy.devices
     free = find_free(devices)
     length = system.length
-    unit = system.unbalance.fit(max(map(find_unbalance, devices), default=0.0))
-    places = [
-        _tell_place(device, length, anywhere)
-        for device, anywhere in zip(devices, free, strict=True)
+    unit = system.unbalance.fit_values(map(find_unbalance, devices))
+    heads = [
+        Column("device", words=True),
+        Column("speed ratio"),
+        Column(unit.name),
+        Column("angle, deg", words=True),
+        Column(f"x, y, {length.name}", words=True),
+        Column(f"z, {length.name}"),
     ]
-    columns = [
-        Column("device", [name_kind(device) for device in devices], words=True),
-        Column("speed ratio", [_tell_turns(device) for device in devices]),
-        Column(unit.name, [number(unit.of(find_unbalance(device))) for device in devices]),
-        Column("angle, deg", [_tell_angle(device) for device in devices], words=True),
-        Column(f"x, y, {length.name}", places, words=True),
-        Column(f"z, {length.name}", [_length(device.position, length) for device in devices]),
-    ]
-    return Grid("", columns, " ".join([ANGLES, *_explain_places(devices, free)]))
+    rows = []
+    for device, anywhere in zip(devices, free, strict=True):
+        cells = (
+            name_kind(device),
+            _tell_turns(device),
+            unit_cell(find_unbalance(device), unit),
+            _tell_angle(device),
+            _tell_place(device, length, anywhere),
+            _length(device.position, length),
+        )
+        rows.append(cells)
+    return Grid.of_rows("", heads, rows, " ".join([ANGLES, *_explain_places(devices, free)]))
 
 
 def _tell_turns(device: DeviceTable) -> str:
@@ -136,35 +143,42 @@ def practical_grid(
     length = system.length
     mass = system.mass
     force = system.force
-    names = [f"{k} {name_kind(device)}" for k, device in enumerate(remedy.devices, 1)]
-    columns = [
-        Column("device", names, words=True),
-        Column("rpm", [given(p.speed_rpm) for p in practical]),
-        Column(f"force, {force.name}", [number(force.of(p.force_N)) for p in practical]),
-        Column(f"mass, {mass.name}", [_cell(p.shape_kg, mass) for p in practical]),
-        Column(f"disc r, {length.name}", [_disc_cell(p.disc_radius_mm, length) for p in practical]),
-        Column(
-            f"thick, {length.name}", [_disc_cell(p.disc_thickness_mm, length) for p in practical]
-        ),
+    heads = [
+        Column("device", words=True),
+        Column("rpm"),
+        Column(f"force, {force.name}"),
+        Column(f"mass, {mass.name}"),
+        Column(f"disc r, {length.name}"),
+        Column(f"thick, {length.name}"),
     ]
+    rows = []
+    for k, (device, figures) in enumerate(zip(remedy.devices, practical, strict=True), 1):
+        row = [
+            f"{k} {name_kind(device)}",
+            given(figures.speed_rpm),
+            unit_cell(figures.force_N, force),
+            unit_cell(figures.shape_kg, mass),
+            _disc_cell(figures.disc_radius_mm, length),
+            _disc_cell(figures.disc_thickness_mm, length),
+        ]
+        rows.append(row)
     notes = ["Force: largest over a stroke." if remedy.sliders else "Force: centrifugal."]
     if any(p.disc_mass_kg is not None for p in practical):
         notes.append("Disc: semicircular, of steel.")
     if tools.radius is not None:
-        at_radius = [number(mass.of(p.mass_kg)) for p in practical]
-        columns.append(Column(f"at radius, {mass.name}", at_radius))
+        heads.append(Column(f"at radius, {mass.name}"))
+        for row, figures in zip(rows, practical, strict=True):
+            row.append(unit_cell(figures.mass_kg, mass))
         place = "an amplitude" if remedy.sliders else "a radius"
         notes.append(f"Mass: at {place} of {list_radii(practical, length)} in the last column.")
     notes += _tell_misfits([misfit for misfit in misfits if not misfit.asked], length)
-    return Grid("Sizes of the weights", columns, " ".join(notes))
-
-
-def _cell(value: float | None, unit: ShownUnit) -> str:
-    return UNKNOWN if value is None else number(unit.of(value))
+    return Grid.of_rows("Sizes of the weights", heads, rows, " ".join(notes))
 
 
 def _disc_cell(millimetres: float | None, unit: ShownUnit) -> str:
-    return UNKNOWN if millimetres is None else _length(millimetres, unit, 3)
+    if millimetres is None:
+        return UNKNOWN
+    return _length(millimetres, unit, 3)
 
 
 def _tell_misfits(misfits: Sequence[Misfit], unit: ShownUnit) -> Iterator[str]:
@@ -213,12 +227,12 @@ def holes_grid(
     drill = f"{number(unit.of(tools.drill or 0.0))} {unit.name}"
     why = "--radius" if tools.radius else "the crank radius; --radius changes it"
     rim = f"from a rim at {list_radii(practical, unit)} ({why})"
-    names = []
-    drilled = []
+    rows = []
     for k, (device, figures) in enumerate(zip(remedy.devices, practical, strict=True), 1):
         if figures.holes is not None:
-            names.append(f"{k} {name_kind(device)}")
-            drilled.append(figures)
+            angle = degrees(figures.hole_angle_deg or 0.0)
+            depth = _length(figures.drill_depth_mm or 0.0, unit, 4)
+            rows.append((f"{k} {name_kind(device)}", angle, str(figures.holes), depth))
     if tools.slug is None:
         title = f"Holes to drill, {drill}"
         advice = "Holes remove steel opposite to the weight that is needed. They are"
@@ -226,14 +240,13 @@ def holes_grid(
         title = f"Holes for slugs of {number(tools.slug / 1e3)} g/cm³, {drill}"
         advice = "Slugs replace steel on the side of the weight that is needed. Holes are"
     note = f"{advice} radial, {rim} inwards, and side by side along the axis."
-    depths = [_length(figures.drill_depth_mm or 0.0, unit, 4) for figures in drilled]
-    columns = [
-        Column("for", names, words=True),
-        Column("holes at, deg", [degrees(figures.hole_angle_deg or 0.0) for figures in drilled]),
-        Column("holes", [str(figures.holes) for figures in drilled]),
-        Column(f"depth of each, {unit.name}", depths),
+    heads = [
+        Column("for", words=True),
+        Column("holes at, deg"),
+        Column("holes"),
+        Column(f"depth of each, {unit.name}"),
     ]
-    return Grid(title, columns, note)
+    return Grid.of_rows(title, heads, rows, note)
 
 
 def number_devices(devices: Iterable[DeviceTable]) -> Iterator[tuple[str, DeviceTable]]:

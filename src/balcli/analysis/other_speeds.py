@@ -20,7 +20,7 @@ from ..engine.engine import Engine
 from ..file.fields import order_number
 from ..file.model import EngineFile
 from ..show.figures import FigureRow, Peaks, record_rows
-from ..show.sheet import UNKNOWN, Column, Grid, number
+from ..show.sheet import Column, Grid, number, unit_cell
 from ..show.units import System
 from .records import PartAtOtherSpeed
 
@@ -90,21 +90,28 @@ def _describe(
 
 def lay_out_other_speeds(parts: Sequence[PartAtOtherSpeed], system: System) -> Grid:
     """Return a table with one row for each part at another speed."""
-    force = system.force.fit(max(part.force_N for part in parts))
+    force = system.force.fit_values(part.force_N for part in parts)
     moment = system.moment
-    moments = [part.moment_Nm for part in parts]
-    columns = [
-        Column("shaft", [part.name for part in parts], words=True),
-        Column("times crank speed", [f"{part.ratio:g}" for part in parts]),
-        Column("Hz", [number(part.frequency_Hz) for part in parts]),
-        Column(f"force, {force.name}", [number(force.of(part.force_N)) for part in parts]),
-        Column(
-            f"moment, {moment.name}",
-            [UNKNOWN if size is None else number(moment.of(size)) for size in moments],
-        ),
-        Column(f"couple, {moment.name}", [number(moment.of(part.couple_Nm)) for part in parts]),
+    heads = [
+        Column("shaft", words=True),
+        Column("times crank speed"),
+        Column("Hz"),
+        Column(f"force, {force.name}"),
+        Column(f"moment, {moment.name}"),
+        Column(f"couple, {moment.name}"),
     ]
-    return Grid("Parts at other speeds", columns, _NOTE)
+    rows = []
+    for part in parts:
+        cells = (
+            part.name,
+            f"{part.ratio:g}",
+            number(part.frequency_Hz),
+            unit_cell(part.force_N, force),
+            unit_cell(part.moment_Nm, moment),
+            unit_cell(part.couple_Nm, moment),
+        )
+        rows.append(cells)
+    return Grid.of_rows("Parts at other speeds", heads, rows, _NOTE)
 
 
 def list_other_rows(parts: Sequence[PartAtOtherSpeed]) -> Iterator[FigureRow]:

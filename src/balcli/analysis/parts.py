@@ -28,7 +28,7 @@ from ..engine.devices import build_device, find_given_unbalance, find_sector, gr
 from ..engine.engine import Engine, refuse_geared
 from ..file.model import Counterweight, Sector, Shaft
 from ..show.figures import FigureRow, record_rows
-from ..show.sheet import UNKNOWN, Column, Facts, Grid, Text, number, size_text
+from ..show.sheet import UNKNOWN, Column, Facts, Grid, Text, size_text, unit_cell
 from ..show.units import ShownUnit, System, name_with_unit
 from ..sizing.planes import measure_direction
 from ..sizing.room import find_lowest_edge
@@ -269,7 +269,7 @@ def lay_out_parts(parts: BalanceParts, system: System) -> Iterator[Grid | Facts 
 def _lay_out_bearings(shafts: Sequence[BalancerShaft], system: System) -> Grid:
     pairs = [(shaft.name, bearing) for shaft in shafts for bearing in shaft.bearings or ()]
     names, bearings = zip(*pairs, strict=True)
-    unit = system.force.fit(max(bearing.largest_N for bearing in bearings))
+    unit = system.force.fit_values(bearing.largest_N for bearing in bearings)
     shaft = Column("shaft", names, words=True)
     columns = [shaft, *list_columns(bearings, _BEARING, {"N": unit}, system)]
     return Grid("Balancer shafts", columns, _BEARINGS_NOTE)
@@ -294,7 +294,7 @@ def list_columns(
         cells = []
         for record in records:
             value = getattr(record, key)
-            cells.append(UNKNOWN if value is None else number(unit_.of(value)))
+            cells.append(unit_cell(value, unit_))
         if set(cells) != {UNKNOWN}:
             yield Column(name_with_unit(label, unit_.name), cells)
 
@@ -315,14 +315,14 @@ def _tell_shaft(shaft: BalancerShaft, system: System) -> str:
 
 
 def _lay_out_eccentrics(parts: Sequence[Eccentric], system: System) -> Grid:
-    unit_ = system.unbalance.fit(max(part.unbalance_kg_m for part in parts))
+    unit_ = system.unbalance.fit_values(part.unbalance_kg_m for part in parts)
     shaft = Column("shaft", [part.shaft for part in parts], words=True)
     columns = [shaft, *list_columns(parts, _ECCENTRIC, {"kg·m": unit_}, system)]
     return Grid("Eccentrics", columns, _CORE_NOTE)
 
 
 def _lay_out_counterweights(parts: Sequence[CounterweightPart], system: System) -> Grid:
-    unit_ = system.unbalance.fit(max(abs(part.unbalance_kg_m) for part in parts))
+    unit_ = system.unbalance.fit_values(part.unbalance_kg_m for part in parts)
     numbers = Column("no.", [str(k) for k in range(1, len(parts) + 1)], words=True)
     columns = [numbers, *list_columns(parts, _WEIGHT, {"kg·m": unit_}, system)]
     notes = []

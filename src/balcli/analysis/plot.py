@@ -260,7 +260,7 @@ def draw_factors(
     """
     share = [row.factor for row in rows]
     moments = np.array([row.peak_moment_Nm for row in rows])
-    s = force.fit(max(row.peak_force_N for row in rows))
+    s = force.fit_values(row.peak_force_N for row in rows)
     forces = np.array([(row.along_N, row.across_N, row.peak_force_N) for row in rows]).T / s.size
     labels = ("along the first bank", "across it", "force")
     for values, label, look in zip(forces, labels, _COMPONENTS, strict=True):
@@ -422,7 +422,7 @@ def draw_journals(fig: Figure, engine: Engine, unit: ShownUnit) -> None:
         if kind == "main"
     }
     ax = fig.subplots()
-    s = unit.fit(max(float(np.abs(each).max()) for each in curves.values()))
+    s = unit.fit_values(float(np.abs(curve).max()) for curve in curves.values())
     for (place, curve), (line, color) in zip(curves.items(), repeat(MANY_LOOKS), strict=False):
         ax.plot(degrees, curve / s.size, linestyle=line, color=color, label=place)
     set_crank_axis(ax, degrees)

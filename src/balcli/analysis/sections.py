@@ -26,6 +26,7 @@ from ..show.sheet import (
     order_name,
     size_cell,
     size_text,
+    unit_cell,
 )
 from .order_tables import fit_largest
 from .records import describe_guide, list_load_orders
@@ -140,19 +141,18 @@ def _grid(along: AlongCrank, title: str, unit: ShownUnit, length: ShownUnit, not
     """Return a table with a row for each place: the peak over a revolution, and the largest value
     of each of the first orders.
     """
-    unit = unit.fit(max(peak.value for peak in along.peaks))
-    places = [float(z) for z in along.z_m]
-    angles = [degrees(math.degrees(peak.theta)) if peak.value else "" for peak in along.peaks]
-    columns = [
-        Column(f"place, {length.name}", [number(length.of(z)) for z in places], words=True),
-        Column("largest", [size_cell(peak.value, unit, digits=None) for peak in along.peaks]),
-        Column("deg", angles),
-    ]
-    sizes = [along.at(k).major for k, _ in enumerate(places)]
-    for n, order in enumerate(along.phasors.orders[:ORDERS_SHOWN]):
-        cells = [number(unit.of(float(size[n]))) for size in sizes]
-        columns.append(Column(f"order {order_name(order)}", cells))
-    return Grid(f"{title}, {unit.name}", columns, note)
+    unit = unit.fit_values(peak.value for peak in along.peaks)
+    heads = [Column(f"place, {length.name}", words=True), Column("largest"), Column("deg")]
+    for order in along.phasors.orders[:ORDERS_SHOWN]:
+        heads.append(Column(f"order {order_name(order)}"))
+    rows = []
+    for k, (z, peak) in enumerate(zip(along.z_m, along.peaks, strict=True)):
+        angle = degrees(math.degrees(peak.theta)) if peak.value else ""
+        row = [unit_cell(float(z), length), size_cell(peak.value, unit, digits=None), angle]
+        for size in along.at(k).major[:ORDERS_SHOWN]:
+            row.append(unit_cell(float(size), unit))
+        rows.append(row)
+    return Grid.of_rows(f"{title}, {unit.name}", heads, rows, note)
 
 
 def _tell_largest(bending: AlongCrank, system: System) -> str:
@@ -172,21 +172,18 @@ def lay_out_guide(guide: GuideMoments, system: System) -> Grid:
         system: System of units.
     """
     unit = fit_largest(system.moment, *filter(None, (guide.h, guide.x)))
-    orders = guide.h.orders
 
-    def write(moment: Phasors | None) -> list[str]:
-        if moment is None:
-            return [UNKNOWN] * len(orders)
-        return [size_cell(float(size), unit, digits=None) for size in moment.major]
+    def write(moment: Phasors | None, k: int) -> str:
+        size = None if moment is None else float(moment.major[k])
+        return size_cell(size, unit, digits=None)
 
-    columns = [
-        Column("order", [order_name(order) for order in orders], words=True),
-        Column("H-type", write(guide.h)),
-        Column("X-type", write(guide.x)),
-    ]
+    heads = [Column("order", words=True), Column("H-type"), Column("X-type")]
+    rows = []
+    for k, order in enumerate(guide.h.orders):
+        rows.append((order_name(order), write(guide.h, k), write(guide.x, k)))
     causes = "of inertia and gas" if guide.with_gas else _ALONE
     note = define_guide_moments(guide.height_m, system)
-    return Grid(f"Guide-force moments {causes}, {unit.name}", columns, note)
+    return Grid.of_rows(f"Guide-force moments {causes}, {unit.name}", heads, rows, note)
 
 
 def define_guide_moments(height_m: Array, system: System) -> str:
@@ -270,8 +267,8 @@ def lay_out_stars(stars: Sequence[Star], system: System) -> Grid:
     every: list[Star | Bank] = [*stars]
     for star in stars:
         every += star.banks
-    force = system.force.fit(max(abs(vectors.force) for vectors in every))
-    moment = system.moment.fit(max(abs(vectors.moment or 0.0) for vectors in every))
+    force = system.force.fit_values(abs(vectors.force) for vectors in every)
+    moment = system.moment.fit_values(abs(vectors.moment or 0.0) for vectors in every)
     rows = []
     for star in stars:
         about = order_name(star.order), _TURNS[star.turns]
@@ -280,15 +277,22 @@ def lay_out_stars(stars: Sequence[Star], system: System) -> Grid:
             about = "", ""
         if len(star.banks) > 1:
             rows.append(_Sum(star, star, "", "", "all banks"))
-    columns = [
-        Column("order", [row.order for row in rows], words=True),
-        Column("turns", [row.turns for row in rows], words=True),
-        Column("directions, deg: cylinders", [row.directions for row in rows], words=True),
-        Column(f"force, {force.name}", [row.write_force(force) for row in rows]),
+    heads = [
+        Column("order", words=True),
+        Column("turns", words=True),
+        Column("directions, deg: cylinders", words=True),
+        Column(f"force, {force.name}"),
     ]
-    if stars[0].moment is not None:
-        columns.append(Column(f"moment, {moment.name}", [row.write_moment(moment) for row in rows]))
-    return Grid("Phasor stars", columns, _STARS)
+    has_moments = stars[0].moment is not None
+    if has_moments:
+        heads.append(Column(f"moment, {moment.name}"))
+    cells = []
+    for row in rows:
+        line = [row.order, row.turns, row.directions, row.write_force(force)]
+        if has_moments:
+            line.append(row.write_moment(moment))
+        cells.append(line)
+    return Grid.of_rows("Phasor stars", heads, cells, _STARS)
 
 
 def _tell_directions(bank: Bank) -> str:

@@ -28,6 +28,8 @@ from ..show.sheet import (
     number,
     order_name,
     size_cell,
+    size_text,
+    unit_cell,
 )
 from ..show.units import System
 from ..sizing.ladder import find_ladder
@@ -194,26 +196,32 @@ _NOTE = (
 def sheet(comparison: SchemeComparison, system: System) -> Sheet:
     """Return the table of schemes, and the schemes left out with their reasons."""
     rows = comparison.schemes
-    force = system.force.fit(max(row.peak_force_N for row in rows))
-    moments = [row.peak_moment_Nm for row in rows]
-    moment = system.moment.fit(max((value or 0.0 for value in moments), default=0.0))
-    roll = system.moment.fit(max(row.roll_Nm for row in rows))
-    columns = [
-        Column("scheme", [_name(row) for row in rows], words=True),
-        Column(f"force, {force.name}", [size_cell(row.peak_force_N, force) for row in rows]),
-        Column("share", [number(row.force_share, 5) for row in rows]),
-        Column(
-            f"moment, {moment.name}",
-            [UNKNOWN if value is None else size_cell(value, moment) for value in moments],
-        ),
-        Column(f"roll, {roll.name}", [size_cell(row.roll_Nm, roll) for row in rows]),
-        Column("order", [_tell_order(row) for row in rows]),
-        Column("parts", [str(row.parts) for row in rows]),
-        Column(system.mass.name, [number(system.mass.of(row.mass_kg), 3) for row in rows]),
+    force = system.force.fit_values(row.peak_force_N for row in rows)
+    moment = system.moment.fit_values(row.peak_moment_Nm for row in rows)
+    roll = system.moment.fit_values(row.roll_Nm for row in rows)
+    heads = [
+        Column("scheme", words=True),
+        Column(f"force, {force.name}"),
+        Column("share"),
+        Column(f"moment, {moment.name}"),
+        Column(f"roll, {roll.name}"),
+        Column("order"),
+        Column("parts"),
+        Column(system.mass.name),
     ]
-    unit = system.force.fit(comparison.scale_N)
-    note = _NOTE.format(scale=f"{number(unit.of(comparison.scale_N))} {unit.name}")
-    parts = [Grid("", columns, note)]
+    cells = []
+    for row in rows:
+        left = (
+            size_cell(row.peak_force_N, force),
+            number(row.force_share, 5),
+            size_cell(row.peak_moment_Nm, moment),
+            size_cell(row.roll_Nm, roll),
+            _tell_order(row),
+        )
+        mass = unit_cell(row.mass_kg, system.mass, 3)
+        cells.append((_name(row), *left, str(row.parts), mass))
+    note = _NOTE.format(scale=size_text(comparison.scale_N, system.force))
+    parts = [Grid.of_rows("", heads, cells, note)]
     if comparison.left_out:
         reasons = [tell(unfit.reason, name_option) for unfit in comparison.left_out]
         names = Column("scheme", [unfit.scheme for unfit in comparison.left_out], words=True)

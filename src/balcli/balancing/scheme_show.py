@@ -2,14 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from itertools import chain
 from math import isnan, nan
 from typing import Any, NamedTuple
 
 from ..core.records import Node, find_unit, remove_unit
-from ..show.sheet import NEGLIGIBLE, UNKNOWN, Column, Facts, Grid, degrees, number, size_text
+from ..show.sheet import (
+    NEGLIGIBLE,
+    UNKNOWN,
+    Column,
+    Facts,
+    Grid,
+    degrees,
+    number,
+    size_text,
+    unit_cell,
+)
 from ..show.units import ShownUnit, System
 from ..sizing.bobweights import NO_THROW, Bobweight, CardLine, FactorPeaks, PlaneNeed
 from ..sizing.planes import find_unbalance, measure_direction
@@ -238,13 +248,18 @@ def _needs_grid(needs: Sequence[PlaneNeed], system: System) -> Grid:
         "in the file": [need.present for need in needs],
         "missing": [need.missing for need in needs],
     }
-    unit = system.unbalance.fit(max(map(abs, chain(*series.values()))))
-    places = [number(length.of(need.position_mm / 1e3)) for need in needs]
-    columns = [Column(f"z, {length.name}", places, words=True)]
-    for name, vectors in series.items():
-        columns.append(Column(name, [number(unit.of(abs(vector))) for vector in vectors]))
-        columns.append(Column("at, deg", [_show_direction(vector) for vector in vectors]))
-    return Grid(f"Present and missing unbalance of each plane, {unit.name}", columns)
+    unit = system.unbalance.fit_values(map(abs, chain(*series.values())))
+    heads = [Column(f"z, {length.name}", words=True)]
+    for name in series:
+        heads += [Column(name), Column("at, deg")]
+    rows = []
+    for need, *vectors in zip(needs, *series.values(), strict=True):
+        row = [unit_cell(need.position_mm / 1e3, length)]
+        for vector in vectors:
+            row += [unit_cell(abs(vector), unit), _show_direction(vector)]
+        rows.append(row)
+    title = f"Present and missing unbalance of each plane, {unit.name}"
+    return Grid.of_rows(title, heads, rows)
 
 
 def _show_direction(unbalance: complex) -> str:
@@ -271,18 +286,16 @@ def card_grids(card: Sequence[Bobweight], *units: ShownUnit) -> Iterator[Grid]:
     for bobweight in card:
         alike.setdefault(bobweight.lines, []).append(bobweight)
     for pins in alike.values():
-        masses = list(_list_masses(pins[0], units[0]))
-        columns = [
-            Column("", [mass.name for mass in masses], words=True),
-            Column("quantity × each", [mass.terms for mass in masses]),
-        ]
-        for unit in units:
-            sums = [number(unit.of(mass.grams / 1e3), 5) for mass in masses]
-            columns.append(Column(unit.name, sums))
+        heads = [Column("", words=True), Column("quantity × each")]
+        heads += [Column(unit.name) for unit in units]
+        rows = []
+        for mass in _list_masses(pins[0], units[0]):
+            sums = [unit_cell(mass.grams / 1e3, unit, 5) for unit in units]
+            rows.append((mass.name, mass.terms, *sums))
         names = ", ".join("+".join(map(str, pin.cylinders)) for pin in pins)
         noun = "pins" if len(pins) > 1 else "pin"
         note = "" if pins[0].throw_g else f"The throw itself {NO_THROW}."
-        yield Grid(f"Bobweight of {noun} {names}", columns, note)
+        yield Grid.of_rows(f"Bobweight of {noun} {names}", heads, rows, note)
 
 
 def _list_masses(pin: Bobweight, unit: ShownUnit) -> Iterator[_CardRow]:
@@ -321,40 +334,49 @@ def percent(share: float) -> str:
 
 
 def _sweep_grid(sweep: tuple[FactorPeaks, ...], system: System) -> Grid:
-    unbalance = system.unbalance.fit(max(abs(row.counterweight_kg_m) for row in sweep))
-    scales = system.scales
+    unbalance = system.unbalance.fit_values(row.counterweight_kg_m for row in sweep)
     force = system.force
-    moment = system.moment
-
-    def write(unit: ShownUnit, sizes: Iterable[float]) -> list[str]:
-        return [number(unit.of(size)) for size in sizes]
-
-    bobweights = write(scales, (row.bobweight_g / 1e3 for row in sweep))
-    weights = write(unbalance, (row.counterweight_kg_m for row in sweep))
-    columns = [
-        Column("factor", [percent(row.factor) for row in sweep], words=True),
-        Column(f"bobweight, {scales.name}", bobweights),
-        Column(f"weight, {unbalance.name}", weights),
-        Column(f"force, {force.name}", write(force, (row.peak_force_N for row in sweep))),
-        Column("along", write(force, (row.along_N for row in sweep))),
-        Column("across", write(force, (row.across_N for row in sweep))),
-        Column(f"moment, {moment.name}", write(moment, (row.peak_moment_Nm for row in sweep))),
+    heads = [
+        Column("factor", words=True),
+        Column(f"bobweight, {system.scales.name}"),
+        Column(f"weight, {unbalance.name}"),
+        Column(f"force, {force.name}"),
+        Column("along"),
+        Column("across"),
+        Column(f"moment, {system.moment.name}"),
     ]
+    rows = []
+    for row in sweep:
+        cells = (
+            percent(row.factor),
+            unit_cell(row.bobweight_g / 1e3, system.scales),
+            unit_cell(row.counterweight_kg_m, unbalance),
+            unit_cell(row.peak_force_N, force),
+            unit_cell(row.along_N, force),
+            unit_cell(row.across_N, force),
+            unit_cell(row.peak_moment_Nm, system.moment),
+        )
+        rows.append(cells)
     note = (
         "Bobweight: of the first pin. Weight: largest counterweight to add. Force: largest force "
         "left, all orders added up. Along, across: largest components along and across bank 1."
     )
-    return Grid("Largest values by factor", columns, note)
+    return Grid.of_rows("Largest values by factor", heads, rows, note)
 
 
 def _optima_grid(optima: Sequence[Node]) -> Grid:
-    columns = [
-        Column("design", [optimum["design"] for optimum in optima], words=True),
-        Column("criterion", [optimum["criterion"] for optimum in optima]),
-        Column("engine force", [optimum["engine_force"] for optimum in optima]),
-        Column("k", [f"{optimum['k']:.5f}" for optimum in optima]),
-        Column("μ", [f"{optimum['mu']:.6f}" for optimum in optima]),
-        Column("largest, mrω²", [f"{optimum['largest']:.6f}" for optimum in optima]),
-        Column("mean, mrω²", [f"{optimum['mean']:.6f}" for optimum in optima]),
+    heads = [
+        Column("design", words=True),
+        Column("criterion"),
+        Column("engine force"),
+        Column("k"),
+        Column("μ"),
+        Column("largest, mrω²"),
+        Column("mean, mrω²"),
     ]
-    return Grid("Optima of both designs", columns)
+    rows = []
+    for optimum in optima:
+        sizes = [f"{optimum[key]:.6f}" for key in ("mu", "largest", "mean")]
+        criterion = (optimum["design"], optimum["criterion"], optimum["engine_force"])
+        rows.append((*criterion, f"{optimum['k']:.5f}", *sizes))
+    return Grid.of_rows("Optima of both designs", heads, rows)

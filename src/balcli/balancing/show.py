@@ -249,7 +249,7 @@ def _permitted(result: Balance, system: System) -> Iterator[Grid]:
         judge = _find_tolerance
         sizes = [find_unbalance(weight) for weight in remedy.counterweights]
         names = [str(k) for k in range(1, len(sizes) + 1)]
-    unit = system.unbalance.fit(max(sizes))
+    unit = system.unbalance.fit_values(sizes)
     columns = [
         Column(head, names, words=True),
         Column(f"{figure}, {unit.name}", [number(unit.of(size)) for size in sizes]),

@@ -51,15 +51,15 @@ def list_grids(result: Bench) -> list[Grid]:
 
 
 def _make_grid(block: Block) -> Grid:
-    columns = [
-        Column("method", [row.method for row in block.methods], words=True),
-        Column("µs", [_tell_time(row.seconds.median) for row in block.methods]),
-        Column("quartiles", [_tell_quartiles(row) for row in block.methods]),
-    ]
-    for k, (order, _) in enumerate(block.methods[0].errors):
-        head = "error" if order is None else f"order {order:g}"
-        columns.append(Column(head, [_tell_error(row.errors[k]) for row in block.methods]))
-    return Grid(name_block(block), columns, tell_unbeaten(block))
+    heads = [Column("method", words=True), Column("µs"), Column("quartiles")]
+    for order, _ in block.methods[0].errors:
+        heads.append(Column("error" if order is None else f"order {order:g}"))
+    rows = []
+    for method in block.methods:
+        time = _tell_time(method.seconds.median)
+        errors = map(_tell_error, method.errors)
+        rows.append((method.method, time, _tell_quartiles(method), *errors))
+    return Grid.of_rows(name_block(block), heads, rows, tell_unbeaten(block))
 
 
 def name_block(block: Block) -> str:

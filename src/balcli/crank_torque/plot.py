@@ -77,8 +77,8 @@ def _draw_pressure(ax: Axes, engine: Engine, system: System, *, over_volume: boo
     ends = cylinder.torque.ends
     pressures = [cylinder.find_end_pressure(end, at) for end in ends]
     volumes = [cylinder.piston.end_volume(at, end) for end in ends]
-    s = system.pressure.fit(max(float(pressure.max()) for pressure in pressures))
-    v = system.volume.fit(max(float(volume.max()) for volume in volumes))
+    s = system.pressure.fit_values(float(pressure.max()) for pressure in pressures)
+    v = system.volume.fit_values(float(volume.max()) for volume in volumes)
     looks = ((BLUE, "-"), (RED, "--"))
     for end, pressure, volume, (colour, style) in zip(
         ends, pressures, volumes, looks, strict=False

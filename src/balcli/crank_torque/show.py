@@ -248,7 +248,7 @@ def _make_load_tables(
     ):
         if not loaded:
             continue
-        unit = system.force.fit(max(load.max_N for load in loaded))
+        unit = system.force.fit_values(load.max_N for load in loaded)
         heads = [
             Column(word, words=True),
             Column(f"largest, {unit.name}"),
@@ -299,7 +299,7 @@ def _make_order_table(result: TorqueAnalysis, system: System) -> Grid:
         names = [order_name(order.order) for order in result.orders]
     columns = [Column("order", [names[k] for k in shown], words=True)]
     amplitudes = [harmonic.amplitude for harmonic in chain(*kinds.values(), alone)]
-    unit = system.moment.fit(max(amplitudes, default=0.0))
+    unit = system.moment.fit_values(amplitudes)
 
     def write(harmonics: list[Harmonic], digits: int) -> list[str]:
         cells = []

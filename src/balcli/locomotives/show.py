@@ -20,6 +20,7 @@ from ..show.sheet import (
     given,
     number,
     size_text,
+    unit_cell,
 )
 from ..show.units import SI, ShownUnit, System, name_with_unit
 from .answer import LocomotiveBalance
@@ -57,8 +58,7 @@ class _Series(NamedTuple):
 
     def write(self, *, words: bool = False) -> Column:
         """Return a column in the unit that fits the values; `words`: as for `Column`."""
-        known = [value for value in self.values if value is not None]
-        unit = self.unit.fit(max(known, default=0.0))
+        unit = self.unit.fit_values(self.values)
         return Column(name_with_unit(self.name, unit.name), _write(self.values, unit), words)
 
 
@@ -150,7 +150,7 @@ def _make_wheel_table(result: LocomotiveBalance, system: System) -> Grid:
     blow = _list_values(wheels, "hammer_blow_N")
     least = _list_values(wheels, "least_rail_load_N")
     most = _list_values(wheels, "most_rail_load_N")
-    force = system.force.fit(max(value or 0.0 for value in (*blow, *most)))
+    force = system.force.fit_values((*blow, *most))
     loads = zip(_write(least, force), _write(most, force), strict=True)
     angles = [degrees(angle_deg(w.unbalance)) if w.unbalance else "" for w in wheels]
     columns = [
@@ -180,7 +180,7 @@ def _list_values(parts: Iterable[object], key: str) -> Values:
 
 
 def _write(values: Values, unit: ShownUnit) -> list[str]:
-    return [UNKNOWN if value is None else number(unit.of(value)) for value in values]
+    return [unit_cell(value, unit) for value in values]
 
 
 # ------------------------------------------------------------------ several factors

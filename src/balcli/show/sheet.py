@@ -146,13 +146,16 @@ def order_name(order: float) -> str:
     return f"{int(whole) or ''}½" if half else str(int(whole))
 
 
-def number(value: float, digits: int | None = None) -> str:
-    """Return a figure as text, without exponent between 0.0001 and a million.
+def number(value: float | None, digits: int | None = None) -> str:
+    """Return a figure as text, without exponent between 0.0001 and a million; a dash if it is not
+    known.
 
     Args:
-        value: Figure.
+        value: Figure; None or nan: not known.
         digits: Significant digits unless `--digits` overrides them; None: USUAL_DIGITS.
     """
+    if value is None:
+        return UNKNOWN
     return _write(value, get_digits(digits or USUAL_DIGITS))
 
 
@@ -183,6 +186,19 @@ def _write(value: float, digits: int) -> str:
     return f"{mantissa}e{int(exponent)}"
 
 
+def unit_cell(value: float | None, unit: ShownUnit, digits: int | None = None) -> str:
+    """Return the cell of a figure in the unit of its column; a dash if it is not known.
+
+    Args:
+        value: Figure, SI; None or nan: not known.
+        unit: Unit of the column.
+        digits: Significant digits, as in `number`.
+    """
+    if value is None:
+        return UNKNOWN
+    return number(unit.of(value), digits)
+
+
 def size_text(value: float, unit: ShownUnit, digits: int | None = 4) -> str:
     """Return a value in a fitting unit, followed by the unit's name.
 
@@ -206,16 +222,19 @@ def small_text(value: float, unit: ShownUnit) -> str:
 
 
 def size_cell(
-    value: float, unit: ShownUnit, *, negligible: bool = False, digits: int | None = 4
+    value: float | None, unit: ShownUnit, *, negligible: bool = False, digits: int | None = 4
 ) -> str:
-    """Return the cell of a force or moment: its value, "balanced" or "negligible".
+    """Return the cell of a force or moment: its value, "balanced" or "negligible"; a dash if it is
+    not known.
 
     Args:
-        value: Value, SI.
+        value: Value, SI; None: not known.
         unit: Unit of the column.
         negligible: Whether the value is negligible.
         digits: Significant digits, as in `number`.
     """
+    if value is None:
+        return UNKNOWN
     if not value:
         return NOTHING
     return "negligible" if negligible else number(unit.of(value), digits)

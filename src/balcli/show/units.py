@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from typing import NamedTuple
 
 from ..file import units
@@ -37,6 +38,16 @@ class ShownUnit(NamedTuple):
         if self.larger is not None and abs(largest) >= self.most * self.size:
             return self.larger.fit(largest)
         return self
+
+    def fit_values(self, values: Iterable[float | None]) -> ShownUnit:
+        """Return this or a larger unit to fit the largest of some values, SI. Values that are
+        None or not finite do not count.
+        """
+        largest = 0.0
+        for value in values:
+            if value is not None and math.isfinite(value):
+                largest = max(largest, abs(value))
+        return self.fit(largest)
 
 
 class System(NamedTuple):

@@ -62,7 +62,7 @@ def sheet(result: Scatter, system: System) -> Sheet:
     causes = []
     sources = {source.name: source for source in result.parts}
     for name, spread in result.quantities.items():
-        unit = unit_of_name(result.units[name]).fit(max(map(abs, (spread.max, spread.nominal))))
+        unit = unit_of_name(result.units[name]).fit_values((spread.max, spread.nominal))
         head = name_with_unit(name, unit.name)
         lines.append((head, *(number(value / unit.size) for value in _list_sizes(spread).values())))
         parts = _group_parts(spread.sensitivity, sources, unit.size)[:SHOWN] or [("0", "any part")]

@@ -223,7 +223,7 @@ _RING = ShownUnit("kg·mm²", 1e-6, SI.inertia, 1e7)
 def _show_damper(sized: SizedDamper, system: System) -> Facts:
     """Return the figures of the sized damper and its effect on the largest stress."""
     kind = system.stress if sized.measure == "stress" else system.moment
-    unit = kind.fit(max(filter(math.isfinite, (sized.before, sized.after))))
+    unit = kind.fit_values((sized.before, sized.after))
     units = _choose_units(system)
     units["kg m2"] = _RING if system == SI else system.inertia
     pairs = [("on", sized.node)]
@@ -387,7 +387,7 @@ def _show_holzer(result: TorsionAnalysis, table: HolzerTable, system: System) ->
     angles = [row.angle for row in table.rows]
     torques = [row.torque_Nm for row in table.rows]
     sums = [row.sum_Nm for row in table.rows]
-    unit = system.moment.fit(max(map(abs, (*torques, *sums))))
+    unit = system.moment.fit_values((*torques, *sums))
     heads = [
         Column("node", words=True),
         Column(f"J, {inertia.name}"),
