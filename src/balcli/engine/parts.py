@@ -36,6 +36,7 @@ from .figures import (
 )
 from .layout import (
     OPPOSED,
+    Cell,
     Plan,
     bank_angles,
     cycle_deg,
@@ -61,14 +62,23 @@ def find_masters(parts: Parts) -> dict[int, int]:
     if table is None:
         return {}
     places = parts.find_master_places()
-    masters = {c.throw: c.number for c in cells if c.bank == places[c.throw] - 1}
-    hung = (c for c in cells if c.bank != places[c.throw] - 1 and c.throw in masters)
-    return {c.number: masters[c.throw] for c in hung}
+    masters = {}
+    hung = []
+    for cell in cells:
+        if cell.bank == places[cell.throw] - 1:
+            masters[cell.throw] = cell.number
+        else:
+            hung.append(cell)
+    return {cell.number: masters[cell.throw] for cell in hung if cell.throw in masters}
 
 
 def find_gears(parts: Parts) -> dict[int, RunningGear]:
     """Return piston and rod of each cylinder, by its number."""
-    return {n: parts.weigh_gear(parts.find_rod(n, n in parts.masters)) for n in parts.plan.numbers}
+    gears = {}
+    for number in parts.plan.numbers:
+        rod = parts.find_rod(number, articulated=number in parts.masters)
+        gears[number] = parts.weigh_gear(rod)
+    return gears
 
 
 def find_strokes(parts: Parts) -> dict[int, Figure]:
@@ -76,10 +86,12 @@ def find_strokes(parts: Parts) -> dict[int, Figure]:
     an articulated rod has the value of its master. Key 0, the number for the general figures of
     rods, has the stroke of the first throw.
     """
-    on_pin = {c.number: parts.masters.get(c.number, c.number) for c in parts.plan.cells}
-    throws = {c.number: parts.throw_strokes[c.throw] for c in parts.plan.cells}
-    each = {n: value_or(parts.override(pin, "stroke"), throws[n]) for n, pin in on_pin.items()}
-    return {0: parts.throw_strokes[0], **each}
+    strokes = {0: parts.throw_strokes[0]}
+    for cell in parts.plan.cells:
+        on_pin = parts.masters.get(cell.number, cell.number)
+        own = parts.override(on_pin, "stroke")
+        strokes[cell.number] = value_or(own, parts.throw_strokes[cell.throw])
+    return strokes
 
 
 # ------------------------------------------------------------------ crank pins and firing
@@ -109,29 +121,41 @@ def set_pins(parts: Parts) -> Pins:
     cells = parts.plan.cells
     banks = bank_angles(model.layout, figures)
     turn = find_row_angle(model.layout, parts.plan.throws, figures)
-    axes = {
-        c.number: value_or(parts.override(c.number, "bank"), banks[c.bank] + c.throw * turn)
-        for c in cells
-    }
+    axes = {}
+    for cell in cells:
+        own = parts.override(cell.number, "bank")
+        axes[cell.number] = value_or(own, banks[cell.bank] + cell.throw * turn)
     tops = axes
     if model.articulation is None:
-        gears = parts.gears
-        find = parts.find_radius
-        tops = {n: axis + parts.sense * gears[n].top_deg(find(n)) for n, axis in axes.items()}
+        tops = {}
+        for number, axis in axes.items():
+            top = parts.gears[number].top_deg(parts.find_radius(number))
+            tops[number] = axis + parts.sense * top
     splay = figures.take("crank.splay", model.crank.splay)
+    throws = _set_throws(parts, tops, splay)
+    pins = {}
+    for cell in cells:
+        own = parts.override(cell.number, "throw")
+        pins[cell.number] = value_or(own, throws[cell.throw] + cell.bank * splay)
+    leads = {number: pin - pins[1] for number, pin in pins.items()}
+    return Pins(axes, tops, throws, leads)
+
+
+def _set_throws(parts: Parts, tops: Mapping[int, Figure], splay: Figure) -> dict[int, Figure]:
+    """Return the angle of each throw, deg: the one in the file, or the one that the firing order
+    needs.
+    """
+    layout = parts.model.layout
     if parts.throws_given or parts.order is None:
-        given = model.crank.throws or OPPOSED[: parts.plan.throws]
-        throws = dict(enumerate(figures.take_each("crank.throws", given)))
-    else:
-        fires = find_instants(parts.order, model.layout.firing_intervals, cycle_deg(model.layout))
-        wanted = find_pins(fires, tops, parts.sense)
-        firing = [c for c in reversed(cells) if c.number in wanted]
-        throws = {c.throw: wanted[c.number] - c.bank * splay for c in firing}
-    pins = {
-        c.number: value_or(parts.override(c.number, "throw"), throws[c.throw] + c.bank * splay)
-        for c in cells
-    }
-    return Pins(axes, tops, throws, {number: pin - pins[1] for number, pin in pins.items()})
+        given = parts.model.crank.throws or OPPOSED[: parts.plan.throws]
+        return dict(enumerate(parts.figures.take_each("crank.throws", given)))
+    fires = find_instants(parts.order, layout.firing_intervals, cycle_deg(layout))
+    wanted = find_pins(fires, tops, parts.sense)
+    throws: dict[int, Figure] = {}
+    for cell in reversed(parts.plan.cells):  # the first cylinder of a throw decides
+        if cell.number in wanted:
+            throws[cell.throw] = wanted[cell.number] - cell.bank * splay
+    return throws
 
 
 def find_true_tops(parts: Parts) -> Mapping[int, Figure]:
@@ -141,8 +165,11 @@ def find_true_tops(parts: Parts) -> Mapping[int, Figure]:
     pins = parts.pins
     if parts.model.articulation is None or parts.rank:
         return pins.tops_deg
-    tops = zip(parts.numbers, find_travel(parts.cylinders).top_deg, strict=True)
-    return {n: pins.axes_deg[n] + parts.sense * float(top) for n, top in tops}
+    found = find_travel(parts.cylinders).top_deg
+    tops = {}
+    for number, top in zip(parts.numbers, found, strict=True):
+        tops[number] = pins.axes_deg[number] + parts.sense * float(top)
+    return tops
 
 
 def find_fires(parts: Parts) -> dict[int, Figure]:
@@ -159,8 +186,9 @@ def find_fires(parts: Parts) -> dict[int, Figure]:
     cycle = cycle_deg(layout)
     if intervals is None and parts.throws_given:
         leads = parts.pins.leads_deg
-        tops = parts.true_tops_deg
-        ready = {n: parts.sense * float(tops[n] - lead) for n, lead in leads.items()}
+        ready = {}
+        for number, top in parts.true_tops_deg.items():
+            ready[number] = parts.sense * float(top - leads[number])
         intervals = tuple(find_intervals(parts.order, ready, cycle))
     return find_instants(parts.order, intervals, cycle)
 
@@ -200,7 +228,6 @@ def weigh_cylinders(parts: Parts) -> dict[int, CylinderMasses]:
     oil_per_pin = parts.figures.take_optional("bobweight.oil_per_pin", bobweight.oil_per_pin)
     piston = tuple(parts.find_piston_masses().items())
     weighed = {}
-    leads = parts.pins.leads_deg
     crosshead = take("crosshead.mass", parts.model.crosshead.mass)
     for cell in parts.plan.cells:
         number = cell.number
@@ -208,11 +235,8 @@ def weigh_cylinders(parts: Parts) -> dict[int, CylinderMasses]:
         gear = parts.gears[number]
         own = parts.override(number, "piston_mass")
         shared: Figure = 0.0
-        if oil_per_pin is not None and not hung:  # shared by the rods on the same crank pin
-            rods = [c.number for c in parts.plan.cells if c.throw == cell.throw]
-            apart = (leads[n] - leads[number] for n in rods if n not in parts.masters)
-            together = (np.abs((angle + 180) % 360 - 180) < 1e-9 for angle in apart)
-            shared = oil_per_pin / sum((np.asarray(each, float) for each in together), 0.0)
+        if oil_per_pin is not None and not hung:
+            shared = oil_per_pin / _count_rods_on_pin(parts, cell)
         masses = CylinderMasses(
             cell.throw,
             piston=gear.piston,
@@ -227,6 +251,21 @@ def weigh_cylinders(parts: Parts) -> dict[int, CylinderMasses]:
         # The pin of an articulated rod is a knuckle pin, without bearing shells and oil.
         weighed[number] = masses._replace(rod_bearing=0.0, oil=0.0) if hung else masses
     return weighed
+
+
+def _count_rods_on_pin(parts: Parts, cell: Cell) -> Figure:
+    """Return the number of rods on the crank pin of a cylinder. Articulated rods do not count;
+    split pins of a throw are two pins.
+    """
+    leads = parts.pins.leads_deg
+    count: Figure = 0.0
+    for other in parts.plan.cells:
+        if other.throw != cell.throw or other.number in parts.masters:
+            continue
+        apart = leads[other.number] - leads[cell.number]
+        on_pin = np.abs((apart + 180) % 360 - 180) < 1e-9
+        count = count + np.asarray(on_pin, float)
+    return count
 
 
 # ------------------------------------------------------------------ places along the crank
@@ -273,10 +312,8 @@ def find_places(parts: Parts) -> Places:
     if model.frame.reference is None:
         middle = 0.0, 0.0, (throws.min(axis=0) + throws.max(axis=0)) / 2
         return Places(z, throws, pins, middle)
-    x, y, height = (
-        each / 1e3 for each in figures.take_each("frame.reference", model.frame.reference)
-    )
-    return Places(z, throws, pins, (x, y, height))
+    x, y, height = figures.take_each("frame.reference", model.frame.reference)
+    return Places(z, throws, pins, (x / 1e3, y / 1e3, height / 1e3))
 
 
 # ------------------------------------------------------------------ arrays
@@ -300,9 +337,9 @@ def _turn(parts: Parts) -> tuple[Mapping[int, Figure], Mapping[int, Figure]]:
     leads = parts.pins.leads_deg
     if not parts.model.layout.rotary:
         return axes, leads
-    return {n: axes[1] + lead for n, lead in leads.items()}, {
-        n: axis - axes[1] for n, axis in axes.items()
-    }
+    pins = {number: axes[1] + lead for number, lead in leads.items()}
+    angles = {number: axis - axes[1] for number, axis in axes.items()}
+    return pins, angles
 
 
 def arrange_cylinders(parts: Parts) -> Cylinders:
@@ -318,9 +355,11 @@ def arrange_cylinders(parts: Parts) -> Cylinders:
     same_throws = not (isinstance(parts.model.crank.throw_mass, tuple) or parts.model.web)
     alike = same_gear and same_throws
 
+    different = numbers[:1] if alike else numbers
+
     def of_each(find: Callable[[int], Figure]) -> Array:
         """Return a figure of all cylinders, as a single row if they are equal."""
-        return shared_column([find(n) for n in (numbers[:1] if alike else numbers)], rank)
+        return shared_column([find(number) for number in different], rank)
 
     def find_rotating(number: int) -> Figure:
         """Return the mass on the crank pin, kg; that of an articulated rod is on a knuckle pin."""
@@ -383,19 +422,31 @@ def _hang_rods(parts: Parts, table: Articulation) -> Articulated:
     masters = parts.masters
     axes = parts.pins.axes_deg
     rank = parts.rank
-    angles = {n: axes[n] - axes[master] for n, master in masters.items()}
-    if (given := parts.find_knuckle_angles()) is not None:
-        angles = {c.number: given[c.throw][c.bank] for c in parts.plan.cells if c.number in masters}
     radius_mm = parts.figures.take("articulation.knuckle_radius", table.knuckle_radius)
-    pins_deg = column([parts.sense * angles.get(n, 0.0) for n in numbers], rank)
-    of_master = [masters.get(n, n) for n in numbers]
-    leads = [parts.sense * (axes[n] - axes[m]) for n, m in zip(numbers, of_master, strict=True)]
-    masses = [parts.gears[n].big_end if n in masters else 0.0 for n in numbers]
-    ratios = [radius_mm / (parts.strokes[n] / 2) if n in masters else 0.0 for n in numbers]
+    knuckle_angles = parts.find_knuckle_angles()
+    cells = {cell.number: cell for cell in parts.plan.cells}
+    rows_of_masters: list[int] = []
+    masses: list[Figure] = []
+    ratios: list[Figure] = []
+    pins: list[Figure] = []
+    leads: list[Figure] = []
+    for number in numbers:
+        hangs = number in masters
+        master = masters.get(number, number)
+        lead = axes[number] - axes[master]
+        pin = lead
+        if hangs and knuckle_angles is not None:
+            cell = cells[number]
+            pin = knuckle_angles[cell.throw][cell.bank]
+        rows_of_masters.append(numbers.index(master))
+        masses.append(parts.gears[number].big_end if hangs else 0.0)
+        ratios.append(radius_mm / (parts.strokes[number] / 2) if hangs else 0.0)
+        pins.append(parts.sense * pin)
+        leads.append(parts.sense * lead)
     return Articulated(
         mass=column(masses, rank),
-        master=np.array([numbers.index(master) for master in of_master]),
-        knuckle=column(ratios, rank) * unit(pins_deg),
+        master=np.array(rows_of_masters),
+        knuckle=column(ratios, rank) * unit(column(pins, rank)),
         lead_deg=column(leads, rank),
     )
 
@@ -510,8 +561,12 @@ class Parts:
         """
         table = self.model.piston
         take = self.figures.take_optional
-        given = {key: take(f"piston.{key}", getattr(table, key)) for key in ("mass", *PISTON_PARTS)}
-        return {key: mass for key, mass in given.items() if mass is not None}
+        masses = {}
+        for key in ("mass", *PISTON_PARTS):
+            mass = take(f"piston.{key}", getattr(table, key))
+            if mass is not None:
+                masses[key] = mass
+        return masses
 
     def kind_of_rod(self, place: RodPlace) -> tuple[int, int, bool]:
         """Return a key that is the same for rods with the same figures: cylinder number (0 if the
@@ -581,12 +636,13 @@ class Parts:
         angles = [self.figures.take_each(path, every)] * throws
         if rows := [row for row in table.knuckle_angles if isinstance(row, tuple)]:
             angles = [self.figures.take_each(f"{path}.{k}", row) for k, row in enumerate(rows, 1)]
-        wrong = [(len(row), "angle", banks, "bank") for row in angles if len(row) != banks]
+        message = ""
         if len(angles) != throws:
-            wrong = [(len(angles), "list", throws, "row")]
-        for number, noun, wanted, place in wrong[:1]:
-            message = (
-                f"has {counted(number, noun)} for {counted(wanted, place)}: give one per {place}"
-            )
+            given = counted(len(angles), "list")
+            message = f"has {given} for {counted(throws, 'row')}: give one per row"
+        elif wrong := [row for row in angles if len(row) != banks]:
+            given = counted(len(wrong[0]), "angle")
+            message = f"has {given} for {counted(banks, 'bank')}: give one per bank"
+        if message:
             raise InputError([Problem(path, message)])
         return angles

@@ -18,7 +18,7 @@ from ..core.phasors import Figure
 from ..errors import BalcliError, InputError, Problem, note
 from ..file.csv_columns import locate_beside
 from ..file.engine_tables import Engine as EngineTable
-from ..file.model import Counterweight, EngineFile, Shaft, Slider
+from ..file.model import Counterweight, EngineFile, Operation, Shaft, Slider
 from ..file.read import Draft
 from ..file.toml import read_bytes
 from ..limits import MOST_ENGINES
@@ -53,10 +53,7 @@ def read_engines(draft: Draft, parse: Callable[[bytes, str], EngineFile]) -> Dra
     cranks = tuple(filter(None, (models[table.file] for table in engines)))
     _tell_ignored(engines, cranks)
     if not problems:
-        own = model.operation
-        lent = cranks[0].operation
-        keys = [k for k in ("speed", "speed_ripple") if lent.has(k) and not own.has(k)]
-        operation = own.model_copy(update={key: getattr(lent, key) for key in keys})
+        operation = _lend_speed(model, cranks[0])
         turning = {"operation": operation}
         # The uneven speed of the other cranks follows from that of the first one.
         steady = {"operation": operation.model_copy(update={"speed_ripple": ()})}
@@ -64,6 +61,18 @@ def read_engines(draft: Draft, parse: Callable[[bytes, str], EngineFile]) -> Dra
         model = model.model_copy(update=turning)
         model = model.with_cranks([cranks[0].model_copy(update=turning), *others])
     return draft._replace(model=model, problems=tuple(problems))
+
+
+def _lend_speed(model: EngineFile, first: EngineFile) -> Operation:
+    """Return the [operation] of a file, with speed and ripple of its first engine where the file
+    gives none.
+    """
+    own = model.operation
+    lent = {}
+    for key in ("speed", "speed_ripple"):
+        if first.operation.has(key) and not own.has(key):
+            lent[key] = getattr(first.operation, key)
+    return own.model_copy(update=lent)
 
 
 def _check_engines(model: EngineFile) -> Iterator[Problem]:
@@ -104,17 +113,18 @@ def _check_carriers(model: EngineFile) -> Iterator[Problem]:
             yield Problem(f"counterweight.{k}.axle", "a file with [[engine]] has no axles")
 
 
-_IGNORED = ("body", "mount", "point", "torsion", "locomotive", "operation", "frame")
+_IGNORED = ("body", "mount", "point", "torsion", "locomotive")
+_OF_FIRST_ENGINE = ("operation", "frame")  # used in the first engine's file, ignored in the others
 
 
 def _tell_ignored(engines: Sequence[EngineTable], cranks: Sequence[EngineFile]) -> None:
-    """Report the tables of the engines' files that are ignored. [operation] and [frame] are used in
-    the first engine's file, and ignored in the others.
-    """
-    for k, (table, crank) in enumerate(zip(engines, cranks, strict=False)):
-        keys = [key for key in (_IGNORED if k else _IGNORED[:5]) if crank.has(key)]
+    """Report the tables of the engines' files that are ignored."""
+    ignored: tuple[str, ...] = _IGNORED
+    for k, (table, crank) in enumerate(zip(engines, cranks, strict=False), 1):
+        keys = [key for key in ignored if crank.has(key)]
         if keys:
-            note(f"{table.file}: ignored in engine {k + 1}: {', '.join(keys)}")
+            note(f"{table.file}: ignored in engine {k}: {', '.join(keys)}")
+        ignored = (*_IGNORED, *_OF_FIRST_ENGINE)
 
 
 @contextmanager
@@ -124,7 +134,7 @@ def _collecting(problems: list[Problem], number: int, file: str) -> Iterator[Non
         yield
     except InputError as error:
         path = f"engine.{number}.file"
-        problems += (Problem(path, f"{file}: {one}") for one in error.problems)
+        problems += [Problem(path, f"{file}: {problem}") for problem in error.problems]
     except BalcliError as error:
         problems.append(Problem(f"engine.{number}.file", str(error)))
 
@@ -164,14 +174,13 @@ def build_geared(
     given = model.frame.reference
     power = model.operation.power
     if given is not None:
-        x, y, z = (each / 1e3 for each in figures.take_each("frame.reference", given))
-        whole = replace(whole, reference_m=(x, y, z))
-    devices = (
-        build_fitted(table, whole, figures, path)
-        for path, table in model.tables()
-        if isinstance(table, Counterweight | Shaft | Slider)
-        and not (isinstance(table, Shaft) and table.drifts)
-    )
+        x, y, z = figures.take_each("frame.reference", given)
+        whole = replace(whole, reference_m=(x / 1e3, y / 1e3, z / 1e3))
+    devices = []
+    for path, entry in model.tables():
+        drifts = isinstance(entry, Shaft) and entry.drifts
+        if isinstance(entry, Counterweight | Shaft | Slider) and not drifts:
+            devices.append(build_fitted(entry, whole, figures, path))
     return replace(
         whole,
         name=model.name,
@@ -201,7 +210,8 @@ def build_fitted(
         path: Dotted name of the table.
     """
     carrier = getattr(table, "engine", None)
-    row = [one.name for one in engine.placed].index(carrier) if carrier else 0
+    names = [placed.name for placed in engine.placed]
+    row = names.index(carrier) if carrier else 0
     own = engine.placed[row].engine if engine.placed else engine
     return build_device(table, own.first_axis_deg, figures, path)._replace(crank=row)
 
@@ -211,14 +221,15 @@ def gear_engines(placed: Sequence[Placed]) -> Engine:
     and the point of reference of the first engine. Its `devices` are empty; each engine keeps its
     own devices.
     """
-    speed = placed[0].engine.speed_rpm
-    placed = [one._replace(engine=one.engine.at_speed(speed)) for one in placed]
-    engines = [one.engine for one in placed]
+    placed = _turn_all(placed, placed[0].engine.speed_rpm)
+    engines = [crank.engine for crank in placed]
     first = placed[0]
     fired = [engine for engine in engines if engine.gas is not None]
     x, y, z = first.engine.reference_m
     place = first.find_place(place_in_plane(x, y))
-    cylinders = tuple(f"{one.name}.{number}" for one in placed for number in one.engine.numbers)
+    cylinders: list[str] = []
+    for crank in placed:
+        cylinders += [f"{crank.name}.{number}" for number in crank.engine.numbers]
     strokes = max(engine.strokes for engine in fired or engines)
     weighed = chain.from_iterable(engine.weighed for engine in engines)
     places_known = all(engine.places_known for engine in engines)
@@ -226,7 +237,7 @@ def gear_engines(placed: Sequence[Placed]) -> Engine:
     flywheel_inertia = _add(engine.flywheel_inertia for engine in engines)
     return replace(
         first.engine,
-        numbers=cylinders,
+        numbers=tuple(cylinders),
         fires_deg={},
         strokes=strokes,
         reference_m=(place.real, place.imag, z + first.at_m[2]),
@@ -242,6 +253,11 @@ def gear_engines(placed: Sequence[Placed]) -> Engine:
     )
 
 
+def _turn_all(placed: Sequence[Placed], speed_rpm: Figure) -> list[Placed]:
+    """Return the engines at a speed."""
+    return [crank._replace(engine=crank.engine.at_speed(speed_rpm)) for crank in placed]
+
+
 def _place_engines(
     model: EngineFile, figures: FileFigures, engines: Sequence[Engine]
 ) -> Iterator[Placed]:
@@ -253,37 +269,37 @@ def _place_engines(
         path = f"engine.{k + 1}"
         phase = figures.take(f"{path}.phase", table.phase)
         turn = figures.take(f"{path}.turn", table.turn)
-        at = tuple(each / 1e3 for each in figures.take_each(f"{path}.at", table.at))
+        x, y, z = figures.take_each(f"{path}.at", table.at)
+        at = (x / 1e3, y / 1e3, z / 1e3)
         sense = table.ratio if all(loads) else driving
         yield Placed(engine, name, table.file, table.ratio, phase, turn, at, loads[k], sense)
 
 
 def _add(figures: Iterable[Figure | None]) -> Figure | None:
     given = [figure for figure in figures if figure is not None]
-    return cast("Figure", sum(given)) if given else None
+    if not given:
+        return None
+    return cast("Figure", sum(given))
 
 
 def _join_gas(placed: Sequence[Placed]) -> EngineGas | None:
     """Return the gas of all cylinders by the crank angle of the first engine; None if no engine has
     gas. The cylinders of an engine without gas have the share 0.
     """
-    burning = [one.engine.gas for one in placed if one.engine.gas is not None]
+    burning = [crank.engine.gas for crank in placed if crank.engine.gas is not None]
     if not burning:
         return None
     cylinders = list[CylinderGas]()
-    for placed_engine in placed:
-        gas = placed_engine.engine.gas
+    for crank in placed:
+        gas = crank.engine.gas
         start = len(cylinders)
         if gas is None:
             idle = burning[0].cylinders[0]._replace(share=0.0, like=start)
-            cylinders += [idle] * len(placed_engine.engine.numbers)
+            cylinders += [idle] * len(crank.engine.numbers)
             continue
-        cylinders += (
-            own._replace(
-                nominal_deg=own.nominal_deg - float(placed_engine.phase_deg), like=start + own.like
-            )
-            for own in gas.cylinders
-        )
+        for own in gas.cylinders:
+            nominal = own.nominal_deg - float(crank.phase_deg)
+            cylinders.append(own._replace(nominal_deg=nominal, like=start + own.like))
     efficiencies = {gas.mechanical_efficiency for gas in burning}
     same = efficiencies.pop() if len(efficiencies) == 1 else None
     cycle_deg = max(gas.cycle_deg for gas in burning)
@@ -292,13 +308,16 @@ def _join_gas(placed: Sequence[Placed]) -> EngineGas | None:
 
 def _join_laws(placed: Sequence[Placed]) -> GasLaw | None:
     """Return the law for the gas of all cylinders; None if the gas is the same at all speeds."""
-    laws = [one.engine.gas.law for one in placed if one.engine.gas and one.engine.gas.law]
+    laws = []
+    for crank in placed:
+        gas = crank.engine.gas
+        if gas is not None and gas.law is not None:
+            laws.append(gas.law)
     if not laws:
         return None
 
     def solve(speed_rpm: float) -> EngineGas:
-        there = [one._replace(engine=one.engine.at_speed(speed_rpm)) for one in placed]
-        return cast(EngineGas, _join_gas(there))
+        return cast(EngineGas, _join_gas(_turn_all(placed, speed_rpm)))
 
     powers = {law.power for law in laws}
     nodes = sorted({speed for law in laws for speed in law.nodes_rpm})

@@ -69,8 +69,7 @@ class NamedOrder(tuple[int, ...]):
     @property
     def bank_sizes(self) -> list[int]:
         """Number of cylinders of each bank."""
-        sizes = Counter(name.letter for name in self.names)
-        return [sizes[letter] for letter in self.letters]
+        return [len(self.list_bank(letter)) for letter in self.letters]
 
     @property
     def text(self) -> str:
@@ -81,6 +80,14 @@ class NamedOrder(tuple[int, ...]):
         """Return the same order with the letters of the banks in another sequence."""
         return NamedOrder(self.names, letters)
 
+    def list_bank(self, letter: str) -> list[int]:
+        """Return the numbers of the cylinders of a bank, rising."""
+        numbers = []
+        for number, name in zip(self, self.names, strict=True):
+            if name.letter == letter:
+                numbers.append(number)
+        return sorted(numbers)
+
     def find_name(self, number: int) -> str:
         """Return the name of the cylinder with this number."""
         return self.names[self.index(number)].text
@@ -88,7 +95,9 @@ class NamedOrder(tuple[int, ...]):
 
 def write_order(order: Iterable[int]) -> str:
     """Return a firing order in words: 1-3-4-2, or with the names of the file."""
-    return order.text if isinstance(order, NamedOrder) else "-".join(map(str, order))
+    if isinstance(order, NamedOrder):
+        return order.text
+    return "-".join(map(str, order))
 
 
 class FiringOrder:
@@ -139,7 +148,9 @@ def _split(value: object) -> list[str]:
     if not isinstance(value, str):
         return []
     parts = re.split(_SEPARATOR, value.strip())
-    return parts if len(parts) > 1 else []
+    if len(parts) == 1:
+        return []
+    return parts
 
 
 def _read_name(text: str) -> CylinderName:
@@ -194,10 +205,9 @@ def _check_bank(order: NamedOrder, letter: str) -> None:
     )
     numbers = [name.number for name in order.names]
     if sorted(numbers) == [*range(1, len(numbers) + 1)]:
-        banks = [
-            sorted(name.number for name in order.names if name.letter == each)
-            for each in order.letters
-        ]
+        banks = []
+        for bank in order.letters:
+            banks.append(sorted(name.number for name in order.names if name.letter == bank))
         message += (
             f". If the numbers count through the engine, write firing_order = {numbers} and "
             f"numbering = {banks}, with the list of the first bank first"

@@ -30,7 +30,7 @@ def normalize_tables(tables: Mapping[Any, object]) -> Node:
         InputError: A key is not a text or number, or a table contains itself.
     """
     try:
-        return {_key(key): _plain(value) for key, value in tables.items() if value is not None}
+        return _plain_table(tables)
     except TypeError as error:
         raise InputError([Problem("", str(error))]) from None
     except RecursionError:
@@ -69,9 +69,14 @@ def _key(key: object) -> str:
     raise TypeError(f'{message}; write it as in a file, such as "stroke"')
 
 
+def _plain_table(table: Mapping[Any, object]) -> Node:
+    """Return a table without keys whose value is None."""
+    return {_key(key): _plain(value) for key, value in table.items() if value is not None}
+
+
 def _plain(value: object) -> object:
     if isinstance(value, Mapping):
-        return {_key(key): _plain(inner) for key, inner in value.items() if inner is not None}
+        return _plain_table(value)
     if isinstance(value, np.generic) or (isinstance(value, np.ndarray) and value.ndim == 0):
         return value.tolist()
     if isinstance(value, (list, tuple, range, Iterator, np.ndarray)):
@@ -82,10 +87,7 @@ def _plain(value: object) -> object:
 def list_tables(value: object) -> Any:
     """Return a file, a table or a value as dicts, lists, numbers and texts, in the file's units."""
     if isinstance(value, FileTable):
-        fields = type(value).model_fields
-        given = [(key, getattr(value, key)) for key in fields if key in value.model_fields_set]
-        written = ((fields[key].alias or key, part) for key, part in given)
-        return {key: list_tables(part) for key, part in written if part is not None and part != ()}
+        return _list_fields(value)
     if isinstance(value, Mapping):
         return {str(key): list_tables(inner) for key, inner in value.items()}
     if isinstance(value, NamedOrder):
@@ -93,6 +95,16 @@ def list_tables(value: object) -> Any:
     if isinstance(value, tuple):
         return [list_tables(inner) for inner in value]
     return RIGID if value == math.inf else value
+
+
+def _list_fields(table: FileTable) -> Node:
+    """Return the keys that a table gives, named as in a file."""
+    listed = {}
+    for name, field in type(table).model_fields.items():
+        value = getattr(table, name)
+        if name in table.model_fields_set and value is not None and value != ():
+            listed[field.alias or name] = list_tables(value)
+    return listed
 
 
 def change_tables(model: EngineFile, changes: Mapping[str, object]) -> Node:
@@ -134,23 +146,29 @@ def _descend(place: Any, given: Any, keys: Sequence[str], path: str) -> tuple[An
             place = place[k]
             given = given[k]
         else:
-            known = {str(k): one for k, one in given.items()} if isinstance(given, dict) else {}
-            given = known.get(key) if known else getattr(given, key, None)
+            given = _find_given(given, key)
             place = place.setdefault(key, list_tables(given) if isinstance(given, tuple) else {})
         if not isinstance(place, (dict, list)):
             raise InputError([Problem(path, f"{key} is a single value without parts")])
     return place, given
 
 
+def _find_given(given: Any, key: str) -> Any:
+    """Return what the model has at a key; None if it has nothing there."""
+    if isinstance(given, dict) and given:
+        by_name = {str(name): value for name, value in given.items()}
+        return by_name.get(key)
+    return getattr(given, key, None)
+
+
 def _find_member(place: Sequence[Any], given: Any, key: str, path: str) -> int:
     """Return the index of the member of a list with this number (from 1) or name."""
-    labels = [
-        label_table(one, k) if isinstance(one, FileTable) else str(k)
-        for k, one in enumerate(given, 1)
-    ]
+    labels = []
+    for k, member in enumerate(given, 1):
+        labels.append(label_table(member, k) if isinstance(member, FileTable) else str(k))
     if key in labels:
         return labels.index(key)
     if key.isdecimal() and 0 < int(key) <= len(place):
         return int(key) - 1
-    there = ", ".join(labels[:8]) or "none"
-    raise InputError([Problem(path, f"there is no {key}; the file has {there}")])
+    members = ", ".join(labels[:8]) or "none"
+    raise InputError([Problem(path, f"there is no {key}; the file has {members}")])

@@ -22,23 +22,25 @@ def list_lettered(model: EngineFile, plan: Plan) -> list[EngineFile]:
     if not isinstance(order, NamedOrder):
         return []
     sizes = [len(group) for group in plan.groups]
-    ways = (order.with_letters(letters) for letters in permutations(order.letters))
-    return [
-        model.with_inferred("layout", firing_order=way, numbering=number_groups(plan))
-        for way in ways
-        if way.bank_sizes == sizes
-    ]
+    numbering = number_groups(plan)
+    models = []
+    for letters in permutations(order.letters):
+        way = order.with_letters(letters)
+        if way.bank_sizes == sizes:
+            models.append(model.with_inferred("layout", firing_order=way, numbering=numbering))
+    return models
 
 
 def describe_letters(order: NamedOrder) -> str:
     """Return which numbers the names of the cylinders stand for: "1R to 8R are 1 to 8"."""
     of_banks = []
     for letter in order.letters:
-        numbers = sorted(
-            number for number, name in zip(order, order.names, strict=True) if name.letter == letter
-        )
+        numbers = order.list_bank(letter)
         first = numbers[0]
         last = numbers[-1]
-        names = f"{order.find_name(first)} to {order.find_name(last)} are {first} to {last}"
-        of_banks.append(names if len(numbers) > 1 else f"{order.find_name(first)} is {first}")
+        if first == last:
+            of_banks.append(f"{order.find_name(first)} is {first}")
+        else:
+            names = f"{order.find_name(first)} to {order.find_name(last)}"
+            of_banks.append(f"{names} are {first} to {last}")
     return ", ".join(of_banks)

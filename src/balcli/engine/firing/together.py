@@ -63,10 +63,10 @@ def list_intervals_of_crank(parts: Parts) -> list[Intervals]:
         parts: Stages of an engine; its file gives throws and a firing order.
     """
     order = parts.order or ()
-    ready = [
-        parts.sense * float(parts.true_tops_deg[number] - parts.pins.leads_deg[number])
-        for number in (*order, *order[:1])
-    ]
+    ready = []
+    for number in (*order, *order[:1]):
+        behind = parts.true_tops_deg[number] - parts.pins.leads_deg[number]
+        ready.append(parts.sense * float(behind))
     intervals = [(after - before) % TURN for before, after in pairwise(ready)]
     coincident = [k for k, angle in enumerate(intervals) if _is_whole_turn(angle)]
     for k in coincident:
@@ -76,7 +76,12 @@ def list_intervals_of_crank(parts: Parts) -> list[Intervals]:
         return []
     ways = islice(combinations(reversed(coincident), turns), MOST_WAYS_TRIED)
     fitting = [_set_turns(intervals, apart) for apart in ways]
-    return sorted(fitting, key=lambda listed: (listed[0] > 0, _count_most_together(listed)))
+    return sorted(fitting, key=_rank_intervals)
+
+
+def _rank_intervals(intervals: Intervals) -> tuple[bool, int]:
+    """Return a key that puts intervals that begin with 0 first."""
+    return (intervals[0] > 0, _count_most_together(intervals))
 
 
 def _is_whole_turn(angle: float) -> bool:

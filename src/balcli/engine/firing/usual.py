@@ -33,19 +33,25 @@ def list_tiers(plan: Plan, *, radial: bool) -> Iterator[list[Rows]]:
 def _list_tiers_of_two_banks(plan: Plan) -> Iterator[list[Rows]]:
     """Yield the usual numberings of an engine with two banks. Only equal banks are exchanged."""
     usual = [number_groups(plan), _number_along(plan)]
-    second_backwards = [(first, second[::-1]) for first, second in usual]
     exchanged: list[Rows] = []
+    second_backwards: list[Rows] = []
     first_backwards: list[Rows] = []
-    if len(usual[0][0]) == len(usual[0][1]):
-        exchanged = [(second, first) for first, second in usual]
-        first_backwards = [(second[::-1], first) for first, second in usual]
+    both_backwards: list[Rows] = []
+    of_exchanged: list[Rows] = []
+    for first, second in usual:
+        second_backwards.append((first, second[::-1]))
+        both_backwards.append((first[::-1], second[::-1]))
+        if len(first) == len(second):
+            exchanged.append((second, first))
+            first_backwards.append((second[::-1], first))
+            of_exchanged.append((second[::-1], first[::-1]))
     if plan.rods_on_throw > 1:
         yield [*usual, *exchanged]
         yield [*second_backwards, *first_backwards]
     else:
         yield usual
         yield [*second_backwards, *first_backwards, *exchanged]
-    yield [(first[::-1], second[::-1]) for first, second in (*usual, *exchanged)]
+    yield [*both_backwards, *of_exchanged]
 
 
 def number_groups(plan: Plan) -> Rows:
@@ -61,12 +67,18 @@ def _number_along(plan: Plan) -> Rows:
 def _number_rows(plan: Plan, cells: Iterable[Cell]) -> Rows:
     """Return the numbering in which the cells are counted in this order."""
     numbers = {cell: number for number, cell in enumerate(cells, 1)}
-    return tuple(tuple(numbers[cell] for cell in group) for group in plan.groups)
+    groups = []
+    for group in plan.groups:
+        groups.append(tuple(numbers[cell] for cell in group))
+    return tuple(groups)
 
 
 def list_numbers(plan: Plan) -> Rows:
     """Return the numbers of the cylinders as `layout.numbering` lists them."""
-    return tuple(tuple(cell.number for cell in group) for group in plan.groups)
+    groups = []
+    for group in plan.groups:
+        groups.append(tuple(cell.number for cell in group))
+    return tuple(groups)
 
 
 def write_rows(rows: Sequence[Sequence[int]]) -> str:

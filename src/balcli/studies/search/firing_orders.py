@@ -17,6 +17,7 @@ from itertools import islice, permutations, product
 import numpy as np
 
 from ...core.phasors import Array
+from ...core.records import Node
 from ...engine.build import assemble
 from ...engine.firing.fits import find_fitting_splay
 from ...engine.layout import TOLERANCE_DEG, Cell, cycle_deg, plan_cylinders
@@ -97,7 +98,8 @@ class Slots:
         for cell in self.cells:
             slot = self._find_slot(cell, throws[cell.throw] - start)
             ready.setdefault(slot, []).append(cell.number)
-        if {slot: len(numbers) for slot, numbers in ready.items()} != Counter(self._slots):
+        counts = {slot: len(numbers) for slot, numbers in ready.items()}
+        if counts != Counter(self._slots):
             return
         for chosen in product(*map(permutations, ready.values())):
             turns = dict(zip(ready, map(iter, chosen), strict=True))
@@ -140,10 +142,9 @@ def find_slots(model: EngineFile) -> tuple[Slots, Array]:
             "cylinders with throw angles of their own have no firing order to search: give only "
             "crank.throws and splay"
         )
-    at_throw = {
-        cell.number: float(top_deg[cell.number]) - cell.bank * model.crank.splay
-        for cell in layout.cells
-    }
+    at_throw = {}
+    for cell in layout.cells:
+        at_throw[cell.number] = float(top_deg[cell.number]) - cell.bank * model.crank.splay
     sense = -1 if model.layout.rotary else 1
     order = model.layout.firing_order or layout.numbers  # without dummies
     firing = tuple(cell for cell in layout.cells if cell.number in order)
@@ -167,13 +168,15 @@ def search_firing_order(model: EngineFile, objective: Objective, tell: Tell) -> 
     """Yield the even firing orders with their cranks, best first."""
     slots, cranks = find_slots(model)
     if objective.is_sum_over_cylinders:
-        for one in rank_throws(drop_firing_order(model), cranks, objective):
-            for order in slots.find_orders(one.design["throws"]):
-                yield replace(one, design={"firing_order": [*order], **one.design})
+        for crank in rank_throws(drop_firing_order(model), cranks, objective):
+            for order in slots.find_orders(crank.design["throws"]):
+                yield replace(crank, design={"firing_order": [*order], **crank.design})
         return
-    designs = (
-        {"firing_order": [*order], "throws": throws}
-        for throws in cranks.tolist()
-        for order in slots.find_orders(throws)
-    )
-    yield from rank_one_by_one(model, designs, objective, tell)
+    yield from rank_one_by_one(model, _list_designs(slots, cranks), objective, tell)
+
+
+def _list_designs(slots: Slots, cranks: Array) -> Iterator[Node]:
+    """Yield each even firing order of each crank."""
+    for throws in cranks.tolist():
+        for order in slots.find_orders(throws):
+            yield {"firing_order": [*order], "throws": throws}
