@@ -54,7 +54,7 @@ def vectors_grid(
         least: Size from which a force or moment is not small, SI, by the name of its kind.
     """
     chosen = spectra.select_orders(shown)
-    columns = [Column("order", [*map(order_name, chosen.orders)], words=True)]
+    columns = [Column("order", list(map(order_name, chosen.orders)), words=True)]
     for kind, phasors in chosen.vectors():
         unit = fit_largest(system.unit(kind), phasors)
         rows = [write_vector(phasors, k, unit, 4) for k in range(len(shown))]

@@ -176,12 +176,12 @@ def _describe_throw(engine: Engine, index: int, throw: _Throw, weights: complex)
         sum_of_webs = sum(web.body.unbalance.real for web in webs)
         total += sum_of_webs
         at_pin = [web.body.at_pin for web in webs]
-        known = [unbalance.real for unbalance in at_pin if unbalance is not None]
-        if len(known) < len(webs):
+        of_known_webs = [unbalance.real for unbalance in at_pin if unbalance is not None]
+        if len(of_known_webs) < len(webs):
             of_throw = None
         else:
-            of_throw = throw.mass * throw.radius + sum(known)
-            own_weights += sum_of_webs - sum(known)
+            of_throw = throw.mass * throw.radius + sum(of_known_webs)
+            own_weights += sum_of_webs - sum(of_known_webs)
     rotating = throw.rotating * throw.radius
     reciprocating = throw.reciprocating * throw.radius
     degree = None
@@ -251,11 +251,11 @@ def _group_webs(parts: Iterable[WebPart]) -> list[_Row]:
 def _list_numbers(numbers: Iterable[int]) -> str:
     """Return numbers with ranges: 1-4,7."""
     runs: list[list[int]] = []
-    for each in sorted(set(numbers)):
-        if runs and each == runs[-1][1] + 1:
-            runs[-1][1] = each
+    for web in sorted(set(numbers)):
+        if runs and web == runs[-1][1] + 1:
+            runs[-1][1] = web
         else:
-            runs.append([each, each])
+            runs.append([web, web])
     return ",".join(str(low) if low == high else f"{low}-{high}" for low, high in runs)
 
 

@@ -242,18 +242,20 @@ def check_main_bearings(parts: Parts) -> Iterator[Problem]:
     places = () if bearing is None else bearing.main_positions or ()
     listed = ", ".join(f"{place:g}" for place in places)
     if len(places) == 1:
-        told = f"[{listed}] is a single place; give two or more"
-        yield Problem("bearing.main_positions", told)
+        message = f"[{listed}] is a single place; give two or more"
+        yield Problem("bearing.main_positions", message)
     for before, after in pairwise(places):
         if before >= after:
-            told = f"[{listed}]: {after:g} follows {before:g}; give the places ascending"
-            yield Problem("bearing.main_positions", told)
+            message = f"[{listed}]: {after:g} follows {before:g}; give the places ascending"
+            yield Problem("bearing.main_positions", message)
             return
     throws = {round(1e3 * float(z), 9) for z in np.ravel(parts.places.throws)}
     for place in places:
         if round(place, 9) in throws:
-            told = f"{place:g} mm is the position of a throw; give the middle of each main bearing"
-            yield Problem("bearing.main_positions", told)
+            message = (
+                f"{place:g} mm is the position of a throw; give the middle of each main bearing"
+            )
+            yield Problem("bearing.main_positions", message)
 
 
 def check_webs(parts: Parts) -> Iterator[Problem]:

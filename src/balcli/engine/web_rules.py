@@ -35,15 +35,15 @@ def check_webs(parts: Parts) -> Iterator[Problem]:
 def _check_crank(parts: Parts) -> Iterator[Problem]:
     model = parts.model
     if model.crank.has("throw_mass"):
-        told = "it follows from [[web]]; remove one of them"
-        yield Problem("crank.throw_mass", told)
+        message = "it follows from [[web]]; remove one of them"
+        yield Problem("crank.throw_mass", message)
     if model.layout.rotary:
         yield Problem("layout.rotary", "[[web]] is for cranks that turn; leave one of them out")
     if model.locomotive is not None:
         yield Problem("locomotive", "[[web]] is not for locomotives; leave one of them out")
     if np.any(np.asarray(parts.figures.take("crank.splay", model.crank.splay)) != 0):
-        told = "[[web]] is for throws with one pin; leave out splay or [[web]]"
-        yield Problem("crank.splay", told)
+        message = "[[web]] is for throws with one pin; leave out splay or [[web]]"
+        yield Problem("crank.splay", message)
 
 
 def check_web_places(parts: Parts) -> Iterator[Problem]:
@@ -54,18 +54,20 @@ def check_web_places(parts: Parts) -> Iterator[Problem]:
     places = np.sort(1e3 * parts.places.pins, axis=0)
     if len(places) > 1 and np.any(np.diff(places, axis=0) < _SAME_MM):
         key = "positions" if model.crank.positions is not None else "spacing"
-        told = f"[[web]] needs {counted(len(places), 'throw')} at places of their own; give {key}"
-        yield Problem(f"crank.{key}", told)
+        message = (
+            f"[[web]] needs {counted(len(places), 'throw')} at places of their own; give {key}"
+        )
+        yield Problem(f"crank.{key}", message)
     for cell in parts.plan.cells:
         first = next(c.number for c in parts.plan.cells if c.throw == cell.throw)
         leads = parts.pins.leads_deg
         apart = float(np.max(np.abs(np.asarray(leads[cell.number] - leads[first]))))
         if apart > _SAME_DEG:
-            told = "[[web]] is for throws with one pin; leave it out, or [[web]]"
-            yield Problem(f"cylinder.{cell.number}.throw", told)
+            message = "[[web]] is for throws with one pin; leave it out, or [[web]]"
+            yield Problem(f"cylinder.{cell.number}.throw", message)
         if parts.override(cell.number, "stroke") is not None:
-            told = "[[web]] takes the stroke of the throw; leave it out, or [[web]]"
-            yield Problem(f"cylinder.{cell.number}.stroke", told)
+            message = "[[web]] takes the stroke of the throw; leave it out, or [[web]]"
+            yield Problem(f"cylinder.{cell.number}.stroke", message)
     yield from _check_strokes(parts)
 
 

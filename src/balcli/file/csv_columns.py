@@ -226,16 +226,17 @@ def _take_columns(table: _Table, wanted: Sequence[Head]) -> NumberColumns:
     columns = [_find_head(head, heading, wanted, mark) for head in wanted]
     places = [place for place, _, _ in columns]
     width = len(heading) if mark in ", " else None
-    texts = [_find_cells(row, places, width, n) for row, n in zip(rows, numbers, strict=False)]
+    texts = []
+    for row, line in zip(rows, numbers, strict=False):
+        texts.append(_find_cells(row, places, width, line))
     for column in zip(*texts, strict=True):
         _refuse_thousands(column, numbers)
     comma = "," if mark == "," else "."  # replacement for a comma in a number
-    figures = tuple(
-        tuple(_read_number(cell, comma, n) for cell in row)
-        for row, n in zip(texts, numbers, strict=False)
-    )
+    figures = []
+    for cells, line in zip(texts, numbers, strict=False):
+        figures.append(tuple(_read_number(cell, comma, line) for cell in cells))
     _, units, scales = zip(*columns, strict=True)
-    return NumberColumns(figures, tuple(numbers), units, scales)
+    return NumberColumns(tuple(figures), tuple(numbers), units, scales)
 
 
 def _join_units(heading: list[str], below: list[str]) -> list[str]:
@@ -243,9 +244,11 @@ def _join_units(heading: list[str], below: list[str]) -> list[str]:
     units = [cell.strip(" []()") for cell in below]
     if len(units) < len(heading) or any(re.match(_STARTS_NUMBER, cell) for cell in below):
         return []
-    said = [re.split(r"[\s_[(/]+", head)[-1].rstrip("]) ") for head in heading]
-    each = zip(heading, units, said, strict=False)
-    return [head if unit == known else f"{head} [{unit}]" for head, unit, known in each]
+    joined = []
+    for head, unit in zip(heading, units, strict=False):
+        last_word = re.split(r"[\s_[(/]+", head)[-1].rstrip("]) ")
+        joined.append(head if unit == last_word else f"{head} [{unit}]")
+    return joined
 
 
 def _find_head(
@@ -253,18 +256,23 @@ def _find_head(
 ) -> tuple[int, str, float]:
     """Return index, unit and scale of the wanted column; `mark` separates the heads."""
     for by_symbol in (False, True):
-        read = enumerate(wanted.read(head, by_symbol=by_symbol) for head in heading)
-        places = [(place, *unit) for place, unit in read if unit]
+        places = []
+        for place, head in enumerate(heading):
+            unit = wanted.read(head, by_symbol=by_symbol)
+            if unit is not None:
+                places.append((place, *unit))
         if len(places) > 1 and by_symbol:
             several = join_words([shorten(heading[place]) for place, *_ in places])
             raise ValueError(f"has the columns {several}; rename the right one {wanted.usual}")
         if places:
             return places[0]
     usual = mark.join(head.usual for head in every)
-    others = [name for head in every for name in head.others]
+    others: list[str] = []
+    for other in every:
+        others += other.others
     also = f" (or {', '.join(others)})" if others else ""
-    found = shorten(mark.join(heading))
-    raise ValueError(f"the heading {found} has no {wanted.usual}; write {usual}{also}")
+    whole = shorten(mark.join(heading))
+    raise ValueError(f"the heading {whole} has no {wanted.usual}; write {usual}{also}")
 
 
 def _find_cells(row: list[str], places: list[int], width: int | None, line: int) -> list[str]:

@@ -95,9 +95,14 @@ class TableReader:
         if len(value) > most:
             self.add(key, f"is given {len(value)} times; at most {most} are read")
             return None
-        tables = [self.read_table(f"{key}.{k}", item, table) for k, item in enumerate(value, 1)]
-        read = tuple(filter(None, tables))
-        return read if len(read) == len(tables) else None
+        tables = []
+        for k, item in enumerate(value, 1):
+            read = self.read_table(f"{key}.{k}", item, table)
+            if read is not None:
+                tables.append(read)
+        if len(tables) < len(value):
+            return None
+        return tuple(tables)
 
     def read_table(self, path: str, value: object, table: type[T]) -> T | None:
         """Return a table; None if it has mistakes. Contradictions between its keys are reported
@@ -180,11 +185,15 @@ class TableReader:
                 *parents, last = finding["loc"]
                 inner = find_inner_table(table, finding["loc"]).keys()
                 self.refuse_key(join_path(path, parents), str(last), inner, finding["input"])
-            elif not (  # a list is not too short if pydantic only left out members with mistakes
-                finding["type"] == "too_short"
-                and len(finding["input"]) >= finding["ctx"]["min_length"]
-            ):
+            elif not _only_lost_members(finding):
                 self.problems.append(self.describe(path, finding, table))
+
+
+def _only_lost_members(finding: ErrorDetails) -> bool:
+    """Return whether a list is too short only because pydantic left out members with mistakes."""
+    if finding["type"] != "too_short":
+        return False
+    return len(finding["input"]) >= finding["ctx"]["min_length"]
 
 
 REQUIRED = {"crank": "stroke = 90", "rod": "length = 160", "piston": "mass = 0.5"}
@@ -245,22 +254,21 @@ def check_tables(
         raise InputError([Problem("", f"{message}[crank], [rod] and [piston]")], name)
     reader = TableReader(ENGINE.name, is_engine=True)
     expected = [key for key in KNOWN if key != "engine" or not slip]
-    for key in filter(lambda key: key not in expected, data):
-        inside = data[key]
-        if not isinstance(inside, Mapping) or not inside or suggest(key, expected)[1]:
-            reader.refuse_key("", key, expected, inside)
-            continue
-        for inner, value in inside.items():  # keys of an unknown table
-            reader.refuse_key(printable(key), inner, None, value)
+    for key, value in data.items():
+        if key not in expected:
+            _refuse_unknown(reader, key, value, expected)
     for key, example in REQUIRED.items():
         if key not in data and not (body_alone or geared):
             hint = f'an engine needs it, such as "[{key}]" and "{example}" below it'
             reader.problems.append(Problem.of_missing(key, hint))
     foreign = set(KNOWN).difference(BESIDE_ENGINES) if geared else ()
-    for key in filter(foreign.__contains__, data):
-        reader.add(key, "a file with [[engine]] takes this from its engine files")
-    there = [key for key in expected if key in data and key not in foreign]
-    parts = {key: _read_part(reader, key, data[key]) for key in there}
+    parts = {}
+    for key in data:
+        if key in foreign:
+            reader.add(key, "a file with [[engine]] takes this from its engine files")
+    for key in expected:
+        if key in data and key not in foreign:
+            parts[key] = _read_part(reader, key, data[key])
     broken = {key for key in REQUIRED if key not in parts}
     broken |= {problem.meant for problem in reader.problems if problem.meant}
     broken |= {key for key, part in parts.items() if part is None}
@@ -269,6 +277,19 @@ def check_tables(
     model._folder = folder
     model = _settle_speed(model)
     return Draft(model, frozenset(KNOWN) - broken, tuple(reader.problems))
+
+
+def _refuse_unknown(
+    reader: TableReader, key: str, value: object, expected: Collection[str]
+) -> None:
+    """Collect the mistake of a key that no engine file has at its top, or the mistakes of all keys
+    of such a table unless the name of the table is misspelt.
+    """
+    if not isinstance(value, Mapping) or not value or suggest(key, expected)[1]:
+        reader.refuse_key("", key, expected, value)
+        return
+    for inner, part in value.items():
+        reader.refuse_key(printable(key), inner, None, part)
 
 
 def _settle_speed(model: EngineFile) -> EngineFile:
@@ -305,12 +326,16 @@ def change_figures(
     Raises:
         InputError: A changed table has a contradiction, such as a bore wider than its shaft.
     """
-    own = {path: value for path, value in values.items() if path.partition(".")[0] in tables}
+    own = {}
+    kinds = set()
+    for path, value in values.items():
+        kind = path.partition(".")[0]
+        if kind in tables:
+            own[path] = value
+            kinds.add(kind)
     data = change_tables(model, own)
     reader = TableReader(ENGINE.name, is_engine=True)
-    changed = {
-        key: _read_part(reader, key, data[key]) for key in {p.partition(".")[0] for p in own}
-    }
+    changed = {kind: _read_part(reader, kind, data[kind]) for kind in kinds}
     if reader.problems:
         raise reader.refusal("")
     return model.model_copy(update=changed)

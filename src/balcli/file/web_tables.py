@@ -176,12 +176,12 @@ class Web(FileTable):
         given = [key for key in ("outer_radius", "opening") if self.has(key)]
         if len(given) == 1:
             other = "opening" if given[0] == "outer_radius" else "outer_radius"
-            told = f"is given without {other}; give both, or none for no counterweight"
-            yield Fault(given[0], told)
+            message = f"is given without {other}; give both, or none for no counterweight"
+            yield Fault(given[0], message)
         open_keys = [key for key in FITTED_KEYS if self.is_open(key)]
         if len(open_keys) > 1:
-            told = f'{join_words(open_keys)} are "fit"; give figures for all but one'
-            yield Fault("", told)
+            message = f'{join_words(open_keys)} are "fit"; give figures for all but one'
+            yield Fault("", message)
         elif open_keys and (not self.has_cheek or not given):
-            told = 'is "fit"; this needs hub, boss, outer_radius and opening'
-            yield Fault(open_keys[0], told)
+            message = 'is "fit"; this needs hub, boss, outer_radius and opening'
+            yield Fault(open_keys[0], message)

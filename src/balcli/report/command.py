@@ -92,12 +92,12 @@ def report(
     scheme = choose_scheme(scheme, options)
     asked = parse_orders(orders)
     text, model, engine = read_engine(path, parse_speed(speed))
-    found = pages.find_answers(model, engine, asked, scheme, options, name_file(path))
+    answers = pages.find_answers(model, engine, asked, scheme, options, name_file(path))
     system = SYSTEMS[units]
     share = options.read_small()
     name = name_file(path)
     book = live.describe_one(model, engine, text.decode(), name, share)
-    emit(pages.page(found._replace(cylinder=cylinder), system, book, name, share), output)
+    emit(pages.page(answers._replace(cylinder=cylinder), system, book, name, share), output)
     if named is None:
         _tell_written([chosen])
     if show:

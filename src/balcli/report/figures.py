@@ -45,14 +45,14 @@ def describe_figures(result: Analysis, balanced: Balance, small: float) -> Node:
     ladder = getattr(balanced, "ladder", None) or find_ladder(engine, small)
     document = result.to_dict()
     kept = ("format", "speed_rpm", "reference_mm", "orders", "verdict", "peak")
-    found = {key: document[key] for key in kept if key in document}
-    found["ladder"] = to_document(ladder)
-    for described, step in zip(found["ladder"]["steps"], ladder.steps, strict=True):
+    figures = {key: document[key] for key in kept if key in document}
+    figures["ladder"] = to_document(ladder)
+    for described, step in zip(figures["ladder"]["steps"], ladder.steps, strict=True):
         described.update(_describe_devices(result, step.remedy))
-    found["stars"] = list(_describe_stars(result))
+    figures["stars"] = list(_describe_stars(result))
     scales = result.scales
     assert result.peak is not None
-    found["page"] = {
+    figures["page"] = {
         "extra": list(_describe_extra(result, balanced, ladder)),
         "crossheads": is_judged_by_power(engine),
         "scales": {"moment_Nm": scales.moment, "roll_Nm": scales.roll},
@@ -62,7 +62,7 @@ def describe_figures(result: Analysis, balanced: Balance, small: float) -> Node:
         },
         "devices": [_describe_vectors(device) for device in engine.devices],
     }
-    return found
+    return figures
 
 
 def _measure_repeat(peak: Peak) -> float:
@@ -135,16 +135,16 @@ def _describe_devices(result: Analysis, remedy: Remedy, fitted: Engine | None = 
 
 def _describe_table(device: DeviceTable, free: bool) -> Node:
     """Return a device as the tables of the page show it."""
-    found: Node = {
+    vectors: Node = {
         "device": name_kind(device),
         "unbalance_kg_m": find_unbalance(device),
         "angle_deg": device.angle,
         "position_mm": device.position,
     }
     if isinstance(device, Counterweight):
-        return found
+        return vectors
     speed = device.ratio if isinstance(device, Shaft) else device.order
-    return found | {"ratio": speed, "at_mm": list(device.at), "free": free}
+    return vectors | {"ratio": speed, "at_mm": list(device.at), "free": free}
 
 
 def _describe_vectors(device: Device) -> Node:
@@ -173,11 +173,11 @@ def _list_changes(before: Engine, after: Engine, orders: Array) -> Iterator[Node
 
 def _pick_vectors(spectra: Spectra, row: int) -> dict[str, list[list[float]]]:
     """Return the two vectors of force and moment of an order."""
-    found = {}
+    of_kinds = {}
     for kind, phasors in spectra.vectors():
         parts = (complex(phasors.forward[row]), complex(phasors.backward[row]))
-        found[kind.name] = [[part.real + 0.0, part.imag + 0.0] for part in parts]
-    return found
+        of_kinds[kind.name] = [[part.real + 0.0, part.imag + 0.0] for part in parts]
+    return of_kinds
 
 
 # ------------------------------------------------------------------ stars

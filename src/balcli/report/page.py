@@ -191,7 +191,7 @@ def load_asset(name: str) -> str:
 
 
 def page(
-    found: Answers,
+    answers: Answers,
     system: System,
     live: Node | None = None,
     file: str = "",
@@ -212,7 +212,7 @@ def page(
     Raises:
         BalcliError: The engine does not have the cylinder whose piston is wanted.
     """
-    result, balanced, mounted, twisted, cylinder = found
+    result, balanced, mounted, twisted, cylinder = answers
     engine = result.engine
     drawn = None if engine.placed else scene(engine)  # several cranks are not drawn
     motion = None if cylinder is None else trace_piston(engine, cylinder, system)

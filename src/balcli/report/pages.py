@@ -474,11 +474,11 @@ def _draw_step(ax: Axes, subject: PageSubject, quantity: str, name: str, step: A
     unit = subject.unit(quantity)
     curve = step.spectra[quantity].turn(-(subject.now.engine.up_deg or 0.0))
     largest = float(find_largest(curve))
-    told = size_text(largest, unit, 4) if largest else NOTHING
+    size = size_text(largest, unit, 4) if largest else NOTHING
     colour = BLUE if step.engine.devices != subject.now.engine.devices else BEFORE
     draw_whole_path(ax, curve, subject.name_components(quantity), unit, colour)
     title = "\n".join(wrap(name, _STEP_LETTERS))
-    ax.set_title(f"{title}\n{quantity} {told}", pad=6)
+    ax.set_title(f"{title}\n{quantity} {size}", pad=6)
 
 
 def _lay_out_orders(fig: Figure, subject: PageSubject) -> str:

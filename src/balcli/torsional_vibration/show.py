@@ -344,11 +344,11 @@ def _name_outside(result: TorsionAnalysis) -> str:
         for critical in sorted(side, key=attrgetter("work"))[-_MOST_OUTSIDE:]:
             named.append(critical)
     named.sort(key=attrgetter("speed_rpm"))
-    told = []
+    speeds = []
     for critical in named:
         order = order_name(critical.order)
-        told.append(f"{number(critical.speed_rpm)} rpm (mode {critical.mode}, order {order})")
-    return f" Just outside: {', '.join(told)}." if told else ""
+        speeds.append(f"{number(critical.speed_rpm)} rpm (mode {critical.mode}, order {order})")
+    return f" Just outside: {', '.join(speeds)}." if speeds else ""
 
 
 def _name_scope(result: TorsionAnalysis) -> str:

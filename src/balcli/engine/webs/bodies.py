@@ -140,11 +140,11 @@ def find_cheek(table: Web, path: str, throw_mm: float) -> Cheek:
     assert table.boss is not None
     cheek = Cheek(MM * table.hub / 2, MM * table.boss / 2, MM * throw_mm)
     if cheek.boss >= cheek.throw + cheek.hub:
-        told = (
+        message = (
             f"{as_written(table.boss, 'mm')}: encloses the hub; at most {2 * throw_mm:g} mm more "
         )
-        told += f"than hub = {as_written(table.hub, 'mm')}"
-        raise InputError([Problem(f"{path}.boss", told)])
+        message += f"than hub = {as_written(table.hub, 'mm')}"
+        raise InputError([Problem(f"{path}.boss", message)])
     return cheek
 
 

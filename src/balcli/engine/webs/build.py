@@ -88,20 +88,24 @@ def assign_tables(model: EngineFile, throws: int) -> dict[int, int]:
             rest.append(number)
         for web in table.webs or ():
             if web > count:
-                told = f"{web}, but the crank has {count} webs; give numbers from 1 to {count}"
-                problems.append(Problem(f"web.{number}.webs", told))
+                message = f"{web}, but the crank has {count} webs; give numbers from 1 to {count}"
+                problems.append(Problem(f"web.{number}.webs", message))
             elif web in tables:
-                told = f"web {web} stands in web.{tables[web]} as well; give each web once"
-                problems.append(Problem(f"web.{number}.webs", told))
+                message = f"web {web} stands in web.{tables[web]} as well; give each web once"
+                problems.append(Problem(f"web.{number}.webs", message))
             else:
                 tables[web] = number
     if len(rest) > 1:
-        told = f"is left out in web.{rest[0]} as well; give the numbers of the webs in all but one"
-        problems.append(Problem(f"web.{rest[1]}.webs", told))
+        message = (
+            f"is left out in web.{rest[0]} as well; give the numbers of the webs in all but one"
+        )
+        problems.append(Problem(f"web.{rest[1]}.webs", message))
     missing = [web for web in range(1, count + 1) if web not in tables]
     if missing and not rest and not problems:
-        told = f"no table has web {missing[0]}; the crank has {count} webs: list each in a [[web]]"
-        problems.append(Problem("web", told))
+        message = (
+            f"no table has web {missing[0]}; the crank has {count} webs: list each in a [[web]]"
+        )
+        problems.append(Problem("web", message))
     if problems:
         raise InputError(problems)
     if rest:
