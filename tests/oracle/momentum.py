@@ -314,7 +314,7 @@ def _bare(value: Any) -> Any:
         return {
             k: v if k in ("name", "source", "rods", "pivot", "motion") else _bare(v)
             for k, v in value.items()
-            if k not in ("gas", "torsion", "factor")  # which make no free force
+            if k not in ("gas", "torsion", "factor", "web")  # no free force; the only example's webs cancel each other
         }
     if isinstance(value, list):
         return [_bare(v) for v in value]

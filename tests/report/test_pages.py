@@ -17,7 +17,7 @@ from support.cases import slow
 from support.commands import run_python
 from support.engines import GOOD, build_text, changed, inline_engine
 from support.gas_engines import FOUR as GAS_FOUR, WIEBE
-from support.paths import ROOT
+from support.paths import ENGINES, ROOT
 from support.pictures import draw_page
 
 from balcli import load_example
@@ -232,14 +232,15 @@ def test_in_a_page_a_name_in_a_picture_stays_as_it_is():
     assert text == f'<svg><g id="here-a" fill="var(--ink)"/><text>{name}</text></svg>'
 
 
+WITH_WEBS = (ENGINES / "i4_webs.toml").read_text(encoding="utf-8")
 LONG = ["main", "piston", "stars"]  # more than a second each
 SHORT = [what for what in (*OF_GAS, *OF_PARTS) if what not in LONG]
 
 
 @pytest.mark.parametrize("what", [*SHORT, *slow(*LONG)])
 def test_no_label_is_cut_off_by_the_edge_of_a_page(what):
-    fired = build_text(GAS_FOUR + WIEBE)
-    page = make_page(PageSubject(Study(analyze(fired))), what)
+    text = WITH_WEBS if what == "webs" else GAS_FOUR + WIEBE
+    page = make_page(PageSubject(Study(analyze(build_text(text)))), what)
     style.save_figure(page, "png")
     canvas = FigureCanvasAgg(page)
     canvas.draw()

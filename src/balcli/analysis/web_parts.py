@@ -31,10 +31,11 @@ def describe_webs(engine: Engine) -> tuple[WebPart, ...] | None:
     """Return the webs of an engine; None for a file without [[web]]."""
     if engine.webs is None or engine.model is None:
         return None
-    return tuple(_describe_web(engine, web) for web in engine.webs.webs)
+    return tuple(describe_web(engine, web) for web in engine.webs.webs)
 
 
-def _describe_web(engine: Engine, web: CrankWeb) -> WebPart:
+def describe_web(engine: Engine, web: CrankWeb) -> WebPart:
+    """Return the figures of a web, with its gaps to pistons and crankcase and its tolerances."""
     from ..engine.webs.tolerance import find_deviation, measure_own_deg
     from ..sizing.web_clearance import find_gap
 
@@ -248,7 +249,7 @@ def _group_webs(parts: Iterable[WebPart]) -> list[_Row]:
     return list(rows.values())
 
 
-def _list_numbers(numbers: Iterable[int]) -> str:
+def write_ranges(numbers: Iterable[int]) -> str:
     """Return numbers with ranges: 1-4,7."""
     runs: list[list[int]] = []
     for web in sorted(set(numbers)):
@@ -264,8 +265,8 @@ def _lay_out_webs(webs: Iterable[WebPart], system: System) -> Grid:
     length = system.length
     unbalance = system.unbalance.fit(max(row.part.unbalance_kg_m for row in rows))
     columns = [
-        Column("web", [_list_numbers(row.webs) for row in rows], words=True),
-        Column("throw", [_list_numbers(row.throws) for row in rows], words=True),
+        Column("web", [write_ranges(row.webs) for row in rows], words=True),
+        Column("throw", [write_ranges(row.throws) for row in rows], words=True),
         Column(f"mass, {system.mass.name}", [number(system.mass.of(r.part.mass_kg)) for r in rows]),
         Column(unbalance.name, [number(unbalance.of(row.part.unbalance_kg_m)) for row in rows]),
         Column("at, deg", [_cell(row.part.unbalance_own_deg) for row in rows]),

@@ -44,6 +44,10 @@ class Circle(NamedTuple):
     y: float
     radius: float
 
+    def is_same(self, other: Circle, tolerance: float) -> bool:
+        """Return whether place and radius of another circle differ by at most a tolerance."""
+        return all(abs(a - b) <= tolerance for a, b in zip(self, other, strict=True))
+
     @property
     def moments(self) -> Moments:
         """Moments of the disc."""
@@ -153,6 +157,26 @@ def _find_segment_moments(arc: Arc, end: complex) -> Moments:
     first = area * arc.centre + reach * outwards
     moved = 2 * reach * (outwards * arc.centre.conjugate()).real + area * abs(arc.centre) ** 2
     return Moments(sense * area, sense * first, sense * (about_centre + moved))
+
+
+def trace(outline: Sequence[Vertex], step_deg: float = 1.0) -> list[complex]:
+    """Return places x + iy along a closed outline, from its first vertex back to it.
+
+    Args:
+        outline: Vertices.
+        step_deg: Largest angle between two places on an arc, deg.
+    """
+    places = []
+    for start, end in list_edges(outline):
+        places.append(start.place)
+        arc = find_arc(start, end)
+        if arc is None:
+            continue
+        steps = math.ceil(math.degrees(abs(arc.angle)) / step_deg)
+        for k in range(1, steps):
+            turn = cmath.exp(1j * arc.angle * k / steps)
+            places.append(arc.centre + (arc.start - arc.centre) * turn)
+    return [*places, places[0]]
 
 
 # ------------------------------------------------------------------ distances

@@ -24,14 +24,17 @@ from ..shell.options import (
     parse_speed,
 )
 from ..shell.output import emit, refuse_overwriting
-from ..shell.scheme_options import choose_scheme, parse_scheme_options
+from ..shell.scheme_options import choose_beside, choose_scheme, parse_scheme_options
 from ..shell.values import optional
 from ..show.formats import Units
 from ..show.units import SYSTEMS
-from .names import OF_TORSION, PAGES, check_page
+from .names import DRAWING, OF_TORSION, PAGES, check_page
 
 PAGE = "File to write; - is standard output. Default: the engine's name and .html."
-PICTURE = "File to write; .svg, .png or .pdf. Default: the engine's name and .svg."
+PICTURE = (
+    "File to write; .svg, .png or .pdf, and .dxf for the outlines of webs. Default: the engine's "
+    "name and .svg."
+)
 OPEN = "Show the page in the browser."
 SPEEDS = "Speeds for torsion, rpm; default: 0.5 to 1.5 times the file's speed."
 WHAT = (
@@ -42,7 +45,8 @@ WHAT = (
     "bank: force of a vee over its bank angle, or distances of both shafts from the crank axis "
     "(--scheme two-shaft); inner: loads along the crankshaft; stars: vectors of all cylinders and "
     "their polygons; piston: travel, velocity and acceleration (with [gas], also side thrust and "
-    "rod force); journals: torque in the main journals; with [gas]: pressure, p-v, torque (with "
+    "rod force); journals: torque in the main journals; webs: outline of each kind of web with the "
+    "nearest piston, as .dxf the outlines alone; with [gas]: pressure, p-v, torque (with "
     "surplus areas), pin and main (polar diagrams of bearing loads); with [torsion]: modes, "
     "campbell, response, waterfall. A PDF contains all pages; otherwise each of several pages "
     "becomes a file (v8-pin.svg)."
@@ -165,18 +169,25 @@ def plot(
         reads=[path], writes={"OUT": target, "--output": output if named else chosen}
     )
     output = chosen
-    form = picture_form(output)
     pages = parse_pages(what)
+    options = parse_scheme_options(
+        order, at, position, planes, factor, measured, roll, units, small
+    )
+    _warn_of_idle(pages, speed, speeds, cylinder)
+    if output.suffix.lower() == DRAWING:
+        from .drawings import write_outlines
+
+        files = write_outlines(path, output, pages, choose_beside(scheme, options))
+        if files != [output]:
+            _tell_written(files)
+        return
+    form = picture_form(output)
     files = [output]  # one page, or a PDF
     if len(pages) > 1 and form != "pdf":
         files = [output.with_stem(f"{output.stem}-{page}") for page in pages]
     readings = len({page in OF_TORSION for page in pages})
     writes = dict(zip(map("--what {}".format, pages), files, strict=False))
     refuse_overwriting(reads=[path] * readings, writes=writes)
-    options = parse_scheme_options(
-        order, at, position, planes, factor, measured, roll, units, small
-    )
-    _warn_of_idle(pages, speed, speeds, cylinder)
     from .plot import Asked, make_figures, write_pages
 
     asked = Asked(speed, orders, speeds, cylinder, scheme, options, units)

@@ -8,8 +8,9 @@ from ..errors import ArgumentError
 from ..file.fields import nearest
 
 OF_GAS = ("pressure", "p-v", "torque", "pin", "main")
-OF_PARTS = ("stars", "piston", "journals")
+OF_PARTS = ("stars", "piston", "journals", "webs")
 OF_TORSION = ("modes", "campbell", "response", "waterfall")
+DRAWING = ".dxf"  # ending of a file with outlines of webs
 PAGES = (
     *("overview", "all", "polar", "orders", "spectrum", "curves"),  # also pages for a Balance
     *("ladder", "factor", "bank", "inner"),

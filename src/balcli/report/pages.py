@@ -30,6 +30,7 @@ from ..analysis.plot import (
     set_order_axis,
     visible_rows,
 )
+from ..analysis.web_plot import draw_web
 from ..balancing.scheme_show import percent
 from ..core.peaks import find_largest
 from ..core.phasors import Array, Complex, Phasors
@@ -82,9 +83,11 @@ _JUMP = 0.5  # a larger change of a radius between neighbouring angles is a chan
 _MOST_STARS = 8
 _IMPORTANT = 0.05  # least share of one cylinder's first order of a second quantity
 _ALIKE = 5.0  # most by which its share is smaller than that of the first quantity
+_WEBS_BESIDE = 3  # largest number of webs side by side
 _STEPS_BESIDE = 3  # largest number of steps of a ladder side by side
 _STEP_LETTERS = 28  # largest number of letters in a line of a step's title
 _OWN_SCALES = "Each step has its own scale; its title tells the largest value. Dot: crank angle 0°."
+_WEBS = "Seen from the free end (clockwise), with the cylinder of the nearest piston upwards."
 _STARS = (
     "Left: forces of the cylinders (numbers) at crank angle 0, without devices. Then: polygons of\n"
     "force and moment, with a colour for each bank. Dashed: the sum; a dot: the sum is 0."
@@ -599,6 +602,25 @@ def _lay_out_journals(fig: Figure, subject: PageSubject) -> None:
     draw_journals(fig, subject.now.engine, subject.system.moment)
 
 
+def _lay_out_webs(fig: Figure, subject: PageSubject) -> str:
+    """Draw each kind of web that has an outline."""
+    engine = subject.now.engine
+    assert engine.webs is not None
+    kinds = engine.webs.kinds
+    drawn = [webs for webs in kinds.values() if webs[0].body.shape is not None]
+    if drawn:
+        columns = min(len(drawn), _WEBS_BESIDE)
+        rows = -(-len(drawn) // columns)
+        fig.set_size_inches(max(4.6 * columns, 6.0), 0.8 + 6.6 * rows)
+        for place, webs in enumerate(drawn, 1):
+            draw_web(fig.add_subplot(rows, columns, place), engine, webs, subject.system)
+    weighed = [f"web.{table}" for table, webs in kinds.items() if webs[0].body.shape is None]
+    words = [_WEBS] if drawn else []
+    if weighed:
+        words.append(f"Not drawn: {', '.join(weighed)}, which the file gives by mass.")
+    return "\n".join(words)
+
+
 # Width and height in inches (some layouts change them), and the drawing function.
 _LAYOUTS: dict[str, tuple[float, float, Callable[[Figure, PageSubject], str | None]]] = {
     "overview": (10.8, 6.4, _lay_out_overview),
@@ -614,6 +636,7 @@ _LAYOUTS: dict[str, tuple[float, float, Callable[[Figure, PageSubject], str | No
     "inner": (7.5, 7.6, _lay_out_inner),
     "piston": (7.2, 7.8, _lay_out_piston),
     "journals": (8.4, 4.8, _lay_out_journals),
+    "webs": (6.0, 7.4, _lay_out_webs),
     "pressure": (7.2, 4.4, partial(_lay_out_gas, what="pressure")),
     "p-v": (6.4, 4.8, partial(_lay_out_gas, what="p-v")),
     "torque": (8.4, 4.8, partial(_lay_out_gas, what="torque")),

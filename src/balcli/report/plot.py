@@ -76,10 +76,10 @@ def plot(  # noqa: PLR0911 (one return for each kind of result)
             crankshaft), "ladder" (loci for each balancing step), "bank" (force of a vee over its
             bank angle; with scheme "two-shaft", distances of the shafts from the crank axis),
             "factor" (peaks over the balance factor), "stars" (each cylinder's vectors), "piston",
-            "journals"; with gas "pressure", "p-v", "torque", "pin", "main"; with torsion "modes",
-            "campbell", "response", "waterfall". A result of `torque` has the pages with
-            gas, a result of `torsion` those with torsion and "all". Other results have one
-            picture.
+            "journals", "webs" (outlines of webs, with the nearest piston); with gas "pressure",
+            "p-v", "torque", "pin", "main"; with torsion "modes", "campbell", "response",
+            "waterfall". A result of `torque` has the pages with gas, a result of `torsion` those
+            with torsion and "all". Other results have one picture.
         orders: Orders of an engine to draw; default: all that are not negligible.
         scheme: Balance scheme; the page compares the engine without and with its devices.
         speeds: Speeds for the pages of torsion, rpm; default: 0.5 to 1.5 times the engine's.

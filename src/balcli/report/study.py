@@ -140,6 +140,10 @@ def compute_study(
     pair = what == "bank" and scheme == "two-shaft"
     if what in _ALONE and not (pair and asked._replace(order=None, small=None) == SchemeOptions()):
         refuse_scheme(scheme, what)
+    if what == "webs" and engine.webs is None:
+        raise ArgumentError(
+            "{what} webs: the file has no [[web]]; describe the webs of the crankshaft there"
+        )
     if what == "bank":
         now = analyze(engine, orders)
         force = now.spectra["force"]

@@ -224,3 +224,4 @@ def _list_names(data: Node) -> Iterator[str]:
     yield from (one["file"] for one in data.get("engine", ()) if "file" in one)
     for table in (data.get("gas", {}), *data.get("cylinder", {}).values()):
         yield from (table[key] for key in ("indicator", "harmonics") if key in table)
+    yield from (web["profile"] for web in data.get("web", ()) if "profile" in web)

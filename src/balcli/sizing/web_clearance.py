@@ -36,7 +36,7 @@ class Gap(NamedTuple):
     cylinder: CylinderNumber
 
 
-class _Edge(NamedTuple):
+class Edge(NamedTuple):
     """Lower edge of a piston: a line across the axis of its cylinder.
 
     Attributes:
@@ -46,6 +46,23 @@ class _Edge(NamedTuple):
 
     offset: float
     half_width: float
+
+
+class PistonView(NamedTuple):
+    """A piston over a web at one crank angle.
+
+    Attributes:
+        turn: Factor that turns places in the axes of the web to places along (real part) and across
+            (imaginary part) the cylinder.
+        pin_height: Height of the piston pin over the crank axis, along the cylinder, m.
+        edge_height: Height of the lower edge, m.
+        edge: The lower edge in the plane of the web's nearer face.
+    """
+
+    turn: complex
+    pin_height: float
+    edge_height: float
+    edge: Edge
 
 
 class _Arc(NamedTuple):
@@ -80,12 +97,49 @@ def find_gap(engine: Engine, web: CrankWeb) -> Gap | None:
     outline = _prepare(shape.outline)
     gaps = []
     for row, number in enumerate(engine.numbers):
-        apart = abs(float(engine.cylinders.z[row]) - float(web.z)) - web.body.thickness / 2
-        square = float(engine.bore_m) ** 2 / 4 - max(apart, 0.0) ** 2
-        if square > 0 and not engine.cylinders.harmonic:
-            size, degrees = _find_smallest(engine, web, outline, row, skirt / 1e3, square**0.5)
+        edge = _find_edge(engine, web, row)
+        if edge is not None and not engine.cylinders.harmonic:
+            size, degrees = _find_smallest(engine, web, outline, row, skirt / 1e3, edge)
             gaps.append(Gap(size, degrees, number))
     return min(gaps, key=lambda gap: round(gap.size, 9), default=None)
+
+
+def view_piston(engine: Engine, web: CrankWeb, gap: Gap) -> PistonView:
+    """Return the piston of a gap at its crank angle.
+
+    Args:
+        engine: One engine, not an array of variants.
+        web: Web of this engine.
+        gap: Gap between this web and the piston.
+    """
+    row = engine.numbers.index(gap.cylinder)
+    edge = _find_edge(engine, web, row)
+    assert edge is not None
+    assert engine.model is not None
+    assert engine.model.piston.skirt is not None
+    crank_deg: Array = np.array([gap.crank_deg])
+    height = float(_find_pin_height(engine, row, crank_deg)[0])
+    turn = complex(_find_turns(engine, web, row, crank_deg)[0])
+    return PistonView(turn, height, height - engine.model.piston.skirt / 1e3, edge)
+
+
+def _find_edge(engine: Engine, web: CrankWeb, row: int) -> Edge | None:
+    """Return the lower edge of a piston in the plane of the web's nearer face; None if the piston
+    is not over the web.
+    """
+    apart = abs(float(engine.cylinders.z[row]) - float(web.z)) - web.body.thickness / 2
+    square = float(engine.bore_m) ** 2 / 4 - max(apart, 0.0) ** 2
+    if square <= 0:
+        return None
+    return Edge(_take_row(engine.cylinders.offset, row), square**0.5)
+
+
+def _find_turns(engine: Engine, web: CrankWeb, row: int, crank_deg: Array) -> Complex:
+    """Return the factors that turn places in the axes of a web to places along and across a
+    cylinder, shape (angles,).
+    """
+    axis_deg = float(engine.cylinders.axis_of_each_deg[row])
+    return np.exp(1j * np.radians(crank_deg + float(web.pin_deg) - axis_deg))
 
 
 def _prepare(outline: Sequence[Vertex]) -> _Outline:
@@ -104,15 +158,13 @@ def _prepare(outline: Sequence[Vertex]) -> _Outline:
 
 
 def _find_smallest(
-    engine: Engine, web: CrankWeb, outline: _Outline, row: int, skirt: float, half_width: float
+    engine: Engine, web: CrankWeb, outline: _Outline, row: int, skirt: float, edge: Edge
 ) -> tuple[float, float]:
     """Return the smallest gap to one piston, m, and its crank angle, deg."""
-    edge = _Edge(_take_row(engine.cylinders.offset, row), half_width)
-    axis_deg = float(engine.cylinders.axis_of_each_deg[row])
 
     def measure(crank_deg: Array) -> Array:
         height = _find_pin_height(engine, row, crank_deg) - skirt
-        turn = np.exp(1j * np.radians(crank_deg + float(web.pin_deg) - axis_deg))
+        turn = _find_turns(engine, web, row, crank_deg)
         return _measure_gaps(outline, turn, height, edge)
 
     step = 360 / _STEPS
@@ -154,7 +206,7 @@ def _find_pin_height(engine: Engine, row: int, crank_deg: Array) -> Array:
     return np.asarray(radius * (np.cos(psi) + np.sqrt(1 - lean**2) / lam))
 
 
-def _measure_gaps(outline: _Outline, turn: Complex, height: Array, edge: _Edge) -> Array:
+def _measure_gaps(outline: _Outline, turn: Complex, height: Array, edge: Edge) -> Array:
     """Return the gap between outline and edge for each turn of the outline, m, shape (angles,). The
     real part of a place is along the cylinder, the imaginary part across.
     """

@@ -9,6 +9,7 @@ z = x + iy of each hole; mass and polar inertia alike.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import NamedTuple
 
 from ...core.outline import (
@@ -28,6 +29,7 @@ from .dxf import Drawing
 
 MM = 1e-3
 _ROUNDING_DEG = 1e-9
+_SAME_PLACE = 1e-6  # m; circles that differ by less are one hole
 
 
 class WebShape(NamedTuple):
@@ -119,8 +121,9 @@ def draw_web(table: Web, path: str, throw_mm: float, drawing: Drawing | None) ->
     densities = [1e3 * hole.density for hole in table.holes]
     if drawing is not None:
         outline = [Vertex(MM * x, MM * y, bulge) for x, y, bulge in drawing.outline]
-        drawn = [Circle(*(MM * figure for figure in hole)) for hole in drawing.holes]
-        shape = WebShape(tuple(outline), (*drawn, *holes), (*(0.0 for _ in drawn), *densities))
+        open_holes = _list_open_holes(drawing, holes)
+        densities = [0.0] * len(open_holes) + densities
+        shape = WebShape(tuple(outline), (*open_holes, *holes), tuple(densities))
     else:
         cheek = find_cheek(table, path, throw_mm)
         sector = find_sector(table, path, cheek)
@@ -132,6 +135,18 @@ def draw_web(table: Web, path: str, throw_mm: float, drawing: Drawing | None) ->
             told = f"the hole at {place} mm is not within the outline of the web"
             raise InputError([Problem(f"{path}.holes", f"{told}; move it or make it smaller")])
     return shape
+
+
+def _list_open_holes(drawing: Drawing, holes: Sequence[Circle]) -> list[Circle]:
+    """Return the circles of a drawing, m, without those that the key `holes` gives as well: that
+    key says what fills them.
+    """
+    circles = []
+    for x, y, radius in drawing.holes:
+        circle = Circle(MM * x, MM * y, MM * radius)
+        if not any(circle.is_same(hole, _SAME_PLACE) for hole in holes):
+            circles.append(circle)
+    return circles
 
 
 def find_cheek(table: Web, path: str, throw_mm: float) -> Cheek:

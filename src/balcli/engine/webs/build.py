@@ -58,6 +58,14 @@ class Webs(NamedTuple):
         return sum(web.body.mass for web in self.webs) + sum(pin.mass for pin in self.pins)
 
     @property
+    def kinds(self) -> dict[int, tuple[CrankWeb, ...]]:
+        """Webs of each [[web]] table, by its number."""
+        kinds: dict[int, tuple[CrankWeb, ...]] = {}
+        for web in self.webs:
+            kinds[web.table] = (*kinds.get(web.table, ()), web)
+        return dict(sorted(kinds.items()))
+
+    @property
     def inertia(self) -> float | None:
         """Polar inertia of webs and pins about the crank axis, kg m2; None if that of a web is not
         known.
