@@ -78,6 +78,7 @@ _UNITS = {  # further units that the page reads, by dimension
     SPEED_OF_ROTATION: ("1/min", "min^-1", "rps", "Hz", "rad/s"),
     INERTIA: ("kg m^2", "kg cm^2", "g mm^2", "g cm^2", "lb in^2", "lb ft^2", "oz in^2"),
 }
+_LARGEST = 1e9  # limit of the size of most numbers
 _WHOLE = {"unit": "", "whole": True, "least": -1000, "most": 1000}  # limits of ratios and orders
 _NEW_LENGTH = {"unit": LENGTH.unit, "usual": 0}
 _NEW_WEIGHT = {
@@ -192,19 +193,32 @@ def describe_engine(model: EngineFile, engine: Engine, text: str) -> Node:
         "numbers": numbers,
         "throws": forms["throws"],
         "pins": forms["pins"],
-        "cylinders": [
-            {
-                "number": cell.number,
-                "throw": cell.throw,
-                "axis": forms["axis"][k],
-                "lead": forms["lead"][k],
-                "z": forms["z"][k],
-                "by": _find_leader(parts, cell, throws),
-                **_list_masses(model, parts, cell),
-            }
-            for k, cell in enumerate(parts.plan.cells)
-        ],
+        **_list_cylinders(model, parts, throws, forms),
     }
+
+
+def _list_cylinders(
+    model: EngineFile, parts: Parts, throws: Mapping[int, int], forms: Mapping[str, list[Node]]
+) -> Node:
+    """Return the entries of the cylinders, and apart from them what all have in common."""
+    entries = [
+        {
+            "number": cell.number,
+            "throw": cell.throw,
+            "axis": forms["axis"][k],
+            "lead": forms["lead"][k],
+            "z": forms["z"][k],
+            "by": _find_leader(parts, cell, throws),
+            **_list_masses(model, parts, cell),
+        }
+        for k, cell in enumerate(parts.plan.cells)
+    ]
+    first, *others = entries
+    common = {
+        key: value for key, value in first.items() if all(each[key] == value for each in others)
+    }
+    own = [{key: entry[key] for key in entry if key not in common} for entry in entries]
+    return {"ofEachCylinder": common, "cylinders": own}
 
 
 def describe_one(
@@ -324,6 +338,7 @@ def describe_limits(small: float) -> Node:
         "likely": LIKELY,
         "worthNaming": WORTH_NAMING,
         "negligible": NEGLIGIBLE,
+        "mostOfNumbers": _LARGEST,
     }
 
 
@@ -348,10 +363,11 @@ def _list_numbers(model: EngineFile) -> Iterator[Node]:
 
 
 def _describe_limits(number: Number) -> Node:
-    """Return the unit and the finite limits of a number."""
+    """Return the unit of a number, and the limits that differ from those of most numbers."""
     limits = {"above": number.above, "least": number.least, "most": number.most}
     finite = {key: v for key, v in limits.items() if v is not None and abs(v) < math.inf}
-    return {"unit": number.dimension.unit, **finite}
+    own = {key: v for key, v in finite.items() if abs(v) != _LARGEST}
+    return {"unit": number.dimension.unit, **own}
 
 
 def _list_bearings(engine: Engine) -> list[float] | None:

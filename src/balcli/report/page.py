@@ -7,11 +7,11 @@ from __future__ import annotations
 
 import base64
 import json
-import re
 import zlib
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
+from functools import cache
 from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -60,6 +60,7 @@ from .figures import describe_figures
 from .live import describe_one, describe_page, explain_still
 from .names import OF_TORSION
 from .slim_svg import slim_svg
+from .slim_text import slim_script, slim_style
 
 if TYPE_CHECKING:
     from jinja2 import Template
@@ -217,7 +218,7 @@ def page(
     drawn = None if engine.placed else scene(engine)  # several cranks are not drawn
     motion = None if cylinder is None else trace_piston(engine, cylinder, system)
     return load_template().render(
-        live=live,
+        live=shorten_numbers(live),
         still=explain_still(engine),
         title=engine.name or NAMELESS,
         version=__version__,
@@ -226,8 +227,8 @@ def page(
         file=Path(file).name or "the file",
         parts=lay_out(result, balanced, system),
         data=describe_page(engine, system, file, small),
-        figures=round_figures(describe_figures(result, balanced, small)),
-        scene=drawn,
+        figures=shorten_numbers(describe_figures(result, balanced, small), _FIGURES),
+        scene=shorten_numbers(drawn),
         running=running(engine, system) if engine.gas and drawn else None,
         motion=motion,
         mounts=None if mounted is None else mounts.sheet(mounted, system),
@@ -300,13 +301,19 @@ def explore(engine: Engine) -> Explorer:
 _FIGURES = 12  # significant digits of the figures on the page
 
 
-def round_figures(node: Any) -> Any:
-    """Return a document whose numbers have no more digits than the program prints anywhere."""
+def shorten_numbers(node: Any, digits: int = 17) -> Any:
+    """Return a document for a page: its numbers have so many significant digits, and a whole number
+    is written without a fraction.
+    """
     if isinstance(node, dict):
-        return {key: round_figures(value) for key, value in node.items()}
+        return {key: shorten_numbers(value, digits) for key, value in node.items()}
     if isinstance(node, (list, tuple)):
-        return [round_figures(value) for value in node]
-    return float(f"{node:.{_FIGURES}g}") if isinstance(node, float) else node
+        return [shorten_numbers(value, digits) for value in node]
+    if not isinstance(node, float):
+        return node
+    rounded = float(f"{node:.{digits}g}")
+    is_short = rounded.is_integer() and abs(rounded) < 10**_FIGURES
+    return int(rounded) if is_short else rounded
 
 
 def draw_torsion(twisted: TorsionAnalysis, system: System) -> Iterator[str]:
@@ -322,17 +329,11 @@ def pack(data: Sequence[str]) -> str:
     return base64.urlsafe_b64encode(deflated).decode().rstrip("=")
 
 
-_COMMENT = re.compile(r"  // [^\"'`\n]*$", re.MULTILINE)  # at the end of a line
-
-
+@cache
 def read_asset(name: str) -> str:
-    """Return a script or style sheet without indentation and comments, which nobody needs in a page
-    that is kept and sent.
-    """
-    text = _COMMENT.sub("", (FOLDER / name).read_text(encoding="utf-8"))
-    lines = [line.strip() for line in text.splitlines()]
-    code = [line for line in lines if line and not line.startswith("//")]
-    return "\n".join(code)
+    """Return a script or style sheet as it stands in a page, which is kept and sent."""
+    text = (FOLDER / name).read_text(encoding="utf-8")
+    return slim_style(text) if name.endswith(".css") else slim_script(text)
 
 
 def load_template() -> Template:

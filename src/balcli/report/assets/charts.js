@@ -195,8 +195,8 @@ const Charts = (() => {
     const place = ([x, y]) => [225 + (y - middle[1]) * 120 / span, 75 - (x - middle[0]) * 120 / span];
     rays.forEach(({ bank }, k) => put("path", { class: `ray bank${bank % 3}`, d: pathOf([corners[k], corners[k + 1]].map(place)) }));
     const end = corners.at(-1);
-    if (size(end) < 1e-9 * most) put("circle", { class: "sum dot", cx: place(end)[0], cy: place(end)[1], r: 4 });
-    else put("path", { class: "sum", d: pathOf([[0, 0], end].map(place)) });
+    if (size(end) < 1e-9 * most) put("circle", { class: "closing dot", cx: place(end)[0], cy: place(end)[1], r: 4 });
+    else put("path", { class: "closing", d: pathOf([[0, 0], end].map(place)) });
   }
 
   // ------------------------------------------------------------------ files

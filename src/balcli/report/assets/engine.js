@@ -76,7 +76,8 @@ const Kernel = (() => {
   // The engine of the page's data with these numbers (by dotted name); an Error states what is wrong.
   function assemble(data, numbers) {
     const take = (name) => numbers[name] ?? 0;
-    const cylinders = data.cylinders.map((cylinder) => assembleCylinder(cylinder, take));
+    const entries = data.cylinders.map((own) => ({ ...data.ofEachCylinder, ...own }));
+    const cylinders = entries.map((entry) => assembleCylinder(entry, take));
     turnPins(cylinders);
     const r = take("crank.stroke") / 2e3;
     const bore = take("piston.bore") / 1e3;
@@ -86,7 +87,7 @@ const Kernel = (() => {
     for (const each of throws) each.z = sum(each.files.map((number) => places[number])) / each.files.length;
     const middle = (Math.min(...places) + Math.max(...places)) / 2;
     const isLong = 2 * r > LONG_STROKE || (bore && 2 * r > LONG_STROKE_IN_BORES * bore);
-    const hasCrossheads = data.cylinders.some(({ crosshead }) => take(crosshead) > 0);
+    const hasCrossheads = entries.some(({ crosshead }) => take(crosshead) > 0);
     const firstAxis = findFirst(cylinders).axis;
     const crossheads = data.strokes === 2 && (isLong || hasCrossheads);
     if (crossheads && data.powerOfGas) {

@@ -39,7 +39,7 @@
   const brief = (value) => Number(value.toPrecision(12));
   // A number in the unit of the file, as people write it; an Error says what would be right.
   function readValue(name, text) {
-    const { unit, above, least, most, whole } = find(name), wanted = `give a number${unit ? ` in ${unit}` : ""}`;
+    const { unit, above, least = -limits.mostOfNumbers, most = limits.mostOfNumbers, whole } = find(name), wanted = `give a number${unit ? ` in ${unit}` : ""}`;
     const plain = text.replace(/(\d?)\s*([¼-¾⅐-⅞])/, "$1 $2").normalize("NFKC").trim().replace("⁄", "/")
       .replace(/^[−–]/, "-").replace(/^(\d+)[- ](\d+\/\d+)/, "$1+$2");
     if (/^[-+]?\d{1,3},\d{3}(?!\d)/.test(plain)) throw new Error(`${name}: "${text}" can mean two numbers; write it without a comma`);
