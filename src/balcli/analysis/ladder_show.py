@@ -26,8 +26,10 @@ from ..show.sheet import (
     sentence,
     size_cell,
     size_text,
+    tell_assumed,
 )
 from ..sizing.ladder import NO_SHAFTS, SINGLE_SHAFTS, Ladder, LeftOut, Step
+from ..sizing.room import assume_skirt
 from .verdict_words import name_order, tell_own_shafts
 
 if TYPE_CHECKING:
@@ -42,7 +44,12 @@ _GIVEN_BEARINGS = "main bearing: inertia alone, with the bearings of the file."
 
 
 def ladder_grid(
-    ladder: Ladder, engine: Engine, system: System, *, tell_fitted: bool = True
+    ladder: Ladder,
+    engine: Engine,
+    system: System,
+    *,
+    tell_fitted: bool = True,
+    tell_skirt: bool = False,
 ) -> Grid:
     """Return a table with one row for each step of the ladder, and notes, one on each line.
 
@@ -51,6 +58,8 @@ def ladder_grid(
         engine: Engine as drawn.
         system: System of units.
         tell_fitted: Whether a note names the steps that `balcli balance` fits.
+        tell_skirt: Whether a note names the piston skirt that is assumed for the masses; wanted
+            where no line above the table names it.
     """
     steps = ladder.steps
     scale = ladder.scale
@@ -72,6 +81,8 @@ def ladder_grid(
     notes = []
     if has_loads:
         notes.append(_GIVEN_BEARINGS if engine.has_given_bearings else _BEARINGS)
+    if tell_skirt:
+        notes += _tell_skirt(ladder, engine)
     notes += _tell_loads(ladder, system)
     notes += filter(None, [_tell_left_out(out, ladder, system) for out in ladder.left_out])
     if ladder.of_locomotive:
@@ -128,6 +139,13 @@ def _mass_cell(step: Step, system: System) -> str:
 
 
 # ------------------------------------------------------------------ notes
+def _tell_skirt(ladder: Ladder, engine: Engine) -> Iterator[str]:
+    """Yield a sentence on the assumed piston skirt, on which the mass of counterweights depends."""
+    assumed = assume_skirt(engine, [step.remedy for step in ladder.steps])
+    if assumed:
+        yield f"steel: assumed {tell_assumed(assumed)}."
+
+
 def _tell_loads(ladder: Ladder, system: System) -> Iterator[str]:
     """Yield sentences on counterweights of the file that raise bearing loads or that a step takes
     back, and on steps that raise bearing loads.

@@ -86,7 +86,8 @@ def _choose_view(result: Analysis) -> View:
 
 
 def _parts(result: Analysis, system: System, view: View) -> Iterator[Part]:
-    if not view.parts or view.whole:
+    heads_with_facts = not view.parts or view.whole
+    if heads_with_facts:
         yield engine_facts(result.engine, system, whole=view.whole)
     else:
         if view.parts - TEXTS:
@@ -108,7 +109,7 @@ def _parts(result: Analysis, system: System, view: View) -> Iterator[Part]:
     if result.other_speeds is not None and is_listed:
         yield lay_out_other_speeds(result.other_speeds, system)
     if hasattr(result, "ladder"):
-        yield ladder_grid(result.ladder, result.engine, system)
+        yield ladder_grid(result.ladder, result.engine, system, tell_skirt=heads_with_facts)
     if hasattr(result, "sizing"):
         yield from _sizing_parts(result.sizing, system)
 

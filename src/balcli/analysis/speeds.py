@@ -311,7 +311,8 @@ def _parts(named: NamedResult[SpeedSeries], system: System) -> Iterator[Facts | 
     view = named.view
     speeds = series.speeds_rpm
     first = series.analyses[0]
-    if not view.parts or view.whole:
+    heads_with_facts = not view.parts or view.whole
+    if heads_with_facts:
         yield engine_facts(first.engine, system, whole=view.whole, speeds_rpm=speeds)
     else:
         yield from assumed_facts(first.assumed)
@@ -324,7 +325,7 @@ def _parts(named: NamedResult[SpeedSeries], system: System) -> Iterator[Facts | 
         yield _kind_part(kind, own, speeds, system, whole=view.whole or view.every_order)
     for analysis in series.analyses:
         if hasattr(analysis, "ladder"):
-            yield ladder_grid(analysis.ladder, analysis.engine, system)
+            yield ladder_grid(analysis.ladder, analysis.engine, system, tell_skirt=heads_with_facts)
     if hasattr(first, "why"):
         yield sections.lay_out_symmetry(first.why)
 

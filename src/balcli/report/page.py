@@ -268,7 +268,7 @@ def lay_out(result: Analysis, balanced: Balance, system: System) -> PageParts:
         couple=next(analysis.lay_out_couple(result, system), None),
         largest=roll_and_peaks(result, system, every_order=every),
         gas=next(gas_grid(result.spectra, system, pivot, view), None),
-        ladder=ladder_grid(ladder, engine, system, tell_fitted=usual),
+        ladder=ladder_grid(ladder, engine, system, tell_fitted=usual, tell_skirt=True),
         devices=device_grid(balanced.remedy, system),
         remedy=list(balancing.lay_out_remedy(balanced, system, with_table=False)),
         others=list(analysis.tell_uncounted(result)),
