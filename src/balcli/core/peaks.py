@@ -21,6 +21,7 @@ from collections.abc import Callable
 from typing import NamedTuple, TypeVar
 
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import ArrayLike, NDArray
 
 from .phasors import Array, Phasors
@@ -29,12 +30,15 @@ from .vibration import Complex, Indices, Real
 _SMALLEST = 1e10 * float(np.finfo(float).tiny)  # a division by a smaller number overflows
 _TURN = 2 * np.pi  # rad
 _SAMPLES = 16  # number of samples per period of the highest order
-_AT_ONCE = 1 << 19  # largest number of samples, or of terms of curves, which bounds the memory
+_AT_ONCE = 1 << 17  # largest number of samples, or of terms of curves: more leave the cache
 _ROUNDS = 40  # largest number of steps of Newton's method; 3 or 4 suffice for a round peak
 # A step of Newton's method is the last if it gains less than _SETTLED of the sum of all amplitudes,
 # or if it is shorter than _SHORT of the distance of two samples.
 _SETTLED = 1e-16
 _SHORT = 1e-6
+# Terms of the Taylor series about a sample. Up to the next sample, 2 pi/16 = 0.39 of the phase of
+# the highest order away, the next term is below 0.39^13/13! = 1e-15 of the sum of all amplitudes.
+_TERMS = 13
 _ZERO = 1e-12  # rad; an angle this close to a whole turn is 0
 _EQUAL = 1e-12  # peaks that differ by a smaller share of the sum of all amplitudes are equal
 
@@ -114,9 +118,11 @@ def find_near_peaks(curve: Phasors) -> Real:
     about 2 % of the highest. A maximum may be listed twice. The phasors must have whole orders and
     no trailing axes.
     """
-    parts = _list_components(curve).T[None]
+    parts = np.ascontiguousarray(_list_components(curve).T[None])
     scaled = parts / np.abs(parts).sum()
-    return np.sort(_find_tops(curve.orders.astype(np.int64), scaled, squared=True)[2])
+    harmonics = curve.orders.astype(np.int64)
+    waves = _sample(harmonics, scaled)
+    return np.sort(_find_tops(harmonics, scaled, waves, squared=True)[2])
 
 
 def _list_components(curves: Phasors) -> Complex:
@@ -139,8 +145,7 @@ def find_swing(orders: ArrayLike, phasors: Complex) -> Swing:
     Raises:
         ValueError: An order is no multiple of 1/2, is negative or comes twice.
     """
-    both = np.stack([phasors, -phasors], axis=1)[..., None]  # the lowest is the highest of -F
-    values, angles = _search(orders, both, squared=False)
+    values, angles = _search(orders, phasors[..., None], squared=False)
     return Swing(CyclePeak(values[0], angles[0]), CyclePeak(-values[1], angles[1]))
 
 
@@ -154,7 +159,8 @@ def find_longest(orders: ArrayLike, phasors: Complex) -> CyclePeak:
     Raises:
         ValueError: An order is no multiple of 1/2, is negative or comes twice.
     """
-    return _search(orders, phasors, squared=True)
+    (value,), (angle,) = _search(orders, phasors, squared=True)
+    return CyclePeak(value, angle)
 
 
 def sum_amplitudes(phasors: Complex) -> Real:
@@ -174,7 +180,9 @@ def largest_of_ellipse(phasors: Complex) -> Real:
 
 
 def _search(orders: ArrayLike, phasors: Complex, *, squared: bool) -> CyclePeak:
-    """Return the highest values (or, `squared`, lengths) and their first angles."""
+    """Return the largest lengths (`squared`) or the highest values of the curves and of their
+    negatives, and the first angles of these, each of shape (1 or 2, *curves).
+    """
     halves = 2 * np.asarray(orders, float)
     present = np.any(phasors != 0, axis=tuple(range(1, phasors.ndim)))
     present |= not np.any(present)
@@ -185,27 +193,44 @@ def _search(orders: ArrayLike, phasors: Complex, *, squared: bool) -> CyclePeak:
     harmonics = harmonics[present] // common
     shape = phasors.shape[1:-1]
     components = phasors.shape[-1]
-    parts = phasors[present].reshape(len(harmonics), -1, components).transpose(1, 2, 0)
+    parts = phasors[present].reshape(len(harmonics), -1, components)
+    parts = np.ascontiguousarray(parts.transpose(1, 2, 0), complex)
     step = max(_AT_ONCE // (_SAMPLES * int(harmonics.max(initial=1)) * components), 1)
-    tops = [np.zeros((2, 0))]
+    signs = 1 if squared else 2
+    tops = [np.zeros((2, signs, 0))]
     for start in range(0, len(parts), step):
         some = parts[start : start + step]
         size = np.sum(np.abs(some), axis=(1, 2))
         scaled = some / np.where(size > _SMALLEST, size, 1)[:, None, None]
-        curve, values, angles, at_zero = _find_tops(harmonics, scaled, squared)
-        starts = np.searchsorted(curve, np.arange(len(some)))
+        waves = _sample(harmonics, scaled)
+        if not squared:  # the lowest value of a curve is the highest of its negative
+            scaled = np.concatenate([scaled, -scaled])
+            waves = np.concatenate([waves, -waves])
+        curve, values, angles, at_zero = _find_tops(harmonics, scaled, waves, squared)
+        starts = np.searchsorted(curve, np.arange(len(waves)))
         top = np.maximum.reduceat(values, starts)
         among = values >= (top - _EQUAL)[curve]
         first = np.minimum.reduceat(np.where(among, angles, _TURN), starts)
         first[at_zero >= top - _EQUAL] = 0.0
-        tops.append(np.stack([(np.sqrt(top) if squared else top) * size, first * 2 / common]))
-    value, angle = np.concatenate(tops, axis=1)
-    return CyclePeak(value.reshape(shape), angle.reshape(shape))
+        value = (np.sqrt(top) if squared else top).reshape(signs, -1) * size
+        tops.append(np.stack([value, first.reshape(signs, -1) * 2 / common]))
+    value, angle = np.concatenate(tops, axis=2).reshape(2, signs, *shape)
+    return CyclePeak(value, angle)
+
+
+def _sample(harmonics: NDArray[np.int64], parts: Complex) -> Real:
+    """Return samples of the components of curves over a turn, shape (curves, components, samples);
+    see `_find_tops` for the arguments.
+    """
+    highest = int(harmonics.max(initial=1))
+    spectrum = np.zeros((*parts.shape[:-1], highest + 1), complex)
+    spectrum[..., harmonics] = np.where(harmonics, parts / 2, parts.real)
+    return np.fft.irfft(spectrum, _SAMPLES * max(highest, 1), axis=-1, norm="forward")
 
 
 def _find_tops(
-    harmonics: NDArray[np.int64], parts: Complex, squared: bool
-) -> tuple[NDArray[np.intp], Real, Real, Real]:
+    harmonics: NDArray[np.int64], parts: Complex, waves: Real, squared: bool
+) -> tuple[Indices, Real, Real, Real]:
     """Return the maxima that may be the highest of their curves, and the value of each curve at 0.
     Maxima are given by the indices of their curves (ascending), values, and angles in [0, 2 pi),
     each of shape (tops,); values at 0 have shape (curves,).
@@ -214,24 +239,24 @@ def _find_tops(
         harmonics: Whole numbers, shape (orders,).
         parts: Phasors of the components, scaled so that the sum of their sizes is 1 for each curve,
             shape (curves, components, orders).
+        waves: Samples of the components, shape (curves, components, samples).
         squared: Whether the squared length is wanted, not the value of a single component.
     """
-    highest = int(harmonics.max(initial=1))
-    spectrum = np.zeros((*parts.shape[:-1], highest + 1), complex)
-    spectrum[..., harmonics] = np.where(harmonics, parts / 2, parts.real)
-    waves = np.fft.irfft(spectrum, _SAMPLES * max(highest, 1), axis=-1, norm="forward")
     samples = np.sum(waves**2, axis=1) if squared else waves[:, 0]
-    high = samples.max(axis=1, keepdims=True)
-    swing = high - (0 if squared else samples.min(axis=1, keepdims=True))
-    here = samples >= high - (1 - np.cos(np.pi / _SAMPLES) ** 2) * swing
-    rises = samples > np.roll(samples, 1, axis=1)
-    here &= rises & ~np.roll(rises, -1, axis=1)
-    here[np.arange(len(parts)), samples.argmax(axis=1)] = True
-    curve, at = np.nonzero(here)
-    step = _TURN / samples.shape[1]
+    count = samples.shape[1]
+    highest_at = samples.argmax(axis=1)
+    high = samples.max(axis=1)
+    swing = high - (0 if squared else samples.min(axis=1))
+    least = high - (1 - np.cos(np.pi / _SAMPLES) ** 2) * swing
+    curve, at = np.divmod(np.flatnonzero(samples >= least[:, None]), count)
+    here = samples[curve, at]
+    peaked = (here > samples[curve, at - 1]) & (here >= samples[curve, (at + 1) % count])
+    peaked |= at == highest_at[curve]
+    curve = curve[peaked]
+    at = at[peaked]
     most = max(_AT_ONCE // parts[0].size, 1)  # maxima that are refined at once
     climbed = [
-        _climb(harmonics, parts[curve[k : k + most]], squared, step * at[k : k + most], step)
+        _climb(harmonics, parts[curve[k : k + most]], squared, at[k : k + most], count)
         for k in range(0, len(curve), most)
     ]
     value, angle = np.concatenate(climbed, axis=1)
@@ -240,22 +265,32 @@ def _find_tops(
 
 
 def _climb(
-    harmonics: NDArray[np.int64], parts: Complex, squared: bool, start: Real, step: float
+    harmonics: NDArray[np.int64], parts: Complex, squared: bool, at: Indices, count: int
 ) -> tuple[Real, Real]:
-    """Return values and angles of the maxima next to the angles `start`, by Newton's method in
-    steps of at most `step`. `parts` has a row for each angle; see `_find_tops` for the
-    other arguments.
+    """Return values and angles of the maxima next to samples, by Newton's method on the Taylor
+    series of the curves about these samples.
+
+    Args:
+        harmonics: As in `_find_tops`.
+        parts: As in `_find_tops`, with a row for each maximum.
+        squared: As in `_find_tops`.
+        at: Index of the sample next to each maximum, no lower than its neighbours.
+        count: Number of samples in a turn.
     """
-    value = np.empty(len(start))
-    angle = start.copy()
-    moving = np.arange(len(start))
-    rates = np.vander(harmonics.astype(complex), 3, increasing=True)
+    highest = max(int(harmonics.max(initial=1)), 1)
+    roots = np.exp(1j * (_TURN / count) * np.arange(count))
+    turned = parts * roots[at[:, None] * harmonics % count][:, None]
+    pairs = turned.view(float).reshape(-1, 2 * len(harmonics))
+    derivatives = (pairs @ _differentiate(harmonics / highest)).reshape(*parts.shape[:2], -1)
+    step = highest * _TURN / count
+    value = np.empty(len(at))
+    away = np.zeros(len(at))  # from the sample, as phase of the highest harmonic
+    moving = np.arange(len(at))
+    series = sliding_window_view(derivatives, _TERMS, axis=-1)  # of x, slope and bend
+    factorials = np.cumprod(np.maximum(np.arange(_TERMS), 1.0))
     for _ in range(_ROUNDS):
-        turned = parts[moving] * np.exp(1j * angle[moving, None] * harmonics)[:, None]
-        sums = turned @ rates
-        x = sums[..., 0].real
-        slope = -sums[..., 1].imag
-        bend = -sums[..., 2].real
+        powers = np.vander(away[moving], _TERMS, increasing=True) / factorials
+        x, slope, bend = np.einsum("tcdk,tk->dtc", series[moving], powers)
         if squared:
             bend = 2 * (slope * slope + x * bend)
             slope = 2 * x * slope
@@ -264,14 +299,30 @@ def _climb(
         slope = slope.sum(axis=1)
         bend = bend.sum(axis=1)
         uphill = np.where(bend < 0, -slope / np.where(bend < 0, bend, -1), np.sign(slope) * step)
-        move = np.clip(uphill, -step, step)
+        move = np.clip(away[moving] + uphill, -step, step) - away[moving]
         gain = slope * move / 2  # exact for a parabola
         value[moving] = x + gain
-        angle[moving] += move
+        away[moving] += move
         moving = moving[(np.abs(move) > _SHORT * step) & (2 * np.abs(gain) > _SETTLED)]
         if not len(moving):
             break
-    return value, angle
+    return value, at * (_TURN / count) + away / highest
+
+
+def _differentiate(shares: Real) -> Real:
+    """Return the matrix that makes the derivatives of curves, `d^k/du^k Re sum of c e^{i s u}` at
+    u = 0, of their phasors c, written as pairs of real and imaginary parts.
+
+    Args:
+        shares: s, shape (orders,).
+
+    Returns:
+        Shape (2 orders, derivatives).
+    """
+    powers = np.vander(shares, _TERMS + 2, increasing=True)
+    turns = 1j ** np.arange(_TERMS + 2)  # Re(i^k c) = Re i^k Re c - Im i^k Im c
+    pairs = np.stack([powers * turns.real, -powers * turns.imag], axis=1)
+    return pairs.reshape(-1, _TERMS + 2)
 
 
 # ------------------------------------------------------------------ functions of one variable
