@@ -76,11 +76,11 @@ def respond_chain(
     frequency = np.asarray(frequency, float)
     shape = (*frequency.shape, len(chain.inertia))
     w = frequency.ravel()
-    load, attached = (
-        np.broadcast_to(np.asarray(each, complex), shape).reshape(-1, shape[-1]).T
-        for each in (load, attached)
-    )
-    own = 1j * np.outer(damping.nodes, w) - w * w * (chain.inertia[:, None] + attached)
+    load = np.ascontiguousarray(np.broadcast_to(load, shape).reshape(-1, shape[-1]).T, complex)
+    moving = chain.inertia + np.asarray(attached, complex)
+    moving = np.broadcast_to(moving, shape).reshape(-1, shape[-1]).T
+    own = np.multiply(moving, -w * w, order="C")
+    own += 1j * np.outer(damping.nodes, w)
     carrying = (chain.stiffness > 0) | (damping.dashpots > 0)
     carrying &= ~(chain.clamped[chain.start] & chain.clamped[chain.end])
     flexible = _find_flexibilities(chain, damping, w, carrying)
@@ -148,8 +148,8 @@ def _solve_tree(
     branches = grow_branches(chain, roots, carrying)
     stiff = own.copy()
     load = load.copy()
-    size = np.abs(own)
-    pivots, felt, pushed, angle = np.zeros((4, *own.shape), complex)
+    size = _bound(own)
+    inverse, felt, pushed, angle = np.zeros((4, *own.shape), complex)
     torque = np.zeros(flexible.shape, complex)
     weak = np.full(own.shape[1], len(branches) < np.count_nonzero(carrying))
     singular = np.zeros(own.shape[1], bool)
@@ -161,23 +161,29 @@ def _solve_tree(
                 felt[child] = np.where(mesh, 0, 1 / flexible[shaft])
             else:
                 part = flexible[shaft] * stiff[child]
-                pivots[child] = near**2 + part
-                weak |= np.abs(pivots[child]) <= _WEAK_PIVOT * (near**2 + np.abs(part))
-                felt[child] = stiff[child] / pivots[child]
-                pushed[child] = load[child] / pivots[child]
+                pivot = near**2 + part
+                weak |= _bound(pivot) <= _WEAK_PIVOT * (near**2 + _bound(part))
+                inverse[child] = 1 / pivot
+                felt[child] = stiff[child] * inverse[child]
+                pushed[child] = load[child] * inverse[child]
             stiff[parent] += far**2 * felt[child]
             load[parent] -= near * far * pushed[child]
-            size[parent] += far**2 * np.abs(felt[child])
+            size[parent] += far**2 * _bound(felt[child])
         for root in roots:
             if not chain.clamped[root]:
-                singular |= np.abs(stiff[root]) <= _RESONANT * size[root]
+                singular |= _bound(stiff[root]) <= _RESONANT * size[root]
                 angle[root] = load[root] / stiff[root]
         for child, parent, shaft, near, far in branches:
             torque[shaft] = near * pushed[child] + far * felt[child] * angle[parent]
             if not chain.clamped[child]:
-                moved = near * far * angle[parent] / pivots[child]
+                moved = near * far * angle[parent] * inverse[child]
                 angle[child] = flexible[shaft] * pushed[child] - moved
     return angle, torque, weak | singular, singular
+
+
+def _bound(values: Complex) -> Real:
+    """Return `|Re c| + |Im c|`, which is |c| to 1.42 |c|, in a third of the time."""
+    return np.abs(values.real) + np.abs(values.imag)
 
 
 def _solve_dense(
@@ -215,7 +221,7 @@ def _solve_dense(
 
 
 _EDGE = 1e-10  # a resonance outside the range of speeds by less than this share counts as inside
-_AT_A_TIME = 1 << 18  # number of angles and torques computed at once, which bounds the memory
+_AT_A_TIME = 1 << 16  # number of angles and torques computed at once: more leave the cache
 
 
 def _move(system: TorsionalSystem, rpm: Real) -> tuple[Complex, Real]:

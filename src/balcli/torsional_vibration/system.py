@@ -162,8 +162,10 @@ class TorsionalSystem:
 
     def attached_rings(self, frequency: Real) -> Complex:
         """Return the complex inertias, kg m2, that viscous rings add to nodes at frequencies
-        (rad/s), shape (*frequency, nodes).
+        (rad/s), shape (*frequency, nodes), or (nodes,) without rings.
         """
+        if not self.rings:
+            return np.zeros(len(self.nodes), complex)
         inertia = np.zeros((*frequency.shape, len(self.nodes)), complex)
         for ring in self.rings:
             inertia[..., ring.node] += viscous_inertia(ring.inertia, ring.damping, frequency)
@@ -171,8 +173,10 @@ class TorsionalSystem:
 
     def attached_pendulums(self, order: Real) -> Complex:
         """Return the inertias, kg m2, that pendulums add to nodes at orders of the reference node,
-        shape (*order, nodes).
+        shape (*order, nodes), or (nodes,) without pendulums.
         """
+        if not self.pendulums:
+            return np.zeros(len(self.nodes), complex)
         inertia = np.zeros((*order.shape, len(self.nodes)), complex)
         for swung in self.pendulums:
             own = order / self.gears[swung.node]
