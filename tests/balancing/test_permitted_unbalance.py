@@ -76,5 +76,17 @@ def test_refusals():
     assert refusal("balance", V8, "--grade", 16, "--mass", -1) == (
         "--grade 16 --mass -1: both must be positive numbers"
     )
+
+
+def test_a_crank_without_new_counterweights_has_two_planes():
+    """Both end planes share it, or the planes that are given; the place of the plane is shown."""
     asked = ("--scheme", "complete", "--grade", 16, "--mass", 20)
-    assert refusal("balance", ENGINES / "i4.toml", *asked).endswith("scheme complete fits none")
+    said = ask_json("balance", ENGINES / "i4.toml", *asked)["permitted"]
+    assert said["each_g_mm"] == pytest.approx(20e3 * 16 / (7000 * math.pi / 30) / 2, rel=1e-12)
+    table = run_here("balance", ENGINES / "i4.toml", *asked).out.partition("ISO 21940-11, G 16\n")[2].splitlines()
+    assert [row.split() for row in table[2:4]] == [["-141", "218.3"], ["141", "218.3"]]
+    given = ("--factor", "50%", "--planes=-120,0,120", "--grade", 16, "--mass", 20)
+    webs = ask_json("balance", ENGINES / "i4_webs.toml", *given)
+    assert [plane["permitted_kg_m"] for plane in webs["initial"]["planes"]] == pytest.approx(
+        [20 * 16e-3 / (7000 * math.pi / 30) / 3] * 3, rel=1e-12
+    )

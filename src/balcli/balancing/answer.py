@@ -22,7 +22,7 @@ from ..analysis.records import BalanceParts, Devices, PeaksAndOrders, describe_d
 from ..core.cylinders import find_travel
 from ..core.mechanisms.linkage import Articulated
 from ..core.phasors import Array, unit
-from ..core.records import HIDDEN, INLINE, Asked, Node, WrittenAs
+from ..core.records import HIDDEN, INLINE, Asked, Node, WrittenAs, change_attributes
 from ..core.unbalance import find_permitted_unbalance
 from ..engine.build import build
 from ..engine.engine import CylinderNumber, Engine, check_engine, refuse_geared
@@ -54,6 +54,7 @@ from ..sizing.workshop import (
     find_practical,
     shape_devices,
 )
+from .initial import InitialUnbalance, choose_correction_planes, find_initial
 
 _UNEVEN = "sized for steady speed; before and after are at uneven speed"
 
@@ -67,12 +68,15 @@ class PermittedUnbalance:
             mm/s.
         mass_kg: Mass of the crankshaft.
         each_g_mm: Permitted unbalance at each new counterweight. If scheme factor compares the
-            file's counterweights with what each plane needs: permitted unbalance in each plane.
+            file's counterweights with what each plane needs, or if there are no new counterweights:
+            permitted unbalance in each plane.
+        planes_m: Correction planes, if there are no new counterweights.
     """
 
     grade: float
     mass_kg: float
     each_g_mm: float
+    planes_m: Annotated[tuple[float, ...], HIDDEN] = ()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -141,6 +145,8 @@ class Balance(Result):
             changed.
         parts: Bearing loads of new shafts and shapes of new counterweights, if bearings or a sector
             were given.
+        initial: Initial unbalance of the crankshaft in its correction planes, if the file has
+            tolerances of webs.
         misfits: Counterweights whose half discs the room around the crank does not have.
         tools: Tools of the workshop.
         every_order: Whether orders were given; then all given orders are shown.
@@ -156,6 +162,7 @@ class Balance(Result):
     permitted: Asked[PermittedUnbalance] = Asked("the command `balcli balance` with grade and mass")
     ladder: Asked[Ladder] = Asked("a scheme that leaves articulated rods unchanged")
     parts: Asked[BalanceParts] = Asked("shapes=Shapes(bearings=(-0.13, 0.13))")
+    initial: Asked[InitialUnbalance] = Asked("a file with tolerances of webs")
     misfits: Annotated[tuple[Misfit, ...], HIDDEN] = ()
     tools: Annotated[Tools, HIDDEN] = field(default_factory=Tools)
     every_order: Annotated[bool, HIDDEN] = False
@@ -215,10 +222,11 @@ def balance(
         asked.check(scheme)
         ladder = find_ladder(engine, asked.read_small())
         remedy = fit_steps(engine, ladder, asked)
-        return _answer(engine, remedy, orders, tools, ladder, shapes)
+        return _answer(engine, remedy, orders, tools, ladder, shapes, options=asked)
     remedy = size(engine, scheme, asked)
     start = engine if remedy.start is None else remedy.start
-    return _answer(start, remedy, orders, tools, find_ladder(start, asked.read_small()), shapes)
+    ladder = find_ladder(start, asked.read_small())
+    return _answer(start, remedy, orders, tools, ladder, shapes, options=asked)
 
 
 def balance_fit(
@@ -255,6 +263,7 @@ def _answer(
     ladder: Ladder | None = None,
     shapes: Shapes | None = None,
     changed: Engine | None = None,
+    options: SchemeOptions | None = None,
 ) -> Balance:
     """Return a remedy with its figures for the workshop, and the analyses without and with it.
 
@@ -266,6 +275,7 @@ def _answer(
         ladder: Ladder of the engine.
         shapes: Shapes of new devices.
         changed: Engine with the remedy; None: `engine` with the devices of the remedy.
+        options: Options of the scheme, which may give the correction planes.
     """
     tools = tools or Tools()
     shapes = shapes or Shapes()
@@ -280,6 +290,10 @@ def _answer(
     if shafts or has_webs or any(weight.sector for weight in remedy.counterweights):
         parts = find_parts(changed, shafts, remedy.counterweights, throws=has_webs)
     before, after = analyze_alike((engine, changed), orders, analyze)
+    initial = None
+    if has_webs:
+        planes = choose_correction_planes(engine, options)
+        initial = find_initial(engine, remedy, planes, tools)
     return Balance(
         remedy=remedy,
         practical=find_practical(engine, remedy, tools),
@@ -289,6 +303,7 @@ def _answer(
         after=after,
         ladder=ladder,
         parts=parts,
+        initial=initial,
         misfits=find_misfits(engine, remedy, tools),
         tools=tools,
         every_order=orders is not None,
@@ -305,19 +320,24 @@ def _list_assumed(
 
 
 def permit_unbalance(
-    remedy: Remedy, grade: float | None, mass: float | None, speed_rpm: float
+    remedy: Remedy,
+    grade: float | None,
+    mass: float | None,
+    speed_rpm: float,
+    planes: tuple[float, ...],
 ) -> PermittedUnbalance | None:
-    """Return the unbalance that a grade permits at each counterweight; None without a grade.
+    """Return the unbalance that a grade permits at each counterweight, or in each correction plane;
+    None without a grade.
 
     Args:
-        remedy: Remedy with counterweights.
+        remedy: Remedy.
         grade: Grade of ISO 21940-11, mm/s.
         mass: Mass of the crankshaft as it is balanced, bobweights included, kg.
         speed_rpm: Speed of the engine.
+        planes: Correction planes of a crankshaft without new counterweights (z, m).
 
     Raises:
-        BalcliError: Only one of grade and mass is given, one of them is not positive, or there
-            are no counterweights.
+        BalcliError: Only one of grade and mass is given, or one of them is not positive.
     """
     if grade is None and mass is None:
         return None
@@ -331,13 +351,43 @@ def permit_unbalance(
             speed_mm_s=grade,
             mass_kg=mass,
         )
-    count = len(remedy.needs or remedy.counterweights)
-    if not count:
-        raise ArgumentError(
-            "{grade} is for counterweights, and scheme {name} fits none", name=remedy.scheme
-        )
     whole = find_permitted_unbalance(grade, mass, speed_rpm)
-    return PermittedUnbalance(grade=grade, mass_kg=mass, each_g_mm=whole / count)
+    count = len(remedy.needs or remedy.counterweights)
+    if count:
+        return PermittedUnbalance(grade=grade, mass_kg=mass, each_g_mm=whole / count)
+    each = whole / len(planes)
+    return PermittedUnbalance(grade=grade, mass_kg=mass, each_g_mm=each, planes_m=planes)
+
+
+def judge_unbalance(
+    result: Balance,
+    options: SchemeOptions,
+    tools: Tools,
+    grade: float | None,
+    mass: float | None,
+) -> Balance:
+    """Return a balance with the residual unbalance that a grade permits, and with the capacity of
+    the holes in the correction planes.
+
+    Args:
+        result: Balance without either.
+        options: Options of the scheme, which may give the correction planes.
+        tools: Tools of the workshop.
+        grade: Grade of ISO 21940-11, mm/s; None: not given.
+        mass: Mass of the crankshaft as it is balanced, bobweights included, kg; None: not given.
+
+    Raises:
+        BalcliError: Only one of grade and mass is given, or one of them is not positive.
+    """
+    engine = result.before.engine
+    planes = choose_correction_planes(engine, options)
+    speed = float(engine.speed_rpm)
+    permitted = permit_unbalance(result.remedy, grade, mass, speed, planes)
+    whole = None
+    if grade is not None and mass is not None:
+        whole = find_permitted_unbalance(grade, mass, speed) / 1e6
+    initial = find_initial(engine, result.remedy, planes, tools, whole)
+    return change_attributes(result, permitted=permitted, initial=initial)
 
 
 _STEP_DEG = 1e-3  # step of the difference quotient in Newton's method

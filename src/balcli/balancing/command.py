@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ..core.records import change_attributes
 from ..core.unbalance import SLUGS
 from ..errors import BalcliError, name_option, note, warn
 from ..file.edit import set_speed
@@ -408,8 +407,7 @@ def balance(
         misfit = error
         holes = ("drill", "max_depth", "slug", "width")
         result = find(tools._replace(**dict.fromkeys(holes)))
-    permitted = answer.permit_unbalance(result.remedy, grade_mm_s, mass_kg, float(engine.speed_rpm))
-    result = change_attributes(result, permitted=permitted)
+    result = answer.judge_unbalance(result, options, tools, grade_mm_s, mass_kg)
     if hasattr(result, "parts"):
         warn_each(result.parts.doubts, name_file(path))
     _warn_of_discs(name_file(path), tools, result.misfits)

@@ -19,11 +19,12 @@ from ..analysis.order_tables import fit_largest
 from ..analysis.overview import name_column
 from ..analysis.parts import lay_out_parts
 from ..analysis.verdict_words import VerdictWords, name_orders
+from ..analysis.web_parts import write_ranges
 from ..core.peaks import Peak
 from ..core.records import Node, list_figures, remove_unit, to_document, write_each
 from ..engine.engine import Engine
 from ..errors import MOMENTS_UNKNOWN, ArgumentError, name_option, tell
-from ..file.fields import join_words
+from ..file.fields import counted, join_words
 from ..forces.crankshaft import CrankLoads, find_crank_loads
 from ..forces.kinds import FORCE, MOMENT, ROLL, ROLL_TOTAL
 from ..forces.spectrum import compute_spectra
@@ -33,6 +34,7 @@ from ..show.sheet import (
     NAMELESS,
     NEGLIGIBLE,
     NOTHING,
+    UNKNOWN,
     Column,
     Facts,
     Grid,
@@ -45,6 +47,7 @@ from ..show.sheet import (
     sentence,
     size_cell,
     size_text,
+    unit_cell,
 )
 from ..show.units import IMPERIAL, SI, ShownUnit, System
 from ..sizing.factor import name_one_cylinder
@@ -109,6 +112,7 @@ def lay_out_remedy(
     if not result.before.moments_known:
         yield Text("Forces only", (sentence(MOMENTS_UNKNOWN),))
     yield from _permitted(result, system)
+    yield from lay_out_initial(result, system)
     yield from details_parts(result, system)
 
 
@@ -232,7 +236,6 @@ def _permitted(result: Balance, system: System) -> Iterator[Grid]:
         return
     remedy = result.remedy
     length = system.length
-    mass = system.mass
     permitted = result.permitted.each_g_mm / 1e6
     judge: Callable[[float, float], str]
     if remedy.needs:
@@ -242,6 +245,10 @@ def _permitted(result: Balance, system: System) -> Iterator[Grid]:
         judge = _compare_with_permitted
         sizes = [abs(need.missing) for need in remedy.needs]
         names = [number(length.of(need.position_mm / 1e3)) for need in remedy.needs]
+    elif result.permitted.planes_m:
+        if not hasattr(result, "initial"):
+            yield _permitted_in_planes(result, system)
+        return
     else:
         head = "counterweight"
         figure = "unbalance"
@@ -256,12 +263,94 @@ def _permitted(result: Balance, system: System) -> Iterator[Grid]:
         Column(f"permitted, {unit.name}", [number(unit.of(permitted))] * len(sizes)),
         Column(last, [judge(size, permitted) for size in sizes]),
     ]
-    yield Grid(
-        f"Permitted residual unbalance, ISO 21940-11, G {result.permitted.grade:g}",
-        columns,
+    yield Grid(_name_grade(result), columns, _tell_rotor(result, system))
+
+
+def _name_grade(result: Balance) -> str:
+    return f"Permitted residual unbalance, ISO 21940-11, G {result.permitted.grade:g}"
+
+
+def _tell_rotor(result: Balance, system: System) -> str:
+    """Return words on the rotor for which an unbalance is permitted."""
+    mass = system.mass
+    return (
         f"A crankshaft of {number(mass.of(result.permitted.mass_kg))} {mass.name} at "
-        f"{result.before.engine.speed_rpm:g} rpm; all planes have equal shares.",
+        f"{result.before.engine.speed_rpm:g} rpm; all planes have equal shares."
     )
+
+
+def _permitted_in_planes(result: Balance, system: System) -> Grid:
+    """Return the table of the unbalance that a grade permits in each correction plane."""
+    length = system.length
+    permitted = result.permitted.each_g_mm / 1e6
+    unit = system.unbalance.fit(permitted)
+    heads = [
+        Column(f"plane at z, {length.name}", words=True),
+        Column(f"permitted, {unit.name}"),
+    ]
+    rows = []
+    for place in result.permitted.planes_m:
+        rows.append([unit_cell(place, length), unit_cell(permitted, unit)])
+    return Grid.of_rows(_name_grade(result), heads, rows, _tell_rotor(result, system))
+
+
+def lay_out_initial(result: Balance, system: System) -> Iterator[Grid]:
+    """Yield the table of the initial unbalance in the correction planes, if the file has tolerances
+    of webs; with a drill, whether the holes suffice.
+    """
+    if not hasattr(result, "initial"):
+        return
+    initial = result.initial
+    length = system.length
+    largest = []
+    for plane in initial.planes:
+        largest += [plane.worst_kg_m, plane.capacity_kg_m, plane.permitted_kg_m]
+    unit = system.unbalance.fit_values(largest)
+    heads = [
+        Column(f"plane at z, {length.name}", words=True),
+        Column("worst"),
+        Column("rss"),
+        Column("permitted"),
+        Column("capacity"),
+        Column("verdict", words=True),
+    ]
+    rows = []
+    for plane in initial.planes:
+        verdict = UNKNOWN
+        if plane.enough is not None:
+            verdict = "holes suffice" if plane.enough else "holes do not suffice"
+        row = [
+            unit_cell(plane.position_mm / 1e3, length),
+            unit_cell(plane.worst_kg_m, unit),
+            unit_cell(plane.rss_kg_m, unit),
+            unit_cell(plane.permitted_kg_m, unit),
+            unit_cell(plane.capacity_kg_m, unit),
+            verdict,
+        ]
+        rows.append(row)
+    title = f"Initial unbalance within the tolerances of the webs, {unit.name}"
+    grid = Grid.of_rows(title, heads, rows, " ".join(_tell_initial(result, system)))
+    known = [column for column in grid.columns if {*column.cells} != {UNKNOWN}]
+    yield grid._replace(columns=known)
+
+
+def _tell_initial(result: Balance, system: System) -> Iterator[str]:
+    """Yield notes on the table of the initial unbalance."""
+    initial = result.initial
+    yield "Worst: all dimensions at their limits. Rss: root of the sum of squares."
+    if initial.exact:
+        noun = "webs" if len(initial.exact) > 1 else "web"
+        yield f"Without tolerances, and counted as exact: {noun} {write_ranges(initial.exact)}."
+    if initial.planes[0].permitted_kg_m is not None:
+        yield f"Permitted: G {result.permitted.grade:g} of ISO 21940-11, in equal shares."
+    rows = dict.fromkeys(initial.holes)
+    for row in rows:
+        length = system.length
+        depth = size_text(row.depth, length)
+        rim = size_text(row.rim, length)
+        room = size_text(row.room, length)
+        told = f"{counted(row.holes, 'hole')}, {depth} deep from a rim of {rim}, in {room}"
+        yield f"Capacity: {told} along the crank."
 
 
 def _compare_with_permitted(missing: float, permitted: float) -> str:
@@ -305,6 +394,7 @@ def card_sheet(result: Balance, system: System) -> Sheet:
     if remedy.note:
         parts.append(Text("Note", (sentence(tell(remedy.note, name_option)),)))
     parts += _permitted(result, system)
+    parts += lay_out_initial(result, system)
     parts.append(Text("", (_SIGNED,)))
     return Sheet(f"Bobweight card: {engine.name or NAMELESS}", tuple(parts))
 
@@ -471,6 +561,7 @@ def _all_rows(result: Balance, system: System) -> Iterator[tuple[object, ...]]:
         for step, name, value, unit in list_ladder(result.ladder):
             yield "ladder", step, "", name, value, unit
     yield from _rows_of("permitted", getattr(result, "permitted", None))
+    yield from _rows_of("initial", getattr(result, "initial", None))
     yield from _rows_of("parts", getattr(result, "parts", None))
     for state, analysis in (("before", result.before), ("after", result.after)):
         for row in figure_rows(analysis, system):

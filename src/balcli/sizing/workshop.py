@@ -194,15 +194,15 @@ def _plan_holes(
     """
     if tools.drill is None or isinstance(device, Slider):
         return {}
-    density = STEEL if tools.slug is None else tools.slug - STEEL
-    deepest = min(rim, tools.max_depth or rim)
+    deepest = _find_deepest(rim, tools)
+    density = _find_drilled_density(tools)
     of_one = find_drilled_unbalance(deepest, rim, tools.drill, density)
     needed = unbalance / of_one * (1 - ROUNDING) if of_one else math.inf
     count = max(float(np.ceil(needed)), 1.0)
     if tools.width is None and not isinstance(device, Counterweight):
         room = math.inf
     if count * tools.drill > room * (1 + ROUNDING) or math.isinf(count):
-        fitting = float(np.floor(room / tools.drill * (1 + ROUNDING)))
+        fitting = _count_fitting(room, tools.drill)
         raise HolesDoNotFitError(
             "{drill} {size:g} mm: {count:g} holes for {wanted:.6g} g mm do not fit: {room:g} mm "
             "({width}) have room for {fitting:g} holes side by side, {possible:.6g} g mm; use a "
@@ -218,6 +218,58 @@ def _plan_holes(
     depth = deepest if math.isnan(depth) else min(depth, deepest)
     angle = float(wrap_degrees(device.angle + (180 if tools.slug is None else 0), 360))
     return {"drill_depth_mm": 1e3 * depth, "holes": int(count), "hole_angle_deg": angle}
+
+
+def _find_deepest(rim: float, tools: Tools) -> float:
+    """Return the largest depth of a hole from a rim inwards, m."""
+    return min(rim, tools.max_depth or rim)
+
+
+def _find_drilled_density(tools: Tools) -> float:
+    """Return the density of what a hole removes, kg/m3; with a slug, of what it adds."""
+    return STEEL if tools.slug is None else tools.slug - STEEL
+
+
+def _count_fitting(room: float, drill: float) -> float:
+    """Return the number of holes that fit side by side."""
+    return float(np.floor(room / drill * (1 + ROUNDING)))
+
+
+class HoleRow(NamedTuple):
+    """The holes that fit side by side in a plane, all as deep as possible.
+
+    Attributes:
+        holes: Number of holes.
+        depth: Depth of each, m.
+        rim: Radius from which they are drilled, m.
+        room: Room along the crank, m.
+        unbalance: Unbalance that they remove (with slugs: add) together, kg m.
+    """
+
+    holes: int
+    depth: float
+    rim: float
+    room: float
+    unbalance: float
+
+
+def plan_hole_row(engine: Engine, remedy: Remedy, tools: Tools, z: float) -> HoleRow | None:
+    """Return the holes that fit in a plane; None without a drill.
+
+    Args:
+        engine: Engine.
+        remedy: New devices, whose planes limit the room.
+        tools: Tools of the workshop.
+        z: Position of the plane, m.
+    """
+    if tools.drill is None:
+        return None
+    rim = tools.radius or engine.find_radius(z)
+    depth = _find_deepest(rim, tools)
+    room = tools.width or _find_width(engine, remedy)
+    count = _count_fitting(room, tools.drill)
+    of_one = find_drilled_unbalance(depth, rim, tools.drill, _find_drilled_density(tools))
+    return HoleRow(int(count), depth, rim, room, count * of_one)
 
 
 def _find_rim(engine: Engine, device: DeviceTable, tools: Tools) -> float:
