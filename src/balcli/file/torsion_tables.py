@@ -12,6 +12,7 @@ from pydantic import Field
 from ..limits import MOST_LIST_VALUES, MOST_TORSION_NODES
 from .fields import (
     RIGID,
+    FileName,
     Number,
     NumberOrTable,
     OneOf,
@@ -374,6 +375,9 @@ class Torsion(ChainKeys):
     """Parts behind the last throw, in order away from it."""
     throw: Annotated[tuple[ThrowDamper, ...], Field(max_length=MOST_TORSION_NODES)] = ()
     """Dampers on throws."""
+    measured: Annotated[str, FileName()] | None = None
+    """CSV file in the folder of the engine file with a measured curve: columns speed_rpm, order and
+    amplitude_deg (amplitude of the free end). Example: 'torsiograph.csv'"""
 
     def _check_bore(self) -> Iterator[str]:
         yield from self.check_below("throw_bore", "throw_diameter")

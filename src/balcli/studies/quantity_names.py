@@ -154,6 +154,7 @@ FORMS = (
         TORSION,
         "torsion",
         ("torsion.N.Hz", "Hz", "torsional natural frequency of the crankshaft"),
+        ("torsion.misfit", "deg", "root mean square difference from the measured curve"),
         (
             "shaft.NAME.torque",
             "N·m",

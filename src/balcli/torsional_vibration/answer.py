@@ -35,6 +35,7 @@ from .build import NO_DAMPERS
 from .chain_file import describes_chain, read_chain_tables
 from .dampers import FIGURES, WIDE_SWING, DamperAsked, SizedDamper, size_damper
 from .load import Source, make_chain_source, make_source
+from .measured import MeasuredCurve, compare_measured
 from .modes import (
     Critical,
     NaturalMode,
@@ -175,6 +176,8 @@ class TorsionAnalysis(Result):
             without a limit or without speeds.
         barred_rpm: First and last speed of each range in which a limit is exceeded; left out
             without a limit or without speeds.
+        measured: Measured curve of the free end beside the computed one; left out if the file names
+            none.
         system: Analyzed system.
     """
 
@@ -194,6 +197,7 @@ class TorsionAnalysis(Result):
     damper: Asked[SizedDamper] = Asked('damper="viscous", speeds=[1500, 2000]')
     limits: Asked[tuple[LimitVerdict, ...]] = Asked(_LIMITED)
     barred_rpm: Asked[tuple[tuple[float, float], ...]] = Asked(_LIMITED)
+    measured: MeasuredCurve | None = None
     system: Annotated[TorsionalSystem, HIDDEN]
 
     @property
@@ -278,7 +282,8 @@ def answer_question(
             raise ArgumentError(
                 "{needless}: give the kind of damper, with {damper}", needless=needless
             )
-        return _analyze_system(source.system(NO_DAMPERS), question, tell)
+        result = _analyze_system(source.system(NO_DAMPERS), question, tell)
+        return _add_measured(result, source)
     if question.speeds_rpm is None:
         raise ArgumentError("{damper}: give the speeds over which to size it, with {speeds}")
     sized = size_damper(source, question.damper, question.speeds_rpm, tell)
@@ -287,7 +292,14 @@ def answer_question(
     for each in fitted_result.response.dampers or ():
         if each.node == sized.node:
             sized = replace(sized, heat_W=each.worst.heat_W, heat_rpm=each.worst.speed_rpm)
-    return change_attributes(fitted_result, damper=sized)
+    return _add_measured(change_attributes(fitted_result, damper=sized), source)
+
+
+def _add_measured(result: TorsionAnalysis, source: Source) -> TorsionAnalysis:
+    """Return a result with the measured curve beside the computed one, if the file names one."""
+    if source.measured is None:
+        return result
+    return change_attributes(result, measured=compare_measured(result.system, source.measured))
 
 
 def _analyze_system(

@@ -30,6 +30,7 @@ from .build import (
     require_torsion,
 )
 from .chain_file import ChainFile, describes_chain, read_chain_tables
+from .measured import MeasuredPoints, read_measured
 from .system import TorsionalSystem
 
 # kg mm2 or mm; smaller figures are unlikely: they belong to tiny parts, such as a steel disc of
@@ -50,6 +51,7 @@ class Source(NamedTuple):
             None: it has no damper.
         engine: Engine of the file; None: the file describes a chain.
         throws: Names of the nodes of the engine's throws.
+        measured: Measured curve of the free end; None: the file names none.
     """
 
     text: bytes
@@ -58,6 +60,7 @@ class Source(NamedTuple):
     dampers: Mapping[str, Damper | None]
     engine: Engine | None = None
     throws: tuple[str, ...] = ()
+    measured: MeasuredPoints | None = None
 
 
 def make_chain_source(
@@ -113,6 +116,7 @@ def make_source(
 
     Raises:
         BalcliError: The file has no [torsion].
+        InputError: The measured curve has mistakes.
     """
     torsion = require_torsion(model, name)
     excitation = excite_engine(model, engine, orders)
@@ -122,4 +126,5 @@ def make_source(
     }
     throws = tuple(list_throws(engine))
     dampers |= {throw: next(iter(list_dampers(torsion, throw)), None) for throw in throws}
-    return Source(text, engine.unlikely, system, dampers, engine, throws)
+    measured = read_measured(model, engine, name)
+    return Source(text, engine.unlikely, system, dampers, engine, throws, measured)

@@ -276,12 +276,30 @@ def _draw_swing(ax: Axes, result: TorsionAnalysis, curves: _Curves) -> None:
     end = len(result.shafts)
     amplitudes = np.degrees(np.abs(curves.phasors[:, :, end]))
     ax.plot(curves.rpm, np.degrees(curves.swings[:, end]), color=INK, label="all orders")
-    largest = np.argsort(-amplitudes.max(axis=1), kind="stable")[:5]
+    sizes = amplitudes.max(axis=1)
+    if result.measured is not None:  # measured orders come first
+        measured = [row.order for row in result.measured.rows]
+        sizes = sizes + np.where(np.isin(curves.orders, measured), sizes.max(), 0.0)
+    largest = np.argsort(-sizes, kind="stable")[:5]
     for k, (line, colour) in zip(sorted(largest), MANY_LOOKS, strict=False):
-        label = f"order {order_name(float(curves.orders[k]))}"
+        order = float(curves.orders[k])
+        label = f"order {order_name(order)}"
         ax.plot(curves.rpm, amplitudes[k], line, color=colour, linewidth=1, label=label)
+        _draw_measured(ax, result, order, colour)
     title = f"Half swing of {fit_name(result.system.free_end, 30)}"
     _finish(ax, result, curves, title, "deg", columns=3)
+
+
+def _draw_measured(ax: Axes, result: TorsionAnalysis, order: float, colour: str) -> None:
+    """Draw the measured amplitudes of an order as points."""
+    if result.measured is None:
+        return
+    rows = [row for row in result.measured.rows if row.order == order]
+    if not rows:
+        return
+    speeds = [row.speed_rpm for row in rows]
+    amplitudes = [row.measured_deg for row in rows]
+    ax.plot(speeds, amplitudes, "o", color=colour, markersize=3.5)
 
 
 def _finish(

@@ -1,5 +1,5 @@
 """Evaluate quantities of an engine's torsional vibration for `sweep`, `search` and `scatter`:
-`torsion.1.Hz`, `shaft.flywheel.torque`, `shaft.flywheel.stress`.
+`torsion.1.Hz`, `torsion.misfit`, `shaft.flywheel.torque`, `shaft.flywheel.stress`.
 """
 
 from __future__ import annotations
@@ -17,15 +17,20 @@ from ..file.model import EngineFile
 from ..file.read import change_figures
 from ..forces.quantity import TargetQuantity, refuse_stranger
 from .build import build_engine_system, excite_engine, require_torsion
+from .measured import MeasuredPoints, compare_measured, read_measured
 from .modes import find_chain_modes
 from .response import find_largest
 from .system import Excitation, TorsionalSystem
+
+MISFIT = "torsion.misfit"
 
 
 def list_names(model: EngineFile) -> Iterator[str]:
     """Yield the names of the quantities that a file has."""
     system = _build(model)
     yield from (f"torsion.{number}.Hz" for number, _ in enumerate(_find_frequencies(system), 1))
+    if model.torsion is not None and model.torsion.measured is not None:
+        yield MISFIT
     for shaft, stress in zip(system.shafts, system.stress_by_torque, strict=True):
         yield f"shaft.{shaft}.torque"
         if stress:
@@ -43,12 +48,21 @@ def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> N
     system = _build(model)
     modes = [str(number) for number, _ in enumerate(_find_frequencies(system), 1)]
     for q in quantities:
-        if q.kind == "torsion" and q.target not in modes:
+        if q.name == MISFIT:
+            _require_measured(model)
+        elif q.kind == "torsion" and q.target not in modes:
             raise BalcliError(f"{q.name}: the file has {len(modes)} modes")
         if q.kind == "shaft":
             refuse_stranger(q, system.shafts)
         if q.part == "stress" and not system.stress_by_torque[system.shafts.index(q.target)]:
             raise BalcliError(f"{q.name}: this shaft has no diameter, so its stress is not known")
+
+
+def _require_measured(model: EngineFile) -> None:
+    if model.torsion is None or model.torsion.measured is None:
+        raise BalcliError(
+            f"{MISFIT}: the file has no measured curve; name its file in torsion.measured"
+        )
 
 
 class Variants:
@@ -64,6 +78,8 @@ class Variants:
         self._quantities = quantities
         self._engines = EngineVariants(model)
         self._excitations: dict[Values, Excitation] = {}
+        self._measured: dict[Values, MeasuredPoints | None] = {}
+        self._names = {q.name for q in quantities}
 
     def evaluate(self, values: Mapping[str, float]) -> list[float]:
         """Return the value of each quantity for one variant; `values` are its varied figures by
@@ -80,6 +96,12 @@ class Variants:
         varied = change_figures(self._model, values, {"torsion"})
         system = build_engine_system(varied, engine, excitation)
         figures = {f"torsion.{k}.Hz": hertz for k, hertz in enumerate(_find_frequencies(system), 1)}
+        if MISFIT in self._names:
+            points = remember(
+                self._measured, tuple(own.items()), lambda: read_measured(self._model, engine)
+            )
+            if points is not None:
+                figures[MISFIT] = compare_measured(system, points).rms_deg
         looked_at = [q.target for q in self._quantities if q.kind == "shaft"]
         if looked_at:
             speeds = choose_speeds(engine, values, choose_torsion_speeds)

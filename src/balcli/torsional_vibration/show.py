@@ -40,6 +40,7 @@ from ..show.sheet import (
 from ..show.units import SI, ShownUnit, System
 from .answer import BEYOND, HolzerTable, TorsionAnalysis
 from .dampers import DAMPER_KEYS, FIGURES, SizedDamper
+from .measured import MeasuredCurve, MeasuredRow
 from .response import Edge, TorsionResponse, WorstTorque
 from .system import TorsionalSystem
 from .verdicts import BarredRange, LimitVerdict
@@ -49,6 +50,7 @@ _MOST_CRITICALS = 24  # largest number of listed criticals
 _LEAST_SHARE = 0.01  # least share of work of a listed critical speed
 _MOST_LISTED = 8  # largest number of orders, or shafts without a diameter, in one sentence
 _MOST_OUTSIDE = 3  # number of critical speeds that are named on each side of the range
+_MOST_MEASURED = 10  # largest number of measured points in a table
 _MOST_ORDERS = 3  # number of orders that are listed for a shaft's torque
 _LEAST_AMPLITUDE = 1e-3  # least amplitude of a listed order, as a share of the largest one
 
@@ -132,6 +134,7 @@ def _list_extras(document: Node) -> Iterator[Line]:
         figures = list_figures(damper, ("node", "kind"))
         yield from _put(Line("damper", name=damper["node"]), figures)
     yield from _list_response(document.get("response", {}))
+    yield from _list_measured(document.get("measured", {}))
     yield from _list_limits(document.get("limits", ()))
     for k, ends in enumerate(document.get("barred_rpm", ()), 1):
         for key, end in zip(("from", "to"), ends, strict=True):
@@ -148,6 +151,16 @@ def _list_limits(limits: Iterable[Node]) -> Iterator[Line]:
             yield from _put(of_range, list_figures(span, ("peak_rpm", "rule_rpm")))
             for key, end in zip(("rule_from", "rule_to"), span.get("rule_rpm", ()), strict=False):
                 yield from _put(of_range, [Figure(key, end, "rpm")])
+
+
+def _list_measured(measured: Node) -> Iterator[Line]:
+    """Yield the lines of a measured curve, and of its difference from the computed one."""
+    if not measured:
+        return
+    for row in measured["rows"]:
+        head = Line("measured", None, row["speed_rpm"], row["order"])
+        yield from _put(head, list_figures(row, ("speed_rpm", "order")))
+    yield from _put(Line("measured"), list_figures(measured, ("rows",)))
 
 
 def _list_response(response: Node) -> Iterator[Line]:
@@ -214,7 +227,31 @@ def sheet(result: TorsionAnalysis, system: System) -> Sheet:
     if hasattr(result, "response"):
         parts.append(_show_response(result, result.response, system))
         parts += _show_limits(result, system)
+    if result.measured is not None:
+        parts.append(_show_measured(result, result.measured))
     return Sheet(f"{result.name or 'shafts without a name'}: torsion", tuple(parts))
+
+
+def _show_measured(result: TorsionAnalysis, curve: MeasuredCurve) -> Grid:
+    """Return the points of a measured curve that differ most from the computed one."""
+    farthest = sorted(curve.rows, key=_measure_miss, reverse=True)[:_MOST_MEASURED]
+    heads = [Column("rpm", words=True), Column("order")]
+    heads += [Column("measured, deg"), Column("computed, deg"), Column("difference, deg")]
+    rows = []
+    for row in farthest:
+        amplitudes = (number(row.measured_deg), number(row.computed_deg))
+        difference = number(row.computed_deg - row.measured_deg, 3)
+        rows.append((number(row.speed_rpm), order_name(row.order), *amplitudes, difference))
+    end = result.system.free_end
+    points = counted(len(curve.rows), "measured point")
+    note = f"Root mean square difference of {points}: {number(curve.rms_deg)} deg."
+    if len(curve.rows) > len(farthest):
+        note += f" The {len(farthest)} with the largest differences are shown."
+    return Grid.of_rows(f"Measured amplitudes of {end}", heads, rows, note)
+
+
+def _measure_miss(row: MeasuredRow) -> float:
+    return abs(row.computed_deg - row.measured_deg)
 
 
 _RING = ShownUnit("kg·mm²", 1e-6, SI.inertia, 1e7)
