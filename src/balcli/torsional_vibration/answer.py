@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from types import NoneType
-from typing import Annotated, Literal, NamedTuple
+from typing import Annotated, Literal, NamedTuple, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -36,6 +36,7 @@ from .chain_file import describes_chain, read_chain_tables
 from .dampers import FIGURES, WIDE_SWING, DamperAsked, SizedDamper, size_damper
 from .load import Source, make_chain_source, make_source
 from .measured import MeasuredCurve, compare_measured
+from .misfire import ALL_FIRE, CHAIN_HAS_NONE, WORST, MisfireAsked, ask_misfire
 from .modes import (
     Critical,
     NaturalMode,
@@ -48,6 +49,7 @@ from .modes import (
 from .response import TorsionResponse, find_response
 from .system import TorsionalSystem
 from .verdicts import Judgment, LimitVerdict, judge_system
+from .worst_misfire import WorstMisfire, find_worst_misfire
 
 BEYOND = 1.5  # criticals up to this multiple of the file's speed are listed: engines overspeed
 BREAKING = 1000e6  # vibratory stress above which a warning is given, Pa: no steel bears it
@@ -172,6 +174,8 @@ class TorsionAnalysis(Result):
         holzer: Holzer's tables; left out if none was requested.
         response: Forced vibration; left out without speeds.
         damper: Sized damper, included in the other results; left out if none was requested.
+        misfire: Misfires of all cylinders, one at a time; the other results are those of the worst
+            one. Left out unless the worst one was requested.
         limits: Verdict on each limit of a shaft, and the shafts that are not checked; left out
             without a limit or without speeds.
         barred_rpm: First and last speed of each range in which a limit is exceeded; left out
@@ -195,6 +199,7 @@ class TorsionAnalysis(Result):
     holzer: tuple[HolzerTable, ...] | None = None
     response: Asked[TorsionResponse] = Asked("speeds=[1500, 2000]")
     damper: Asked[SizedDamper] = Asked('damper="viscous", speeds=[1500, 2000]')
+    misfire: Asked[WorstMisfire] = Asked('misfire="worst", speeds=[1500, 2000]')
     limits: Asked[tuple[LimitVerdict, ...]] = Asked(_LIMITED)
     barred_rpm: Asked[tuple[tuple[float, float], ...]] = Asked(_LIMITED)
     measured: MeasuredCurve | None = None
@@ -261,7 +266,8 @@ def _find_doubts(response: TorsionResponse) -> Iterator[Doubt]:
 def answer_question(
     source: Source, question: TorsionQuestion, tell: Tell = tell_nobody
 ) -> TorsionAnalysis:
-    """Return the analysis of a chain or an engine. Size the requested damper first.
+    """Return the analysis of a chain or an engine. Size the requested damper first, or find the
+    worst misfire.
 
     Args:
         source: File of the chain or engine.
@@ -269,13 +275,15 @@ def answer_question(
         tell: Function that is called with the share of the work done so far.
 
     Raises:
-        BalcliError: The node or inertia of a damper is given without its kind, or a damper without
-            speeds; a response lacks excitation or passes an undamped resonance; a requested mode
-            does not exist; a Holzer table is requested for a chain with loops; no node can carry
-            the damper.
+        BalcliError: The node or inertia of a damper is given without its kind; a damper or the
+            worst misfire without speeds, or both together; a response lacks excitation or passes an
+            undamped resonance; a requested mode does not exist; a Holzer table is requested for a
+            chain with loops; no node can carry the damper.
         InputError: The file contradicts itself.
     """
     kind, node, inertia = question.damper
+    if source.misfire.worst:
+        return _answer_worst_misfire(source, question, tell)
     if kind is None:
         if node is not None or inertia is not None:
             needless = Argument("damper_inertia" if node is None else "damper_at")
@@ -300,6 +308,20 @@ def _add_measured(result: TorsionAnalysis, source: Source) -> TorsionAnalysis:
     if source.measured is None:
         return result
     return change_attributes(result, measured=compare_measured(result.system, source.measured))
+
+
+def _answer_worst_misfire(source: Source, question: TorsionQuestion, tell: Tell) -> TorsionAnalysis:
+    """Return the analysis of an engine in which the worst cylinder does not fire."""
+    if question.damper.kind is not None:
+        raise ArgumentError(
+            "{damper}: size it for one cylinder that does not fire, such as {misfire} 1, not for "
+            "{misfire} worst"
+        )
+    if question.speeds_rpm is None or source.without is None:
+        raise ArgumentError("{misfire} worst: give the speeds over which to compare, with {speeds}")
+    misfire = find_worst_misfire(source, question.speeds_rpm, tell)
+    silent = source.without(misfire.worst)._replace(misfire=ALL_FIRE)
+    return change_attributes(answer_question(silent, question), misfire=misfire)
 
 
 def _analyze_system(
@@ -465,6 +487,8 @@ def torsion(
     damper: Literal["viscous", "rubber", "pendulum"] | None = None,
     damper_at: str | None = None,
     damper_inertia: float | None = None,
+    misfire: int | Literal["worst"] | Sequence[int] = (),
+    compressing: bool = False,
 ) -> TorsionAnalysis:
     """Return the torsional vibration of a crankshaft, or of any shafts: natural modes, critical
     speeds, and vibratory torque and stress over a range of speeds.
@@ -483,6 +507,10 @@ def torsion(
         damper_inertia: Inertia of the damper's ring, or of its pendulums about the axis, kg m2;
             default: the inertia in the file, or a usual share of the equivalent inertia of the
             damped mode at the node.
+        misfire: Number or numbers of the cylinders that do not fire, or "worst": every cylinder
+            does not fire in turn, and the results are those of the worst one.
+        compressing: Whether these cylinders compress and do not burn, which needs a computed cycle;
+            default: they have no gas force.
 
     Returns:
         `modes` (`frequency_Hz`, `shape`), `criticals` (`speed_rpm`, `order`, `mode`), `response`
@@ -509,16 +537,35 @@ def torsion(
     check_type("damper_at", damper_at, (str, NoneType), 'give the name of a part, such as "hub"')
     rpm = check_speeds("torsion", speeds)
     question = TorsionQuestion(rpm, (), DamperAsked(damper, damper_at, inertia))
-    return answer_question(_read_source(source, asked), question)
+    silent = ask_misfire(_take_cylinders(misfire), compressing)
+    return answer_question(_read_source(source, asked, silent), question)
 
 
-def _read_source(source: object, orders: Array | None) -> Source:
+def _take_cylinders(misfire: object) -> tuple[int | str, ...]:
+    """Return the argument `misfire` as a tuple."""
+    wanted = 'give the number of a cylinder, several numbers, or "worst"'
+    check_type("misfire", misfire, (int, str, Sequence), wanted)
+    if isinstance(misfire, str) and misfire != WORST:
+        raise ArgumentError("{misfire} {text!r}: {wanted}", text=misfire, wanted=wanted)
+    if isinstance(misfire, (int, str)):
+        return (misfire,)
+    numbers = []
+    for number in cast("Sequence[int]", misfire):
+        check_type("misfire", number, (int,), wanted)
+        numbers.append(number)
+    return tuple(numbers)
+
+
+def _read_source(source: object, orders: Array | None, misfire: MisfireAsked) -> Source:
     if isinstance(source, Engine):
-        return make_source(take_model(source), source, source.name, orders)
+        return make_source(take_model(source), source, source.name, orders, misfire=misfire)
     wanted = "give an Engine, or the path, text or dict of a chain of inertias and shafts"
     tables, name = take_tables("torsion", source, wanted)
     if describes_chain(tables):
+        if misfire != ALL_FIRE:
+            raise ArgumentError(CHAIN_HAS_NONE)
         name = name or "chain file"  # name, in messages, of a chain without a path
         return make_chain_source(read_chain_tables(tables, name), name, orders)
     engine = build_tables(tables, name)
-    return make_source(take_model(engine), engine, name or engine.name, orders)
+    own = name or engine.name
+    return make_source(take_model(engine), engine, own, orders, misfire=misfire)

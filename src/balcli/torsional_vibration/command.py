@@ -11,7 +11,7 @@ from ..errors import BalcliError, warn
 from ..file.toml import name_file
 from ..shell.file_names import engine_argument, picture_form, require_ending, text_format
 from ..shell.inputs import warn_each
-from ..shell.options import FormatOption, Misfire, Output, UnitsOption
+from ..shell.options import FormatOption, Output, UnitsOption
 from ..shell.output import refuse_leaving_files, refuse_overwriting, show, write_figure, write_file
 from ..shell.progress import reporting
 from ..shell.values import optional
@@ -43,7 +43,21 @@ def torsion(
         list[str] | None,
         optional("MODE|FREQUENCY", 'Holzer table of a mode, or at "20 rad/s"; may be repeated.'),
     ] = None,
-    misfire: Misfire = None,
+    misfire: Annotated[
+        list[str] | None,
+        optional(
+            "N|worst",
+            "Cylinder without gas pressure; repeat for more cylinders. worst: every cylinder in "
+            "turn, then the results of the worst one.",
+        ),
+    ] = None,
+    compressing: Annotated[
+        bool,
+        typer.Option(
+            "--compressing",
+            help="Cylinders of --misfire compress but do not burn (computed cycles only).",
+        ),
+    ] = False,
     damper: Annotated[
         Literal["viscous", "rubber", "pendulum"] | None,
         optional("KIND", "Size a viscous, rubber or pendulum damper for the least stress."),
@@ -80,7 +94,7 @@ def torsion(
     drawn = None if plot is None else picture_form(plot, "--plot")
     require_ending(write, ".toml", "--write")
     from ..file.doubt import Doubt
-    from . import answer, dampers, load, plot as picture, show as pages
+    from . import answer, dampers, load, misfire as silent, plot as picture, show as pages
 
     asked = answer.parse_question(speeds, holzer or (), damper, damper_at, damper_inertia, units)
     if write is not None and damper is None:
@@ -88,7 +102,8 @@ def torsion(
     if plot is None and what != "all":
         raise BalcliError(f"--what {what}: give --plot and a file for the picture")
     answer.require_speeds(asked, what)
-    source = load.load_source(path, answer.parse_half_orders(orders), misfire or ())
+    not_firing = silent.ask_misfire(misfire or (), compressing)
+    source = load.load_source(path, answer.parse_half_orders(orders), not_firing)
     warn_each(source.doubts, name_file(path))
     with reporting("work") as tell:
         result = answer.answer_question(source, asked, tell)

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from functools import partial
 from typing import NamedTuple
 
 from ..core.vibration import Real
-from ..engine.engine import Engine, refuse_geared
+from ..engine.engine import CylinderNumber, Engine, refuse_geared
 from ..engine.load import build_named
 from ..engine.parse import parse
 from ..errors import ArgumentError
@@ -19,8 +19,6 @@ from ..file.plain_tables import list_tables
 from ..file.toml import name_file, parse_toml, read_bytes
 from ..file.torsion_tables import Damper
 from ..file.units import ask_unit
-from ..forces.curves import silence
-from ..shell.values import parse_cylinder
 from .build import (
     build_chain,
     build_engine_system,
@@ -31,6 +29,7 @@ from .build import (
 )
 from .chain_file import ChainFile, describes_chain, read_chain_tables
 from .measured import MeasuredPoints, read_measured
+from .misfire import ALL_FIRE, CHAIN_HAS_NONE, MisfireAsked, stop_firing
 from .system import TorsionalSystem
 
 # kg mm2 or mm; smaller figures are unlikely: they belong to tiny parts, such as a steel disc of
@@ -52,6 +51,10 @@ class Source(NamedTuple):
         engine: Engine of the file; None: the file describes a chain.
         throws: Names of the nodes of the engine's throws.
         measured: Measured curve of the free end; None: the file names none.
+        misfire: Request for cylinders that do not fire; those with a number do not fire in
+            `system`.
+        without: Function that returns the source with one more cylinder that does not fire; None:
+            the file describes a chain.
     """
 
     text: bytes
@@ -61,6 +64,8 @@ class Source(NamedTuple):
     engine: Engine | None = None
     throws: tuple[str, ...] = ()
     measured: MeasuredPoints | None = None
+    misfire: MisfireAsked = ALL_FIRE
+    without: Callable[[CylinderNumber], Source] | None = None
 
 
 def make_chain_source(
@@ -81,13 +86,13 @@ def _doubt_units(model: ChainFile) -> Iterator[Doubt]:
             yield Doubt(path, f"{value:.4g} {units[key]}; {larger}")
 
 
-def load_source(path: str, orders: Real | None = None, misfires: Sequence[str] = ()) -> Source:
+def load_source(path: str, orders: Real | None = None, misfire: MisfireAsked = ALL_FIRE) -> Source:
     """Return the source for a file, or for standard input if the path is "-".
 
     Args:
         orders: Orders of the excitation to use, shape (orders,); None: all orders of a chain; for
             an engine, the default of `excite_engine`.
-        misfires: Numbers, as typed, of the cylinders that lose their gas force.
+        misfire: Request for cylinders that do not fire.
 
     Raises:
         BalcliError: The file cannot be read or has mistakes, a misfire is given for an engine
@@ -97,27 +102,50 @@ def load_source(path: str, orders: Real | None = None, misfires: Sequence[str] =
     text = read_bytes(path)
     data: Mapping[str, object] = parse_toml(text, name)
     if describes_chain(data):
-        if misfires:
-            raise ArgumentError("{misfire}: a chain has no cylinders")
+        if misfire != ALL_FIRE:
+            raise ArgumentError(CHAIN_HAS_NONE)
         return make_chain_source(read_chain_tables(data, name), name, orders, text)
     refuse_other_kind(data, name, ENGINE, CHAIN)
     model = parse(text, name)
     engine = build_named(model, name)
     refuse_geared(engine)
-    for number in misfires:
-        engine = silence(engine, parse_cylinder(number))
-    return make_source(model, engine, name, orders, text)
+    return make_source(model, engine, name, orders, text, misfire)
 
 
 def make_source(
-    model: EngineFile, engine: Engine, name: str, orders: Real | None = None, text: bytes = b""
+    model: EngineFile,
+    engine: Engine,
+    name: str,
+    orders: Real | None = None,
+    text: bytes = b"",
+    misfire: MisfireAsked = ALL_FIRE,
 ) -> Source:
     """Return the source for an engine and its file. The text is only needed to write a damper.
 
     Raises:
-        BalcliError: The file has no [torsion].
+        BalcliError: The file has no [torsion], or the engine has no such cylinder.
         InputError: The measured curve has mistakes.
     """
+    for number in misfire.cylinders:
+        engine = stop_firing(engine, number, misfire.compressing)
+    return _make_source(model, engine, name, orders, text, misfire)
+
+
+def _make_source(
+    model: EngineFile,
+    engine: Engine,
+    name: str,
+    orders: Real | None,
+    text: bytes,
+    misfire: MisfireAsked,
+) -> Source:
+    """Return the source for an engine in which the requested cylinders do not fire already."""
+
+    def without(number: CylinderNumber) -> Source:
+        """Return the source with one more cylinder that does not fire."""
+        silent = stop_firing(engine, number, misfire.compressing)
+        return _make_source(model, silent, name, orders, text, misfire)
+
     torsion = require_torsion(model, name)
     excitation = excite_engine(model, engine, orders)
     system = partial(build_engine_system, model, engine, excitation, name)
@@ -127,4 +155,14 @@ def make_source(
     throws = tuple(list_throws(engine))
     dampers |= {throw: next(iter(list_dampers(torsion, throw)), None) for throw in throws}
     measured = read_measured(model, engine, name)
-    return Source(text, engine.unlikely, system, dampers, engine, throws, measured)
+    return Source(
+        text=text,
+        doubts=engine.unlikely,
+        system=system,
+        dampers=dampers,
+        engine=engine,
+        throws=throws,
+        measured=measured,
+        misfire=misfire,
+        without=without,
+    )

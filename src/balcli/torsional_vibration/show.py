@@ -44,6 +44,7 @@ from .measured import MeasuredCurve, MeasuredRow
 from .response import Edge, TorsionResponse, WorstTorque
 from .system import TorsionalSystem
 from .verdicts import BarredRange, LimitVerdict
+from .worst_misfire import MisfireCase, WorstMisfire
 
 _MOST_MODES = 5  # largest number of shapes in a table; more do not fit into a terminal
 _MOST_CRITICALS = 24  # largest number of listed criticals
@@ -133,12 +134,22 @@ def _list_extras(document: Node) -> Iterator[Line]:
     if damper := document.get("damper"):
         figures = list_figures(damper, ("node", "kind"))
         yield from _put(Line("damper", name=damper["node"]), figures)
+    yield from _list_misfires(document.get("misfire", {}))
     yield from _list_response(document.get("response", {}))
     yield from _list_measured(document.get("measured", {}))
     yield from _list_limits(document.get("limits", ()))
     for k, ends in enumerate(document.get("barred_rpm", ()), 1):
         for key, end in zip(("from", "to"), ends, strict=True):
             yield Line("barred", k, figure=key, value=end, unit="rpm")
+
+
+def _list_misfires(misfire: Node) -> Iterator[Line]:
+    """Yield the lines of each misfire, and the line of the worst one."""
+    for case in misfire.get("cases", ()):
+        head = Line("misfire", case["cylinder"], case["speed_rpm"], name=case["shaft"])
+        yield from _put(head, list_figures(case, ("cylinder", "shaft", "speed_rpm")))
+    if misfire:
+        yield Line("misfire", misfire["worst"], figure="worst", value=True)
 
 
 def _list_limits(limits: Iterable[Node]) -> Iterator[Line]:
@@ -220,6 +231,8 @@ def sheet(result: TorsionAnalysis, system: System) -> Sheet:
     parts += assumed_facts(result.assumed)
     if hasattr(result, "damper"):
         parts.append(_show_damper(result.damper, system))
+    if hasattr(result, "misfire"):
+        parts.append(_show_misfires(result.misfire, system))
     parts += [_show_modes(result), _show_shapes(result, system)]
     if result.modes and hasattr(result, "criticals"):
         parts.append(_show_criticals(result))
@@ -285,6 +298,43 @@ def _tell_largest(size: float, unit: ShownUnit) -> str:
     if not math.isfinite(size):
         return "without bound"
     return f"±{number(unit.of(size))} {unit.name}"
+
+
+def _show_misfires(misfire: WorstMisfire, system: System) -> Grid:
+    """Return the largest load of a shaft with each misfire."""
+    torque = system.moment.fit(max(case.torque_Nm or 0.0 for case in misfire.cases))
+    stress = system.stress.fit(0.0)
+    first = misfire.cases[0]
+    if first.share is not None:
+        figure = "share"
+    elif first.stress_Pa is not None:
+        figure = stress.name
+    else:
+        figure = f"± {torque.name}"
+    heads = [
+        Column("cylinder"),
+        Column(figure),
+        Column("shaft", words=True),
+        Column("at rpm"),
+    ]
+    rows = []
+    for case in misfire.cases:
+        row = (str(case.cylinder), _size_case(case, stress, torque), case.shaft)
+        rows.append((*row, number(case.speed_rpm)))
+    note = (
+        f"Worst: cylinder {misfire.worst}. The results below are those without firing in this "
+        "cylinder."
+    )
+    return Grid.of_rows("Largest value of any shaft, one cylinder not firing", heads, rows, note)
+
+
+def _size_case(case: MisfireCase, stress: ShownUnit, torque: ShownUnit) -> str:
+    """Return the largest load with a misfire, without its unit."""
+    if case.share is not None:
+        return f"{case.share:.0%}"
+    if case.stress_Pa is not None:
+        return number(stress.of(case.stress_Pa))
+    return number(torque.of(case.torque_Nm or 0.0))
 
 
 def _show_modes(result: TorsionAnalysis) -> Grid | Text:

@@ -1,0 +1,102 @@
+"""Silence cylinders of an engine: without gas, or compressing without burning."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from ..engine.build import build
+from ..engine.engine import CylinderNumber, Engine, take_model
+from ..errors import ArgumentError
+from ..file.gas_tables import COMPRESSOR
+from ..file.model import EngineFile, Override
+from ..forces.curves import silence
+from ..shell.values import parse_cylinder
+
+WORST = "worst"  # instead of a cylinder number: every cylinder in turn
+CHAIN_HAS_NONE = "{misfire}: a chain has no cylinders"
+
+
+class MisfireAsked(NamedTuple):
+    """Request for cylinders that do not fire.
+
+    Attributes:
+        cylinders: Their numbers.
+        worst: Whether each cylinder misfires in turn, and the worst one is kept.
+        compressing: Whether they compress without burning; if not, they have no gas force.
+    """
+
+    cylinders: tuple[CylinderNumber, ...] = ()
+    worst: bool = False
+    compressing: bool = False
+
+
+ALL_FIRE = MisfireAsked()
+
+
+def ask_misfire(misfires: Sequence[str | int], compressing: bool) -> MisfireAsked:
+    """Return the request that these arguments make.
+
+    Args:
+        misfires: Numbers of cylinders, as typed, or the single word "worst".
+        compressing: Whether these cylinders still compress.
+
+    Raises:
+        BalcliError: "worst" stands beside a number, or `compressing` without a cylinder.
+    """
+    if compressing and not misfires:
+        raise ArgumentError("{compressing}: no cylinder is named; give {misfire} too")
+    if WORST not in misfires:
+        numbers = tuple(parse_cylinder(str(number)) for number in misfires)
+        return MisfireAsked(numbers, compressing=compressing)
+    if len(misfires) > 1:
+        others = ", ".join(str(number) for number in misfires if number != WORST) or WORST
+        raise ArgumentError(
+            "{misfire} worst runs every cylinder by itself; leave out {misfire} {others}",
+            others=others,
+        )
+    return MisfireAsked(worst=True, compressing=compressing)
+
+
+def stop_firing(engine: Engine, number: CylinderNumber, compressing: bool) -> Engine:
+    """Return the engine with a cylinder that does not fire.
+
+    Args:
+        engine: Engine with gas.
+        number: Number of the cylinder.
+        compressing: Whether the cylinder compresses and expands its charge, as with `heat = 0` in
+            its table; this needs a computed cycle.
+
+    Raises:
+        BalcliError: The engine has no gas, no such cylinder, or no computed cycle for one that
+            compresses.
+    """
+    silent = silence(engine, number)  # also refuses engines without gas and unknown cylinders
+    if not compressing:
+        return silent
+    model = take_model(engine)
+    if not computes_cycle(model, number):
+        raise ArgumentError(
+            "{compressing}: cylinder {number} has no computed cycle, so its compression is not "
+            "known; give gas.cycle, or leave {compressing} out",
+            number=number,
+        )
+    table = model.cylinder.get(int(number), Override.model_construct())
+    without_heat = table.model_copy(update={"heat": 0.0})
+    cylinders = {**model.cylinder, int(number): without_heat}
+    return build(model.model_copy(update={"cylinder": cylinders}))
+
+
+def computes_cycle(model: EngineFile, number: CylinderNumber) -> bool:
+    """Return whether the gas of a cylinder follows from a computed cycle with combustion."""
+    gas = model.gas
+    if gas is None or gas.cycle in (None, COMPRESSOR):
+        return False
+    own = model.cylinder.get(int(number))
+    return own is None or own.indicator is None
+
+
+def list_firing(engine: Engine) -> tuple[CylinderNumber, ...]:
+    """Return the numbers of the cylinders that may misfire, rising: all but dummies."""
+    fires = engine.fires_deg or {*engine.numbers}
+    return tuple(number for number in engine.rising_numbers if number in fires)

@@ -1,0 +1,134 @@
+"""Cylinders that do not fire: the worst of them, with or without compression."""
+
+import pytest
+from support.commands import ask_torsion, refusal, run_here
+from support.engines import build_text
+
+from balcli import torsion
+from balcli.errors import BalcliError
+from balcli.torsional_vibration.worst_misfire import MisfireCase, choose_worst
+
+FLYWHEEL = '[[torsion.rear]]\nname = "flywheel"\ninertia = 2e5\nstiffness = 4e5\n'
+ENGINE = """
+[crank]
+stroke = 90
+throws = [0, 240, 120]
+spacing = 98
+[rod]
+length = 150
+mass = 0.7
+cg = 45
+[piston]
+bore = 86
+mass = 0.5
+[layout]
+firing_order = [1, 3, 2]
+[operation]
+speed = 3000
+[gas]
+cycle = "wiebe"
+compression_ratio = 10
+heat = 1300
+[torsion]
+throw_stiffness = 3.4e5
+throw_inertia = 6200
+loss = 0.03
+damping = 0.8
+"""
+TRIPLE = ENGINE + FLYWHEEL
+STRESSED = TRIPLE + "diameter = 60\n"
+LIMITED = STRESSED + "limit = 12\n"
+SPEEDS = ("--speeds", "2000:2400:200", "--orders", "0.5-6")
+
+
+@pytest.mark.parametrize(("text", "figure"), [(LIMITED, "share"), (STRESSED, "stress_Pa"), (TRIPLE, "torque_Nm")])
+def test_the_worst_misfire_is_that_of_a_run_by_itself(text, figure):
+    worst = ask_torsion(text, *SPEEDS, "--misfire", "worst")
+    cases = worst.pop("misfire")
+    sizes = {case["cylinder"]: case[figure] for case in cases["cases"]}
+    assert list(sizes) == [1, 2, 3]
+    assert cases["worst"] == max(sizes, key=sizes.get)
+    for case in cases["cases"]:
+        assert set(case) == {"cylinder", figure, "shaft", "speed_rpm"}
+        alone = ask_torsion(text, *SPEEDS, "--misfire", str(case["cylinder"]))
+        (largest,) = [s["worst"] for s in alone["response"]["shafts"] if s["name"] == case["shaft"]]
+        if figure == "share":
+            largest = max(alone["limits"], key=lambda limit: limit.get("share", 0))
+        key = {"torque_Nm": "half_peak_to_peak_Nm"}.get(figure, figure)
+        assert case[figure] == pytest.approx(largest[key], rel=1e-9)
+        assert case["speed_rpm"] == pytest.approx(largest["speed_rpm"], rel=1e-6)
+        if case["cylinder"] == cases["worst"]:
+            assert alone == worst
+
+
+@pytest.mark.parametrize(("second", "worst"), [(1 + 1e-12, 1), (1 + 1e-7, 2), (0.9, 1)])
+def test_of_equals_the_first_is_the_worst(second, worst):
+    cases = [
+        MisfireCase(cylinder=number, share=share, shaft="hub", speed_rpm=900)
+        for number, share in ((1, 1.0), (2, second))
+    ]
+    assert choose_worst(cases) == worst
+
+
+def test_a_compressing_cylinder_has_no_heat():
+    by_option = ask_torsion(LIMITED, *SPEEDS, "--misfire", "2", "--compressing")
+    by_file = ask_torsion(LIMITED + "[cylinder.2]\nheat = 0\n", *SPEEDS)
+    assert by_option == by_file
+    assert by_option["no_burning_in"] == [2]
+    assert ask_torsion(LIMITED, *SPEEDS, "--misfire", "2")["no_gas_in"] == [2]
+
+
+def test_the_worst_misfire_may_compress():
+    answer = ask_torsion(LIMITED, *SPEEDS, "--misfire", "worst", "--compressing")
+    assert answer["no_burning_in"] == [answer["misfire"]["worst"]]
+    assert "no_gas_in" not in answer
+
+
+def test_the_table_and_csv_name_every_cylinder():
+    told = run_here("torsion", "-", *SPEEDS, "--misfire", "worst", stdin=LIMITED).out
+    assert "Largest value of any shaft, one cylinder not firing" in told
+    assert "Worst: cylinder" in told
+    lines = run_here("torsion", "-", *SPEEDS, "--misfire", "worst", "-f", "csv", stdin=LIMITED).out
+    assert sum(line.startswith("misfire,") for line in lines.splitlines()) == 4
+
+
+@pytest.mark.parametrize(
+    ("options", "told"),
+    [
+        (
+            ["--misfire", "worst", "--misfire", "2"],
+            "--misfire worst runs every cylinder by itself; leave out --misfire 2",
+        ),
+        (["--compressing"], "--compressing: no cylinder is named; give --misfire too"),
+        (["--misfire", "worst", "--damper", "viscous"], "--damper: size it for one cylinder that does not fire"),
+        (["--misfire", "4"], "there is no cylinder 4"),
+    ],
+)
+def test_contradictory_options(options, told):
+    assert told in refusal("torsion", "-", *SPEEDS, *options, stdin=LIMITED)
+
+
+def test_the_worst_misfire_needs_speeds_gas_and_a_cycle():
+    assert "give the speeds over which to compare, with --speeds" in refusal(
+        "torsion", "-", "--misfire", "worst", stdin=LIMITED
+    )
+    gas = LIMITED[LIMITED.index("[gas]") : LIMITED.index("[torsion]")]
+    for options in (["worst"], ["2"]):
+        assert "[gas]" in refusal("torsion", "-", *SPEEDS, "--misfire", *options, stdin=LIMITED.replace(gas, ""))
+    chain = '[[node]]\nname = "a"\ninertia = 1e6\n[[node]]\nname = "b"\ninertia = 1e6\n[[shaft]]\nfrom = "a"\nto = "b"\nstiffness = 1e5\n'
+    assert "--misfire: a chain has no cylinders" in refusal("torsion", "-", "--misfire", "worst", stdin=chain)
+
+
+def test_python_takes_numbers_and_worst():
+    engine = build_text(LIMITED)
+    rpm = [2000, 2200, 2400]
+    orders = [0.5 * k for k in range(1, 13)]
+    worst = torsion(engine, rpm, orders=orders, misfire="worst")
+    alone = torsion(engine, rpm, orders=orders, misfire=worst.misfire.worst)
+    assert worst.limits == alone.limits
+    assert torsion(engine, misfire=[1, 2], orders=orders).no_gas_in == (1, 2)
+    assert torsion(engine, misfire=(1,), compressing=True, orders=orders).no_burning_in == (1,)
+    with pytest.raises(BalcliError, match="misfire 'all'"):
+        torsion(engine, misfire="all")
+    with pytest.raises(TypeError, match="misfire"):
+        torsion(engine, misfire=[1.5])
