@@ -4,10 +4,11 @@ import json
 import math
 
 import pytest
-from balcli import load, plot, torsion
 from support.commands import ask, ask_csv, ask_json, refusal
 from support.diesel import write_diesel
 from support.paths import write
+
+from balcli import load, plot, torsion
 
 GAS = '[gas]\ncycle = "wiebe"\ncompression_ratio = 16\nimep = 15\n'
 POINTS = [(1200, 6), (1200, 4.5), (1850, 6), (1700, 6), (1850, 3)]
