@@ -112,6 +112,38 @@ def test_devices_deviate_in_unbalance_and_angle(table, angle, weight, size, name
         assert spread.sensitivity[f"{part} 1"] == pytest.approx((ends[0] - ends[1]) / 2, rel=1e-7)
 
 
+WEBBED = (
+    "[crank]\nstroke = 80\nthrows = [0, 140]\nspacing = 95\n[rod]\nlength = 141\nmass = 0.5\ncg = 38\n"
+    "[piston]\nbore = 82\nmass = 0.4\n[operation]\nspeed = 6100\n[bearing]\npin_diameter = 44\npin_length = 26\n"
+    "[[web]]\nwebs = [1, 3]\nthickness = 20\nmass = 1.5\ncg = [-13, 0.5]\n"
+    "[[web]]\nwebs = [2]\nthickness = 17\nhub = 60\nboss = 52\n[[web]]\n"
+)
+DIMENSIONS = {"thickness": 19, "outer_radius": 71, "opening": 105, "density": 7.8}
+MIDDLE = "hub = 60\nboss = 52\nangle = 186\nholes = [{ x = -55, diameter = 14, density = 17 }]\n"
+TOLERANCE = {"thickness": 0.2, "outer_radius": 0.3, "opening": 0.6, "density": 0.01}
+
+
+def write_web(dimensions, tolerance=""):
+    lines = [f"{key} = {value!r}\n" for key, value in dimensions.items()]
+    return WEBBED + "".join(lines) + MIDDLE + tolerance
+
+
+@pytest.mark.parametrize("key", DIMENSIONS)
+def test_each_dimension_of_a_web_deviates_by_itself(key):
+    """As in files with other dimensions, at both ends: the thickness also moves the web. Weighed webs, and those
+    without tolerances, are exact; and the change is another for each quantity.
+    """
+    written = ", ".join(f"{name} = {size}" for name, size in TOLERANCE.items())
+    spreads = scatter(write_web(DIMENSIONS, f"tolerance = {{ {written} }}\n"), FORCES, Tolerances())
+    size = TOLERANCE[key] * (DIMENSIONS[key] if key == "density" else 1)
+    moved = [DIMENSIONS | {key: DIMENSIONS[key] + side * size} for side in (1, -1)]
+    for spread, name in zip(spreads, FORCES.split(","), strict=True):
+        ends = [evaluate(write_web(dimensions), name) for dimensions in moved]
+        found = spread.sensitivity[f"web 4 {key.replace('_', ' ')}"]
+        assert found == pytest.approx((ends[0] - ends[1]) / 2, rel=1e-6, abs=1e-9)
+    assert [part for part in spreads[0].sensitivity if part.startswith("web") and " 4 " not in part] == []
+
+
 def test_figures_of_a_calculation_by_hand():
     text = (
         "[crank]\nstroke = 84\nthrow_mass = 0.9\n[rod]\nlength = 150\nmass = 0.42\ncg = 42\ninertia = 1700\n"

@@ -214,7 +214,7 @@ def find_webs(parts: Parts) -> Webs | None:
         number = next(cell.number for cell in parts.plan.cells if cell.throw == throw)
         pin_deg = parts.pins.axes_deg[1] + parts.pins.leads_deg[number]
         throws.append(BareThrow(float(stroke) / 2, parts.places.pins[throw], pin_deg))
-    return build_webs(parts.model, throws)
+    return build_webs(parts.model, throws, parts.figures)
 
 
 def weigh_cylinders(parts: Parts) -> dict[int, CylinderMasses]:

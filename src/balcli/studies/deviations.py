@@ -57,20 +57,22 @@ class Source(NamedTuple):
     Attributes:
         kind: What deviates, such as `piston mass` or `stiffness`.
         part: Number or name of the part, such as `3` or `left`.
-        tolerance: Largest deviation, relative or in degrees.
+        tolerance: Largest deviation, in `unit`.
         figures: Figures of the file that vary with the deviation, by dotted name.
-        relative: True for a relative deviation, False for a deviation in degrees.
+        unit: Unit of the deviation, such as deg; empty for a relative deviation.
         group: Word before the number, if other parts of this kind have other words: `throw`.
         engine: Name of the engine, if the file has several.
+        aspect: Word behind the number, such as the dimension that deviates: `thickness`.
     """
 
     kind: str
     part: str
     tolerance: float
     figures: Mapping[str, Line]
-    relative: bool = True
+    unit: str = ""
     group: str = ""
     engine: str = ""
+    aspect: str = ""
 
     @property
     def stem(self) -> str:
@@ -79,8 +81,15 @@ class Source(NamedTuple):
 
     @property
     def name(self) -> str:
-        """Name in tables, such as `piston mass 3`, `stiffness left` or `stiffness throw 1-2`."""
-        return f"{self.stem} {self.part}"
+        """Name in tables, such as `piston mass 3`, `stiffness left`, `stiffness throw 1-2` or `web
+        3 thickness`.
+        """
+        return " ".join(filter(None, (self.stem, self.part, self.aspect)))
+
+    @property
+    def is_relative(self) -> bool:
+        """Whether the deviation is a share of the figure."""
+        return not self.unit
 
 
 def _relative(
@@ -113,7 +122,8 @@ def find_sources(
         deviating = _list_shafting(model, within)
     else:
         model = _spell_out_throws(model, angles=bool(within.angle_deg))
-        deviating = chain(_list_parts(model, within), _list_devices(model, within))
+        of_devices = _list_devices(model, within)
+        deviating = chain(_list_parts(model, within), of_devices, _list_webs(model))
     return model, _drop_exact(deviating)
 
 
@@ -172,7 +182,7 @@ def _list_parts(model: EngineFile, within: Tolerances) -> Iterator[Source]:
                 lines[f"cylinder.{n}.throw"] = Line(float(pin), 1.0)
         if 1 in numbers:
             lines |= _hold_devices(model)
-        yield Source("throw angle", str(k + 1), within.angle_deg, lines, relative=False)
+        yield Source("throw angle", str(k + 1), within.angle_deg, lines, "deg")
 
 
 def _list_masses(model: EngineFile, parts: Parts, mass: float) -> Iterator[Source]:
@@ -224,7 +234,7 @@ def _list_devices(model: EngineFile, within: Tolerances) -> Iterator[Source]:
                 yield _relative(kind, number, within.mass, figures)
                 lines = {f"{path}.angle": Line(table.angle, 1.0)}
                 angle = f"{kind} angle"
-                yield Source(angle, str(number), within.angle_deg, lines, relative=False)
+                yield Source(angle, str(number), within.angle_deg, lines, "deg")
 
 
 def _find_weight(table: Counterweight | Shaft | Slider) -> dict[str, float]:
@@ -252,6 +262,31 @@ def _hold_devices(model: EngineFile) -> dict[str, Line]:
             turns = getattr(table, "ratio", getattr(table, "order", 1))
             lines[f"{path}.angle"] = Line(table.angle, -float(turns))
     return lines
+
+
+# ------------------------------------------------------------------ webs
+_WEB_UNITS = {"thickness": "mm", "outer_radius": "mm", "opening": "deg", "density": ""}
+
+
+def _list_webs(model: EngineFile) -> Iterator[Source]:
+    """Yield the dimensions of each web that has tolerances; every web deviates by itself."""
+    if not any(table.tolerance for table in model.web):
+        return
+    from ..engine.webs.dimensions import WebModel  # loaded only for files with [[web]]
+
+    webs = build(model).webs
+    for web in () if webs is None else webs.webs:
+        table = model.web[web.table - 1]
+        if table.tolerance is None or web.body.shape is None:
+            continue
+        for key in WebModel.of(table, web.body.shape).deviating:
+            value = float(getattr(table, key))
+            slope = 1.0 if _WEB_UNITS[key] else value
+            lines = {f"webs.{web.number}.{key}": Line(value, slope)}
+            tolerance = getattr(table.tolerance, key)
+            aspect = key.replace("_", " ")
+            unit = _WEB_UNITS[key]
+            yield Source("web", str(web.number), tolerance, lines, unit, aspect=aspect)
 
 
 # ------------------------------------------------------------------ mounts, shafts and inertias

@@ -288,7 +288,7 @@ class Variants:
         """Yield random deviations, shape (samples at a time, sources)."""
         random = np.random.default_rng(seed)
         tolerances = np.array([source.tolerance for source in self.sources])
-        least = [_LEAST if source.relative else -np.inf for source in self.sources]
+        least = [_LEAST if source.is_relative else -np.inf for source in self.sources]
         at_once = 1 if self._slow else min(CHUNK, max(AT_ONCE // len(tolerances), 1))
         for start in range(0, samples, at_once):
             size = min(at_once, samples - start), len(tolerances)
@@ -338,8 +338,9 @@ def scatter(
     seed: int | None = None,
     distribution: Literal["uniform", "normal"] = "uniform",
 ) -> Scatter:
-    """Return the spread of free forces and moments when masses, rod lengths and throw angles vary,
-    and the tolerances that matter most. For quantities of mounts, the stiffness of each mount
+    """Return the spread of free forces and moments when masses, rod lengths, throw angles and the
+    dimensions of webs with tolerances vary, and the tolerances that matter most. For quantities of
+    mounts, the stiffness of each mount
     varies; for torsion, the stiffness of each shaft, the inertias and the piston masses vary.
 
     Args:

@@ -83,8 +83,10 @@ def _list_tolerances(result: Scatter) -> str:
     """Return a sentence on the tolerances of all kinds of parts and their distribution."""
     kinds: dict[str, dict[str, None]] = {}
     for part in result.parts:
-        size = f"{100 * part.tolerance:g} %" if part.relative else f"{part.tolerance:g} deg"
-        kinds.setdefault(size, {})[part.kind] = None
+        size = f"{part.tolerance:g} {part.unit}"
+        if part.is_relative:
+            size = f"{100 * part.tolerance:g} %"
+        kinds.setdefault(size, {})[f"{part.kind} {part.aspect}".rstrip()] = None
     message = "; ".join(f"{', '.join(names)} ±{size}" for size, names in kinds.items())
     return f"Tolerances: {message}; {_SHAPES[result.distribution]}"
 
@@ -99,13 +101,16 @@ def _group_parts(
         sources: The parts by name.
         unit: Size of the unit of the changes.
     """
-    groups: dict[tuple[str, str], list[str]] = {}
+    groups: dict[tuple[str, str, str], list[str]] = {}
     for name, change in changes.items():
         if change:
             source = sources[name]
-            group = groups.setdefault((number(change / unit, 3), source.stem), [])
-            group.append(source.part)
-    return [(change, f"{stem} {', '.join(parts)}") for (change, stem), parts in groups.items()]
+            key = number(change / unit, 3), source.stem, source.aspect
+            groups.setdefault(key, []).append(source.part)
+    causes = []
+    for (size, stem, aspect), parts in groups.items():
+        causes.append((size, f"{stem} {', '.join(parts)} {aspect}".rstrip()))
+    return causes
 
 
 RENDERER = Renderer(sheet=sheet, rows=rows)
@@ -139,8 +144,8 @@ def scatter(
     form: FormatOption = None,
     output: Output = None,
 ) -> None:
-    """Spread of free forces and moments when masses, rod lengths or throw angles vary, and the
-    tolerances that matter most.
+    """Spread of free forces and moments when masses, rod lengths, throw angles or dimensions of
+    webs (web.tolerance) vary, and the tolerances that matter most.
 
     \b
     Example:

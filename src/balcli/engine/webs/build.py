@@ -11,11 +11,13 @@ from ...errors import BalcliError, InputError, Message, Problem
 from ...file.csv_columns import locate_beside
 from ...file.model import EngineFile
 from .bodies import MM, Pin, WebBody, describe_web, weigh_pin
+from .dimensions import vary_body
 from .dxf import Drawing, read_drawing
 
 if TYPE_CHECKING:
     from ...file.gas_tables import Bearing
     from ...file.web_tables import Web
+    from ..figures import FileFigures
 
 WEBS_ON_THROW = 2
 
@@ -135,12 +137,14 @@ class BareThrow(NamedTuple):
     pin_deg: Figure
 
 
-def build_webs(model: EngineFile, throws: Sequence[BareThrow]) -> Webs:
+def build_webs(model: EngineFile, throws: Sequence[BareThrow], figures: FileFigures) -> Webs:
     """Return the webs and pins of a file with [[web]] tables.
 
     Args:
         model: Engine file.
         throws: Throws of its crank, from the free end.
+        figures: Figures of the file; a dimension of a single web may vary, such as
+            `webs.3.thickness` of web 3.
 
     Raises:
         InputError: A table has "fit", or the dimensions make no web.
@@ -161,6 +165,8 @@ def build_webs(model: EngineFile, throws: Sequence[BareThrow]) -> Webs:
                 _refuse_fit(table, number)
                 bodies[key] = describe_web(table, f"web.{number}", throw_mm, drawings[number])
             body = bodies[key]
+            if varied := figures.of_table(f"webs.{web}"):
+                body = vary_body(body, model.web[number - 1], varied)
             apart = (MM * bearing.length + body.thickness) / 2
             place = z - apart if side == 0 else z + apart
             webs.append(CrankWeb(web, number, throw, place, pin_deg, body))

@@ -7,9 +7,9 @@ import math
 from itertools import product
 from typing import NamedTuple
 
-from ...core.outline import find_direction, find_moments
-from ...file.web_tables import Web
+from ...file.web_tables import Web, WebTolerance
 from .bodies import MM, WebShape
+from .dimensions import Dimensions, WebModel
 
 
 class Deviation(NamedTuple):
@@ -21,36 +21,6 @@ class Deviation(NamedTuple):
     rss: float
 
 
-class _Model(NamedTuple):
-    """The unbalance of a web as a function of its dimensions, by closed forms.
-
-    Attributes:
-        plate: First moment of the outline without counterweight and with all holes open, m3.
-        slugs: Mass per thickness of the slugs times their places, kg.
-        hub: Inner radius of the counterweight, m.
-        direction: Direction of its middle.
-    """
-
-    plate: complex
-    slugs: complex
-    hub: float
-    direction: complex
-
-    def find_unbalance(
-        self, thickness: float, radius: float, opening: float, density: float
-    ) -> complex:
-        """Return the unbalance, kg m.
-
-        Args:
-            thickness: Thickness, m.
-            radius: Outer radius of the counterweight, m.
-            opening: Opening of the counterweight, rad.
-            density: Density, kg/m3.
-        """
-        sector = 2 / 3 * (radius**3 - self.hub**3) * math.sin(opening / 2) * self.direction
-        return thickness * (density * (self.plate + sector) + self.slugs)
-
-
 def find_deviation(table: Web, shape: WebShape | None) -> Deviation | None:
     """Return the deviation of a web's unbalance; None without tolerances, or for a web given by its
     mass.
@@ -59,55 +29,47 @@ def find_deviation(table: Web, shape: WebShape | None) -> Deviation | None:
         table: Table of the web.
         shape: Its outline.
     """
-    tolerance = table.tolerance
-    if tolerance is None or shape is None:
+    if table.tolerance is None or shape is None:
         return None
-    model = _build_model(shape)
-    sector = shape.sector
-    density = 1e3 * table.density
-    dimensions = [MM * table.thickness, model.hub, 0.0, density]
-    if sector is not None:
-        dimensions[1] = sector.radius
-        dimensions[2] = math.radians(sector.opening)
-    deviations = [
-        MM * tolerance.thickness,
-        MM * tolerance.outer_radius if sector is not None else 0.0,
-        math.radians(tolerance.opening) if sector is not None else 0.0,
-        density * tolerance.density,
-    ]
-    nominal = model.find_unbalance(*dimensions)
+    model = WebModel.of(table, shape)
+    deviations = _list_deviations(table.tolerance, model)
+    nominal = complex(model.weigh(model.nominal).unbalance)
     sides = [(-1.0, 1.0) if deviation else (0.0,) for deviation in deviations]
     worst = 0.0
     for corner in product(*sides):
-        moved = [d + side * t for d, side, t in zip(dimensions, corner, deviations, strict=True)]
-        worst = max(worst, abs(model.find_unbalance(*moved) - nominal))
-    slopes = _find_slopes(model, *dimensions)
+        moved = []
+        for dimension, side, deviation in zip(model.nominal, corner, deviations, strict=True):
+            moved.append(dimension + side * deviation)
+        unbalance = complex(model.weigh(Dimensions(*moved)).unbalance)
+        worst = max(worst, abs(unbalance - nominal))
+    slopes = _find_slopes(model)
     changes = [abs(slope) * t for slope, t in zip(slopes, deviations, strict=True)]
     return Deviation(worst, math.hypot(*changes))
 
 
-def _build_model(shape: WebShape) -> _Model:
-    outline = shape.outline if shape.cheek is None else shape.cheek.draw()
-    plate = find_moments(outline, shape.holes).first
-    slugs = 0j
-    for hole, density in zip(shape.holes, shape.hole_densities, strict=True):
-        slugs += density * hole.moments.first
-    hub = 0.0 if shape.cheek is None else shape.cheek.hub
-    angle = 0.0 if shape.sector is None else shape.sector.angle
-    return _Model(plate, slugs, hub, find_direction(angle))
+def _list_deviations(tolerance: WebTolerance, model: WebModel) -> tuple[float, ...]:
+    """Return the largest deviation of each of the `Dimensions`, SI units."""
+    sizes = {
+        "thickness": MM * tolerance.thickness,
+        "outer_radius": MM * tolerance.outer_radius,
+        "opening": math.radians(tolerance.opening),
+        "density": float(model.nominal.density) * tolerance.density,
+    }
+    return tuple(size if key in model.deviating else 0.0 for key, size in sizes.items())
 
 
-def _find_slopes(
-    model: _Model, thickness: float, radius: float, opening: float, density: float
-) -> tuple[complex, ...]:
+def _find_slopes(model: WebModel) -> tuple[complex, ...]:
     """Return the derivatives of the unbalance by thickness, radius, opening and density."""
+    thickness, radius, opening, density = map(float, model.nominal)
     weight = thickness * density * model.direction
     cube = radius**3 - model.hub**3
+    of_unit_thickness = model.weigh(model.nominal._replace(thickness=1.0)).unbalance
+    of_unit_density = model.weigh(model.nominal._replace(density=1.0)).unbalance
     return (
-        model.find_unbalance(1.0, radius, opening, density),
+        complex(of_unit_thickness),
         2 * weight * radius**2 * math.sin(opening / 2),
         weight / 3 * cube * math.cos(opening / 2),
-        model.find_unbalance(thickness, radius, opening, 1.0) - thickness * model.slugs,
+        complex(of_unit_density) - thickness * model.slugs.first,
     )
 
 
