@@ -37,7 +37,8 @@ from support.paths import ENGINES
 
 import balcli
 from balcli.torsional_vibration.chain import Chain, Damping
-from balcli.torsional_vibration.modes import find_chain_modes, find_chain_poles, find_poles
+from balcli.torsional_vibration.modes import find_chain_modes
+from balcli.torsional_vibration.poles import find_chain_poles, find_poles
 
 opentorsion = pytest.importorskip("opentorsion")
 

@@ -7,7 +7,8 @@ from support.chains import KINDS, chain_matrices, chain_of, exact_frequencies, r
 import balcli
 from balcli.core.vibration import modal_loss, scale_shapes
 from balcli.torsional_vibration.chain import ChainShaft, Damping, follow_gears, incidence, join_chain, rigid_motions
-from balcli.torsional_vibration.modes import chain_loss, find_chain_modes, find_chain_poles, locate_nodes
+from balcli.torsional_vibration.modes import chain_loss, find_chain_modes, locate_nodes
+from balcli.torsional_vibration.poles import find_chain_poles
 
 MODES = 1e-13  # relative error of every frequency; the contract says 1e-12
 OF_LARGEST = 1e-15  # error of a low frequency in parts of the highest

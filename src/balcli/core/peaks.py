@@ -249,23 +249,37 @@ def _find_tops(
     swing = high - (0 if squared else samples.min(axis=1))
     least = high - (1 - np.cos(np.pi / _SAMPLES) ** 2) * swing
     curve, at = np.divmod(np.flatnonzero(samples >= least[:, None]), count)
-    here = samples[curve, at]
-    peaked = (here > samples[curve, at - 1]) & (here >= samples[curve, (at + 1) % count])
-    peaked |= at == highest_at[curve]
+    before, here, after = (samples[curve, (at + k) % count] for k in (-1, 0, 1))
+    peaked = ((here > before) & (here >= after)) | (at == highest_at[curve])
     curve = curve[peaked]
     at = at[peaked]
+    vertex = _find_vertex(before[peaked], here[peaked], after[peaked])
     most = max(_AT_ONCE // parts[0].size, 1)  # maxima that are refined at once
-    climbed = [
-        _climb(harmonics, parts[curve[k : k + most]], squared, at[k : k + most], count)
-        for k in range(0, len(curve), most)
-    ]
+    climbed = []
+    for start in range(0, len(curve), most):
+        some = slice(start, start + most)
+        tops = _climb(harmonics, parts[curve[some]], squared, at[some], vertex[some], count)
+        climbed.append(tops)
     value, angle = np.concatenate(climbed, axis=1)
     angle = angle % _TURN
     return curve, value, np.where(angle > _TURN - _ZERO, 0.0, angle), samples[:, 0]
 
 
+def _find_vertex(before: Real, here: Real, after: Real) -> Real:
+    """Return the place of the vertex of the parabola through three values, relative to the middle
+    one, in steps; 0 if there is no maximum.
+    """
+    bend = before - 2 * here + after
+    return (before - after) / (2 * np.where(bend < 0, bend, -np.inf))
+
+
 def _climb(
-    harmonics: NDArray[np.int64], parts: Complex, squared: bool, at: Indices, count: int
+    harmonics: NDArray[np.int64],
+    parts: Complex,
+    squared: bool,
+    at: Indices,
+    vertex: Real,
+    count: int,
 ) -> tuple[Real, Real]:
     """Return values and angles of the maxima next to samples, by Newton's method on the Taylor
     series of the curves about these samples.
@@ -275,6 +289,7 @@ def _climb(
         parts: As in `_find_tops`, with a row for each maximum.
         squared: As in `_find_tops`.
         at: Index of the sample next to each maximum, no lower than its neighbours.
+        vertex: About where the maximum is from this sample, as a share of a step.
         count: Number of samples in a turn.
     """
     highest = max(int(harmonics.max(initial=1)), 1)
@@ -284,7 +299,7 @@ def _climb(
     derivatives = (pairs @ _differentiate(harmonics / highest)).reshape(*parts.shape[:2], -1)
     step = highest * _TURN / count
     value = np.empty(len(at))
-    away = np.zeros(len(at))  # from the sample, as phase of the highest harmonic
+    away = vertex * step  # from the sample, as phase of the highest harmonic
     moving = np.arange(len(at))
     series = sliding_window_view(derivatives, _TERMS, axis=-1)  # of x, slope and bend
     factorials = np.cumprod(np.maximum(np.arange(_TERMS), 1.0))
@@ -403,11 +418,8 @@ def find_peaks_between(
         low = place - step
         high = place + step
         around = around[:, may]
-    before, middle, after = around
-    bend = before - 2 * middle + after
-    beside = (before - after) / (2 * np.where(bend < 0, bend, -np.inf))
-    vertex = place + step * (np.clip(top, 1, _PARTS - 3) - top + beside)
-    vertex = np.clip(vertex, low, high)
+    middle = np.clip(top, 1, _PARTS - 3)
+    vertex = np.clip(place + step * (middle - top + _find_vertex(*around)), low, high)
     _raise(best, highest, going, vertex, judge(vertex[None], which[going])[0])
     return best, highest
 

@@ -550,6 +550,10 @@ class GasAtSpeeds(NamedTuple):
         """Return the gas with the torques of only some orders."""
         return self._replace(torque=lambda speeds_rpm: self.torque(speeds_rpm)[rows])
 
+    def combine(self, weights: Complex) -> GasAtSpeeds:
+        """Return the gas with sums of the torques of cylinders, with weights (sums, cylinders)."""
+        return self._replace(torque=lambda speeds_rpm: self.torque(speeds_rpm) @ weights.T)
+
 
 def follow_gas(engine: Engine, find: Callable[[Engine], Complex]) -> GasAtSpeeds:
     """Return the gas of an engine at any speeds.

@@ -19,22 +19,17 @@ from ..core.vibration import Complex, Indices, Modes, Real, find_modes, scale_sh
 from ..file.fields import order_number
 from .chain import (
     Chain,
-    ChainShaft,
     Damping,
     find_pieces,
     find_still,
     follow_gears,
     grow_branches,
     incidence,
-    join_chain,
     rigid_motions,
 )
 from .system import Excitation, TorsionalSystem
 
 _AT_REST = 1e-9  # a node whose angle is below this share of the largest counts as at rest
-# Shift of the eigenvalues; a pole here would be a vibration that grows, which no chain has.
-_SIGMA = np.exp(0.25j * np.pi)
-_INFINITE = 1e-6  # eigenvalues mu below this share of the largest count as 0: they have no pole
 
 
 def find_chain_modes(chain: Chain) -> Modes:
@@ -124,38 +119,6 @@ def locate_nodes(chain: Chain, shape: Real) -> tuple[Indices, Indices]:
         pulled[0, wheel[way > 0]] = pulled[1, wheel[way < 0]] = True
     at_rest = pulled.all(axis=0) & ~moves & ~find_still(chain)
     return np.flatnonzero((across < 0) & np.isfinite(chain.stiffness)), np.flatnonzero(at_rest)
-
-
-def find_chain_poles(chain: Chain, damping: Damping) -> Complex:
-    """Return the poles (poles,) of the damped chain, rad/s: the s of free vibrations `x e^{s t}`. A
-    pole s is a resonance at the frequency `Im s` with a half-power width of `-2 Re s`. With loss
-    factors of shafts, only poles with `Im s > 0` have a meaning.
-
-    The equations of motion are `A z = s B z`, where the vector z has all angles and speeds, and A
-    and B are constant matrices. With the eigenvalues mu of `(A - sigma B)^-1 B`, where sigma is
-    any number that is not a pole, the poles are `s = sigma + 1/mu`. Massless nodes have mu = 0
-    and no pole.
-    """
-    follow, _ = follow_gears(chain)
-    bends = np.isfinite(chain.stiffness)
-    twist = (incidence(chain) @ follow)[bends]
-    stiffness = chain.stiffness[bends] * (1 + 1j * damping.loss[bends])
-    k = (twist.T * stiffness) @ twist
-    c = (twist.T * damping.dashpots[bends]) @ twist + (follow.T * damping.nodes) @ follow
-    m = (follow.T * chain.inertia) @ follow
-    scale = np.abs(k).max(initial=0.0)
-    if not scale:
-        return np.zeros(0, complex)
-    unit = np.sqrt(scale / np.median(np.abs(np.diag(m)[np.diag(m) != 0])))  # rad/s
-    k = k / scale
-    c = c * (unit / scale)
-    m = m * (unit**2 / scale)
-    identity = np.eye(len(m))
-    none = np.zeros_like(m)
-    shifted = np.block([[-_SIGMA * identity, identity], [-k, -c - _SIGMA * m]])
-    mu = np.linalg.eigvals(np.linalg.solve(shifted, np.block([[identity, none], [none, m]])))
-    finite = np.abs(mu) > _INFINITE * np.abs(mu).max()
-    return np.asarray(unit * (_SIGMA + 1 / mu[finite]), complex)
 
 
 # Work below this share of the work that all torques would do in phase is a rounding error.
@@ -249,30 +212,6 @@ def find_natural_modes(system: TorsionalSystem) -> tuple[NaturalMode, ...]:
         )
         natural_modes.append(mode)
     return tuple(natural_modes)
-
-
-def find_poles(system: TorsionalSystem, order: float | None = None) -> Complex:
-    """Return the poles (poles,) of the damped system, rad/s (see `find_chain_poles`).
-
-    Args:
-        system: Torsional system. Each viscous ring becomes a node behind a dashpot.
-        order: Order for which the inertia of pendulums is computed; None: they are left out.
-    """
-    chain = system.chain
-    damping = system.damping
-    rings = system.rings
-    inertia = chain.inertia
-    more = (0, len(rings))
-    if order is not None:
-        inertia = inertia + system.attached_pendulums(np.array(order)).real
-    shafts = [*map(ChainShaft, chain.start, chain.end, chain.stiffness, chain.ratio)]
-    shafts += [ChainShaft(ring.node, k, 0.0) for k, ring in enumerate(rings, len(inertia))]
-    inertia = np.append(inertia, [ring.inertia for ring in rings])
-    oil = np.append(damping.dashpots, [ring.damping for ring in rings])
-    return find_chain_poles(
-        join_chain(inertia, shafts, np.flatnonzero(chain.clamped).tolist()),
-        Damping(np.pad(damping.loss, more), oil, np.pad(damping.nodes, more)),
-    )
 
 
 def find_criticals(

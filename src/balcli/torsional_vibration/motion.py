@@ -32,7 +32,8 @@ from .chain import (
     incidence,
     viscous_inertia,
 )
-from .modes import chain_loss, find_chain_modes, find_poles
+from .modes import chain_loss, find_chain_modes
+from .poles import find_poles
 from .system import TorsionalSystem
 
 _WEAK_PIVOT = 1e-3  # sums that cancel to less than this share of their terms need pivoting

@@ -95,7 +95,10 @@ class Variants:
         )
         varied = change_figures(self._model, values, {"torsion"})
         system = build_engine_system(varied, engine, excitation)
-        figures = {f"torsion.{k}.Hz": hertz for k, hertz in enumerate(_find_frequencies(system), 1)}
+        figures = dict[str, float]()
+        if any(q.kind == "torsion" for q in self._quantities):
+            hertz = _find_frequencies(system)
+            figures |= {f"torsion.{k}.Hz": each for k, each in enumerate(hertz.tolist(), 1)}
         if MISFIT in self._names:
             points = remember(
                 self._measured, tuple(own.items()), lambda: read_measured(self._model, engine)

@@ -19,8 +19,9 @@ from ..core.phases import RPM
 from ..core.vibration import ROUNDING, Indices, Real
 from ..file.fields import order_number
 from ..process import Tell, tell_nobody
-from .modes import find_poles
+from .columns import Columns
 from .motion import compute_curves, compute_in_parts, refuse_unbounded
+from .poles import find_poles
 from .system import TorsionalSystem
 
 _ABOUT = np.array([[-0.5], [0], [0.5]])  # offsets of added speeds, divided by the resonance's width
@@ -52,34 +53,31 @@ def find_largest(
         BalcliError: Nothing excites the system, or an undamped mode is driven at its own frequency.
     """
     refuse_unbounded(system, rpm)
-    orders = system.require_excitation().orders
+    columns = Columns(system)
+    factors = np.ones(columns.count) if weights is None else np.zeros(columns.count)
+    if weights is not None:
+        factors[: len(weights)] = weights
+    wanted = np.flatnonzero(factors)
     speeds = add_resonances(system, rpm)
-    parts = compute_in_parts(system, speeds)
-    heights = np.concatenate([np.append(sum_amplitudes(c), heat, axis=1) for c, heat in parts])
-    columns = np.arange(heights.shape[1])
-    weights = np.ones(len(columns)) if weights is None else weights
-    factors = np.pad(weights, (0, len(columns) - len(weights)))
 
     def judge(at: Real, which: Indices) -> Real:
-        """Return the values at speeds `at`, each for the column in `which`."""
-        speeds, column = (each.ravel() for each in np.broadcast_arrays(at, which))
-        rpm, point = np.unique(speeds, return_inverse=True)
-        phasors, heat = compute_curves(system, rpm)
-        values = np.zeros(len(speeds))
-        count = phasors.shape[2]
-        swings = column < count
-        curves = phasors[:, point[swings], column[swings]]
-        values[swings] = find_swing(orders, curves).half
-        values[~swings] = heat[point[~swings], column[~swings] - count]
-        return (values * factors[column]).reshape(at.shape)
+        """Return the values at speeds `at`, each for the wanted column in `which`."""
+        places, number = (each.ravel() for each in np.broadcast_arrays(at, which))
+        values = columns.find(places, wanted[number]) * factors[wanted[number]]
+        return np.asarray(values.reshape(at.shape))
 
-    heights *= factors  # now upper bounds of the values
-    level = judge(speeds[heights.argmax(axis=0)], columns)
+    heights = columns.bound(speeds, wanted) * factors[wanted]
+    level = judge(speeds[heights.argmax(axis=0)], np.arange(len(wanted)))
     least = _NEAR * (level.max() if together else level)
     near = np.nonzero((heights > 0) & (heights >= least))
     heights[near] = judge(speeds[near[0]], near[1])
     level = heights.max() if together else heights.max(axis=0)
-    return find_highest(judge, speeds, heights, level, _NEAR)
+    place, _ = find_highest(judge, speeds, heights, level, _NEAR)
+    best = np.full(columns.count, rpm[0])
+    best[wanted] = place
+    highest = np.zeros(columns.count)
+    highest[wanted] = columns.find_exactly(place, wanted) * factors[wanted]
+    return best, highest
 
 
 def add_resonances(system: TorsionalSystem, rpm: Real) -> Real:
@@ -88,13 +86,16 @@ def add_resonances(system: TorsionalSystem, rpm: Real) -> Real:
     """
     if len(rpm) == 1:
         return rpm
-    of_all = None if system.pendulums else find_poles(system)  # None: poles depend on the order
-    by_order = []
-    for order in system.require_excitation().orders.tolist():
-        poles = find_poles(system, order) if of_all is None else of_all
-        poles = poles[(poles.imag > 0) & (-poles.real > ROUNDING * np.abs(poles))]
-        by_order.append(np.stack([poles.imag, -2 * poles.real]) / (RPM * order))
-    at, width = np.concatenate(by_order, axis=1)
+    orders = system.require_excitation().orders
+    if system.pendulums:
+        of_orders = [find_poles(system, order) for order in orders.tolist()]
+    else:
+        of_orders = [find_poles(system)] * len(orders)
+    poles = np.array(of_orders)
+    met = (poles.imag > 0) & (-poles.real > ROUNDING * np.abs(poles))
+    by_order = RPM * np.broadcast_to(orders[:, None], poles.shape)[met]
+    at = poles.imag[met] / by_order
+    width = -2 * poles.real[met] / by_order
     steps = np.diff(rpm)[np.clip(np.searchsorted(rpm, at) - 1, 0, len(rpm) - 2)]
     there = (at > rpm[0]) & (at < rpm[-1]) & (width < _WIDE * steps)
     about = (at + width * _ABOUT)[:, there]

@@ -65,6 +65,14 @@ class Excitation(NamedTuple):
         steady = self.steady[:, None, :] if self.gas is None else self.gas.torque(speeds / RPM)
         return np.asarray(steady + grown, complex)
 
+    def combine(self, weights: Complex) -> Excitation:
+        """Return the excitation whose sources are sums of these, with weights (sums, sources)."""
+        gas = None if self.gas is None else self.gas.combine(np.asarray(weights, complex))
+        steady = self.steady @ weights.T
+        return Excitation(
+            self.orders, np.arange(len(weights)), steady, self.growing @ weights.T, gas
+        )
+
     def only(self, orders: Real) -> Excitation:
         """Return the excitation restricted to some orders."""
         kept = np.isin(self.orders, orders)

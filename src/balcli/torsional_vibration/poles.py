@@ -1,0 +1,269 @@
+"""Compute the poles of a damped torsional system, and its forced vibration as a sum over them.
+
+The equations of motion are `B z' = A z + g`, where the vector z has all angles and speeds, g is the
+load, and A and B are constant matrices. Let mu be the eigenvalues and V the eigenvectors of `(A -
+sigma B)^-1 B`, where sigma is any number that is not a pole. The poles are then `s = sigma + 1/mu`,
+and a load `g e^{s t}` causes the vibration
+
+    z = -V (1 - (s - sigma) mu)^-1 V^-1 (A - sigma B)^-1 g
+
+Massless nodes have mu = 0 and no pole. Angles are in rad; the equations are divided by the largest
+stiffness, and their unit of time makes frequencies about 1.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..core.phases import RPM
+from ..core.vibration import UNDAMPED, Complex, Indices, Real
+from .chain import (
+    Chain,
+    ChainShaft,
+    Damping,
+    follow_gears,
+    incidence,
+    join_chain,
+    rigid_motions,
+)
+from .system import Excitation, TorsionalSystem
+
+# Shift of the eigenvalues; a pole here would be a motion that grows, which no chain has. It is real
+# because real equations, those without loss factors, take a quarter of the time.
+_SIGMA = 1.0
+_HELD = (
+    -0.25
+)  # stiffness of a motion that turns freely: its poles are 0.5 and -0.5, far from _SIGMA
+_INFINITE = 1e-6  # eigenvalues mu below this share of the largest count as 0: they have no pole
+# Eigenvectors with a larger condition number, of poles that almost coincide, lose too many digits.
+_ILL = 1e7
+_MOST = 128  # terms; the tree of nodes takes less time than the eigenvectors of more poles
+_SLOW = 1e-6  # poles with a lower frequency do not swing
+_AT_ONCE = 1 << 15  # number of terms that are computed at once: more leave the cache
+
+
+class _Equations(NamedTuple):
+    """Equations of motion, divided by a stiffness and with a unit of time.
+
+    Attributes:
+        chain: Chain, with viscous rings as its last nodes.
+        damping: Damping of this chain.
+        follow: (nodes, dof) angle of every node for unit angles of the independent nodes.
+        twist: (shafts, dof) twist of every shaft for the same.
+        stiffness: K, (dof, dof).
+        damped: C, (dof, dof).
+        mass: M, (dof, dof).
+        scale: Stiffness by which the equations are divided, N m/rad; 0: no shaft is elastic.
+        unit: Frequency that counts as 1, rad/s.
+    """
+
+    chain: Chain
+    damping: Damping
+    follow: Real
+    twist: Real
+    stiffness: Complex | Real
+    damped: Real
+    mass: Real
+    scale: float
+    unit: float
+
+    def shift(self) -> tuple[Complex | Real, Real]:
+        """Return the matrices `A - sigma B` and B."""
+        identity = np.eye(len(self.mass))
+        none = np.zeros_like(identity)
+        below = -self.damped - _SIGMA * self.mass
+        shifted = np.block([[-_SIGMA * identity, identity], [-self.stiffness, below]])
+        return shifted, np.block([[identity, none], [none, self.mass]])
+
+    def list_free_turns(self) -> Real:
+        """Return the rigid motions (motions, dof) that nothing holds, springs or dampers."""
+        held = self.chain.stiffness + self.damping.dashpots
+        turns = rigid_motions(self.chain._replace(stiffness=held))
+        free = turns**2 @ self.damping.nodes == 0
+        _, independent = follow_gears(self.chain)
+        return np.asarray(turns[free][:, independent])
+
+
+def _write_equations(chain: Chain, damping: Damping) -> _Equations:
+    follow, _ = follow_gears(chain)
+    twist = incidence(chain) @ follow
+    bends = np.isfinite(chain.stiffness)
+    stretched = twist[bends]
+    stiffness = chain.stiffness[bends]
+    if np.any(damping.loss):
+        stiffness = stiffness * (1 + 1j * damping.loss[bends])
+    k: Complex | Real = (stretched.T * stiffness) @ stretched
+    c = (stretched.T * damping.dashpots[bends]) @ stretched + (follow.T * damping.nodes) @ follow
+    m = (follow.T * chain.inertia) @ follow
+    scale = float(np.abs(k).max(initial=0.0))
+    unit = 1.0
+    if scale:
+        unit = float(np.sqrt(scale / np.median(np.abs(np.diag(m)[np.diag(m) != 0]))))
+        k = k / scale
+        c = c * (unit / scale)
+        m = m * (unit**2 / scale)
+    return _Equations(chain, damping, follow, twist, k, c, m, scale, unit)
+
+
+def find_chain_poles(chain: Chain, damping: Damping) -> Complex:
+    """Return the poles (poles,) of the damped chain, rad/s: the s of free vibrations `x e^{s t}`. A
+    pole s is a resonance at the frequency `Im s` with a half-power width of `-2 Re s`. With loss
+    factors of shafts, only poles with `Im s > 0` have a meaning.
+    """
+    equations = _write_equations(chain, damping)
+    if not equations.scale:
+        return np.zeros(0, complex)
+    mu = np.linalg.eigvals(np.linalg.solve(*equations.shift()))
+    return _find_finite(mu, equations.unit)
+
+
+def _find_finite(mu: Complex, unit: float) -> Complex:
+    finite = np.abs(mu) > _INFINITE * np.abs(mu).max()
+    return np.asarray(unit * (_SIGMA + 1 / mu[finite]), complex)
+
+
+def find_poles(system: TorsionalSystem, order: float | None = None) -> Complex:
+    """Return the poles (poles,) of the damped system, rad/s (see `find_chain_poles`).
+
+    Args:
+        system: Torsional system. Each viscous ring becomes a node behind a dashpot.
+        order: Order for which the inertia of pendulums is computed; None: they are left out.
+    """
+    return find_chain_poles(*_attach_rings(system, order))
+
+
+def _attach_rings(system: TorsionalSystem, order: float | None) -> tuple[Chain, Damping]:
+    """Return the chain with viscous rings as its last nodes; see `find_poles`."""
+    chain = system.chain
+    damping = system.damping
+    rings = system.rings
+    inertia = chain.inertia
+    more = (0, len(rings))
+    if order is not None:
+        inertia = inertia + system.attached_pendulums(np.array(order)).real
+    shafts = [*map(ChainShaft, chain.start, chain.end, chain.stiffness, chain.ratio)]
+    shafts += [ChainShaft(ring.node, k, 0.0) for k, ring in enumerate(rings, len(inertia))]
+    inertia = np.append(inertia, [ring.inertia for ring in rings])
+    oil = np.append(damping.dashpots, [ring.damping for ring in rings])
+    return (
+        join_chain(inertia, shafts, np.flatnonzero(chain.clamped).tolist()),
+        Damping(np.pad(damping.loss, more), oil, np.pad(damping.nodes, more)),
+    )
+
+
+@dataclass(frozen=True)
+class PoleSum:
+    """Torques of elastic shafts and the swing of the free end as sums of terms: one for each pole,
+    and one for each rigid motion that nothing holds.
+
+    The sums take a fraction of the time of `compute_curves` for some curves, or if each speed asks
+    for another curve. They lose some digits where poles almost coincide.
+
+    Attributes:
+        poles: Poles of the system, rad/s.
+        curves: Number of curves: the shafts and the free end.
+        spanned: (curves,) whether a curve is such a sum; rigid shafts are not.
+        unit: Frequency that counts as 1, rad/s.
+        mu: (poles,) eigenvalues.
+        excitation: Excitation of each term.
+        felt: (terms, curves) share of each term in each twist, and in the angle of the free end.
+        stiffness: (curves,) factor of this twist or angle, N m/rad.
+        dashpots: (curves,) factor of its rate, N m s/rad.
+    """
+
+    poles: Complex
+    spanned: NDArray[np.bool_]
+    unit: float
+    mu: Complex
+    excitation: Excitation
+    felt: Complex
+    stiffness: Complex
+    dashpots: Real
+
+    def find_curves(self, rpm: Real, which: Indices) -> Complex:
+        """Return phasors (orders, places) at speeds (places,), each of the curve in `which`."""
+        w, terms = self._respond(rpm)
+        twist = np.einsum("npt,pt->np", terms, self.felt.T[which])
+        return np.asarray(twist * self._find_stiffness(w, which))
+
+    def sum_amplitudes(self, rpm: Real, which: Indices) -> Real:
+        """Return the sums of the amplitudes of all orders, shape (speeds, len(which))."""
+        size = len(self.excitation.orders) * len(self.felt)
+        sums = []
+        for some in np.array_split(rpm, len(rpm) * size // _AT_ONCE + 1):
+            w, terms = self._respond(some)
+            curves = terms @ self.felt[:, which] * self._find_stiffness(w[..., None], which)
+            sums.append(np.abs(curves).sum(axis=0))
+        return np.concatenate(sums)
+
+    def _respond(self, rpm: Real) -> tuple[Real, Complex]:
+        """Return frequencies (orders, speeds), rad/s, and the terms (orders, speeds, terms)."""
+        speeds = rpm * RPM
+        w = np.multiply.outer(self.excitation.orders, speeds)
+        paced = w[..., None] / self.unit
+        terms = np.empty((*w.shape, len(self.felt)), complex)
+        of_poles, of_turns = np.split(terms, [len(self.mu)], axis=-1)
+        np.multiply(paced, 1j * self.mu, out=of_poles)
+        of_poles -= 1 + _SIGMA * self.mu
+        np.reciprocal(of_poles, out=of_poles)
+        of_turns[:] = 1 / (paced**2 - _HELD) - 1 / paced**2
+        terms *= self.excitation.at(speeds)
+        return w, terms
+
+    def _find_stiffness(self, w: Real, which: Indices) -> Complex:
+        return np.asarray(self.stiffness[which] + 1j * w * self.dashpots[which])
+
+
+def expand_in_poles(system: TorsionalSystem) -> PoleSum | None:
+    """Return the torques of a system as sums over its poles; None if there is no such sum, because
+    pendulums make the poles depend on the order, or poles almost coincide, or nothing damps some;
+    None also if there are too many.
+
+    A motion that turns freely has a double pole at 0, with a single eigenvector. No shaft twists in
+    it, so it gets a stiffness of its own, `_HELD`, without any effect on torques. The difference of
+    the angles of the free end, without and with this stiffness, is a term of its own.
+    """
+    if system.pendulums or len(system.nodes) + len(system.rings) > _MOST // 2:
+        return None
+    equations = _write_equations(*_attach_rings(system, None))
+    if not equations.scale:
+        return None
+    turns = equations.list_free_turns()
+    moved = turns @ equations.mass
+    weights = np.sum(moved * turns, axis=1)
+    held = _HELD * (moved.T / weights) @ moved
+    shifted, second = equations._replace(stiffness=equations.stiffness + held).shift()
+    mu, vectors = np.linalg.eig(np.linalg.solve(shifted, second))
+    try:
+        inverse = np.linalg.inv(vectors)
+    except np.linalg.LinAlgError:
+        return None
+    poles = _find_finite(mu, equations.unit)
+    swinging = poles.imag > _SLOW * equations.unit
+    undamped = swinging & (-poles.real <= UNDAMPED * np.abs(poles))
+    if np.any(undamped) or np.linalg.norm(vectors) * np.linalg.norm(inverse) > _ILL:
+        return None
+    dof = len(equations.mass)
+    by_torque = np.linalg.solve(shifted.T, inverse.T).T[:, dof:]
+    driven = np.concatenate([by_torque, turns / weights[:, None]]) @ equations.follow.T
+    shafts = len(system.shafts)
+    seen = np.concatenate([equations.twist[:shafts], equations.follow[[system.ends[0]]]])
+    felt = np.concatenate([vectors[:dof].T @ seen.T, turns @ seen.T])
+    elastic = np.isfinite(system.chain.stiffness)
+    stiffness = np.where(elastic, system.chain.stiffness, 0) * (1 + 1j * system.damping.loss)
+    excitation = system.require_excitation()
+    sources = np.asarray(driven[:, excitation.nodes] / equations.scale, complex)
+    return PoleSum(
+        poles=poles,
+        spanned=np.append(elastic, True),
+        unit=equations.unit,
+        mu=mu,
+        excitation=excitation.combine(sources),
+        felt=felt,
+        stiffness=np.append(stiffness, 1),
+        dashpots=np.append(system.damping.dashpots, 0),
+    )

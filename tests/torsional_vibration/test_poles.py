@@ -1,0 +1,84 @@
+"""Vibration as a sum over poles, against the equations of every node."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from support.chains import KINDS, chain_of, no_damping, random_chain, random_damping
+
+from balcli.torsional_vibration.chain import Damping
+from balcli.torsional_vibration.motion import compute_curves
+from balcli.torsional_vibration.poles import expand_in_poles
+from balcli.torsional_vibration.system import Excitation, Pendulums, TorsionalSystem, ViscousRing
+
+RPM = np.linspace(500, 9000, 7)
+
+
+def system_of(chain, damping, seed=0, **others) -> TorsionalSystem:
+    """Three orders excite every node that is not clamped, by torques that partly grow with the speed."""
+    rng = np.random.default_rng(seed)
+    nodes = np.flatnonzero(~chain.clamped)
+    steady, growing = rng.normal(size=(2, 3, len(nodes), 2)) @ [1, 1j]
+    shafts = len(chain.start)
+    return TorsionalSystem(
+        name="",
+        nodes=tuple(f"node {k}" for k in range(len(chain.inertia))),
+        shafts=tuple(f"shaft {k}" for k in range(shafts)),
+        chain=chain,
+        damping=damping,
+        stress_by_torque=np.zeros(shafts),
+        excitation=Excitation(np.array([0.5, 1.0, 4.0]), nodes, steady, growing * 1e-4),
+        last=len(chain.inertia) - 1,
+        ends=(int(nodes[0]), -1),
+        **others,
+    )
+
+
+def compare_sums(system) -> None:
+    """Every curve alone, all at different speeds, and the sums of amplitudes."""
+    curves = compute_curves(system, RPM)[0]
+    summed = expand_in_poles(system)
+    which = np.flatnonzero(summed.spanned)
+    assert len(which) == 1 + np.count_nonzero(np.isfinite(system.chain.stiffness))
+    assert summed.sum_amplitudes(RPM, which) == pytest.approx(np.abs(curves[:, :, which]).sum(axis=0), rel=1e-7)
+    places, columns = (each.ravel() for each in np.meshgrid(np.arange(len(RPM)), which))
+    expected = curves[:, places, columns]
+    assert summed.find_curves(RPM[places], columns) == pytest.approx(expected, rel=1e-7, abs=1e-9 * abs(expected).max())
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_sums_over_poles_are_the_curves(kind):
+    for seed in range(4):
+        chain = random_chain(kind, seed)
+        damping = random_damping(chain, seed)
+        loss = np.maximum(damping.loss, 0.01) * (seed > 0)  # without losses, the equations are real
+        dashpots = np.maximum(damping.dashpots, 1.0 * (seed == 0))
+        compare_sums(system_of(chain, Damping(loss, dashpots * 20, damping.nodes), seed))
+
+
+@pytest.mark.parametrize("held", [0.0, 3.0], ids=["turns freely", "held by oil"])
+def test_viscous_rings_add_poles(held):
+    chain = chain_of([0.1, 0.2, 0.5], [1e5, 2e5])
+    damping = Damping(np.array([0.01, 0.02]), np.zeros(2), np.array([0, held, 0]))
+    system = system_of(chain, damping, rings=(ViscousRing(0, 0.05, 4.0),))
+    compare_sums(system)
+    assert len(expand_in_poles(system).mu) == 8
+
+
+def test_there_is_no_sum_where_it_would_fail():
+    """Nothing damps a mode; pendulums change the poles; two poles coincide in one; too many poles."""
+    chain = chain_of([0.1, 0.2, 0.5], [1e5, 2e5])
+    damped = Damping(np.full(2, 0.02), np.zeros(2), np.zeros(3))
+    assert expand_in_poles(system_of(chain, no_damping(chain))) is None
+    system = system_of(chain, damped)
+    assert expand_in_poles(system) is not None
+    assert expand_in_poles(replace(system, pendulums=(Pendulums(0, 1.0, 0.05, 0.01),))) is None
+    critical = chain_of([0.25, 0.25], [1e5])
+    oil = 2 * np.sqrt(1e5 * 0.125)  # aperiodic: (s + w)^2 = 0
+    for dashpot, exists in ((oil, False), (0.9 * oil, True)):
+        damping = Damping(np.zeros(1), np.array([dashpot]), np.zeros(2))
+        assert (expand_in_poles(system_of(critical, damping)) is not None) == exists
+    for nodes, exists in ((64, True), (65, False)):
+        long = chain_of(np.ones(nodes), np.full(nodes - 1, 1e6))
+        damping = Damping(np.full(nodes - 1, 0.02), np.full(nodes - 1, 10.0), np.zeros(nodes))
+        assert (expand_in_poles(system_of(long, damping)) is not None) == exists
