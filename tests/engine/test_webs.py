@@ -212,6 +212,57 @@ def test_card_of_a_file_with_webs(tmp_path):
     assert result["counterweights"] == []
 
 
+def write_four(folder, *webs):
+    file = folder / "e.toml"
+    tables = "".join("[[web]]\n" + write_toml({"": web}).replace("[]\n", "") for web in webs)
+    file.write_text(write_toml(FOUR) + tables)
+    return file
+
+
+def test_card_and_masses_have_the_throw_with_its_cheeks(tmp_path):
+    """Pin and cheeks as in the parts table; of weighed webs, the cheeks are not known: the pin alone."""
+    pin = 7.85e-6 * math.pi / 4 * 45**2 * 27
+    for webs, kilograms, label in (
+        ([WEB], 1.023066926, "throw itself, at the crank radius"),
+        ([WEIGHED], pin, "crank pin alone"),
+        ([WEB | {"webs": [2, 3, 4, 5, 6, 7, 8]}, WEIGHED], None, "crank pin alone"),
+    ):
+        file = write_four(tmp_path, *webs)
+        card = json.loads(ask("balance", file, "--factor", "50%", "-f", "json"))["details"]["card"]
+        wanted = [kilograms] * 4 if kilograms else [pin, *[1.023066926] * 3]
+        assert_allclose([own["throw_g"] / 1e3 for own in card], wanted)
+        masses = json.loads(ask("analyze", file, "--only", "masses", "-f", "json"))["masses"]
+        found = {number: own["throw_kg"] for own in masses for number in own["cylinders"]}
+        assert_allclose([found[number] for number in (1, 2, 3, 4)], wanted)
+        table = ask("balance", file, "--factor", "50%", "-f", "card")
+        assert label in table
+        assert ("does not tell what belongs to its cheek" in " ".join(table.split())) == (label == "crank pin alone")
+    assert "Bobweight of pins 2, 3, 4" in table
+    assert "Bobweight of pin 1\n" in table
+
+
+def test_a_measured_mass_counts_beside_the_webs(tmp_path):
+    """Measured at 700 g on each pin, the crank is that of (700 - 446.4)/693.6: what the webs of 50 % have too
+    much is written as counterweights at the throws.
+    """
+    file = write_four(tmp_path, WEB)
+    out = tmp_path / "out.toml"
+    ask("balance", file, "--measured", "700 g", "--factor", "40%", "--planes=-160,160", "--write", out)
+    has = (0.7 - 0.4464) / 0.6936
+    throws = analyze(load(out), only=["parts"]).parts.throws
+    change = (0.4 - has) * 0.6936 * 0.044
+    said = json.loads(ask("balance", file, "--measured", "700 g", "--factor", "40%", "-f", "json"))["details"]
+    assert_allclose([said["measured_factor"], said["factor"]], [has, 0.4])
+    assert_allclose([own["unbalance_kg_m"] for own in said["change"]], change)
+    assert_allclose([throw.factor for throw in throws], has)  # the added weights of a flat crank cancel in two planes
+    alone = json.loads(ask("balance", file, "--measured", "700 g", "-f", "json"))
+    places = [weight["position_mm"] for weight in alone["counterweights"]]
+    assert_allclose(places, [-163.25, -115.75, -70.25, -22.75, 22.75, 70.25, 115.75, 163.25])
+    assert_allclose(
+        [weight["unbalance_kg_m"] for weight in alone["counterweights"]], (0.5 - has) * 0.6936 * 0.022, rtol=1e-9
+    )
+
+
 def ask_weights(file, *options):
     return json.loads(ask("balance", str(file), *options, "-f", "json"))["counterweights"]
 

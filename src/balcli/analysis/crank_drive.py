@@ -53,6 +53,7 @@ from ..show.sheet import (
     unit_cell,
 )
 from ..show.units import ShownUnit, System
+from ..sizing.bobweights import PIN_ALONE
 from .parts import list_columns
 from .records import (
     Journal,
@@ -361,6 +362,8 @@ def list_masses(engine: Engine) -> tuple[Masses, ...]:
     alike: dict[tuple[Masses, float], list[int]] = {}
     for row in np.argsort(engine.numbers).tolist():
         masses = _find_masses(engine.weighed[row], lengths[row], couples[row])
+        share = engine.find_throw_share(row)
+        masses = masses._replace(throw_kg=share.mass, is_whole_throw=share.is_whole)
         alike.setdefault((masses, radii[row]), []).append(int(engine.numbers[row]))
     sets = []
     for (masses, _), numbers in alike.items():
@@ -432,7 +435,10 @@ def lay_out_masses(masses: Sequence[Masses], system: System) -> Grid:
     heads = [Column(name_cylinders(alike.cylinders)) for alike in masses]
     figures = list_columns(masses, labels, {}, system)
     rows = [(figure.head, *figure.cells) for figure in figures]
-    return Grid.of_rows("Masses", [Column("", words=True), *heads], rows)
+    note = ""
+    if not all(alike.is_whole_throw for alike in masses):
+        note = PIN_ALONE
+    return Grid.of_rows("Masses", [Column("", words=True), *heads], rows, note)
 
 
 # ------------------------------------------------------------------ power related unbalance

@@ -739,7 +739,8 @@ class Masses(NamedTuple):
         crosshead_kg: Mass of the crosshead with piston rod and pin.
         reciprocating_kg: Mass of piston, crosshead and small end.
         rotating_kg: Mass of the big end with bearing shells and oil, without the throw.
-        throw_kg: Share of the throw's unbalanced mass that counts for one cylinder.
+        throw_kg: Share of the throw's unbalanced mass that counts for one cylinder. With webs, of
+            pin and cheeks; of the pin alone if the file gives a web by its profile or mass.
         rod_kg: Mass of the rod; left out, with all figures that depend on it, if the file gives no
             mass.
         rod_small_end_kg: Share of the rod's mass at the piston pin.
@@ -749,6 +750,7 @@ class Masses(NamedTuple):
         couple_constant_kg_m2: Couple constant H: moment of inertia of the two shares of the rod's
             mass as points at the two pins, minus that of the rod, both about its centre of mass.
         reduced_length_m: Length of a pendulum that swings like the rod about the piston pin.
+        is_whole_throw: Whether `throw_kg` has the cheeks as well.
     """
 
     cylinders: tuple[int, ...]
@@ -764,3 +766,4 @@ class Masses(NamedTuple):
     radius_of_gyration_m: float | None = None
     couple_constant_kg_m2: float | None = None
     reduced_length_m: float | None = None
+    is_whole_throw: Annotated[bool, HIDDEN] = True

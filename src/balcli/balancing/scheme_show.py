@@ -21,7 +21,7 @@ from ..show.sheet import (
     unit_cell,
 )
 from ..show.units import ShownUnit, System
-from ..sizing.bobweights import NO_THROW, Bobweight, CardLine, FactorPeaks, PlaneNeed
+from ..sizing.bobweights import NO_THROW, PIN_ALONE, Bobweight, CardLine, FactorPeaks, PlaneNeed
 from ..sizing.planes import find_unbalance, measure_direction
 from .answer import Balance
 
@@ -282,9 +282,10 @@ def card_grids(card: Sequence[Bobweight], *units: ShownUnit) -> Iterator[Grid]:
         card: Bobweights of all pins.
         units: Units of mass, one column for each; terms of the sums use the first unit.
     """
-    alike: dict[tuple[CardLine, ...], list[Bobweight]] = {}
+    alike: dict[tuple[object, ...], list[Bobweight]] = {}
     for bobweight in card:
-        alike.setdefault(bobweight.lines, []).append(bobweight)
+        throw = round(bobweight.throw_g, 6), bobweight.is_whole_throw
+        alike.setdefault((bobweight.lines, *throw), []).append(bobweight)
     for pins in alike.values():
         heads = [Column("", words=True), Column("quantity × each")]
         heads += [Column(unit.name) for unit in units]
@@ -295,6 +296,8 @@ def card_grids(card: Sequence[Bobweight], *units: ShownUnit) -> Iterator[Grid]:
         names = ", ".join("+".join(map(str, pin.cylinders)) for pin in pins)
         noun = "pins" if len(pins) > 1 else "pin"
         note = "" if pins[0].throw_g else f"The throw itself {NO_THROW}."
+        if not pins[0].is_whole_throw:
+            note = PIN_ALONE
         yield Grid.of_rows(f"Bobweight of {noun} {names}", heads, rows, note)
 
 
@@ -308,7 +311,9 @@ def _list_masses(pin: Bobweight, unit: ShownUnit) -> Iterator[_CardRow]:
     share = f"{whole} × {percent(pin.factor)}"
     yield _CardRow("balanced share", share, pin.factor * pin.reciprocating_g)
     yield _CardRow("bobweight (rotating + share)", "", pin.bobweight_g)
-    if pin.throw_g:
+    if not pin.is_whole_throw:
+        yield _CardRow("crank pin alone", "", pin.throw_g)
+    elif pin.throw_g:
         yield _CardRow("throw itself, at the crank radius", "", pin.throw_g)
         yield _CardRow("counterweight opposite", "", pin.bobweight_g + pin.throw_g)
 

@@ -187,6 +187,20 @@ class Placed(NamedTuple):
 
 
 NONE_SILENT = SilentCylinders()
+
+
+class ThrowShare(NamedTuple):
+    """Share of a cylinder in the unbalanced mass of its throw.
+
+    Attributes:
+        mass: Mass at the crank radius, kg.
+        is_whole: Whether it has the cheeks as well; otherwise it is that of the crank pin alone.
+    """
+
+    mass: float
+    is_whole: bool
+
+
 _ONE_PLACE = 1e-9  # m; throws that are closer have the same position
 
 
@@ -534,6 +548,21 @@ class Engine:
         """Index in `joined_throws` of the throw of each row of `cylinders`."""
         index = {throw: k for k, throws in enumerate(self.joined_throws) for throw in throws}
         return [index[masses.throw] for masses in self.weighed]
+
+    def find_throw_share(self, row: int) -> ThrowShare:
+        """Return the share of a cylinder in the unbalanced mass of its throw; with webs, in that of
+        pin and cheeks.
+        """
+        own = self.weighed[row]
+        mass = float(own.share)
+        if self.webs is None:
+            return ThrowShare(mass, is_whole=True)
+        cheeks = self.webs.find_cheeks(own.throw)
+        if cheeks is None:
+            return ThrowShare(mass, is_whole=False)
+        rods = sum(other.throw == own.throw for other in self.weighed)
+        radius = float(self.cylinders.radius_of_each[row])
+        return ThrowShare(mass + cheeks / radius / rods, is_whole=True)
 
     @property
     def rows_by_pin(self) -> list[list[int]]:

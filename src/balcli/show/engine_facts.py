@@ -127,11 +127,14 @@ def _tell_devices(engine: Engine) -> str:
     for placed in engine.placed:
         devices += placed.engine.devices
     coupling = sum(device.is_coupling for device in devices)
-    count = len(devices) - coupling
+    webs = sum(device.web > 0 for device in devices)
+    count = len(devices) - coupling - webs
     files = "the files" if engine.placed else "the file"
     origins = []
     if count:
         origins.append(f"{count} from {files}")
+    if webs:
+        origins.append(counted(webs, "web"))
     if coupling:
         origins.append(f"coupling rods in {counted(coupling, 'place')}")
     if not origins:

@@ -25,6 +25,10 @@ NO_THROW = (
     "counts as 0, because crank.throw_mass is 0 or not given; a throw mass would make the "
     "counterweights heavier by this mass at the crank radius"
 )
+PIN_ALONE = (
+    "The throw counts as its crank pin alone: a web given by profile or mass does not tell what "
+    "belongs to its cheek."
+)
 WHOLE_PISTON = "piston complete"
 ROTATING = ("big end", "rod bearing", "oil")
 PISTON = (WHOLE_PISTON, *PISTON_PARTS)
@@ -66,8 +70,10 @@ class Bobweight(NamedTuple):
         reciprocating_g: Sum of all reciprocating parts.
         bobweight_g: Rotating mass plus factor times reciprocating mass.
         throw_g: Part of the throw mass (at the crank radius) that belongs to this pin;
-            counterweights balance this mass in addition to the bobweight.
+            counterweights balance this mass in addition to the bobweight. With webs, pin and
+            cheeks; the pin alone if the file gives a web by its profile or mass.
         lines: All parts that are weighed, in the order of the card.
+        is_whole_throw: Whether `throw_g` has the cheeks as well.
     """
 
     throw: int
@@ -83,6 +89,7 @@ class Bobweight(NamedTuple):
     bobweight_g: float
     throw_g: float
     lines: tuple[CardLine, ...]
+    is_whole_throw: Annotated[bool, HIDDEN] = True
 
 
 def fill_card(engine: Engine, factor: float) -> tuple[Bobweight, ...]:
@@ -93,6 +100,7 @@ def fill_card(engine: Engine, factor: float) -> tuple[Bobweight, ...]:
 def _weigh(engine: Engine, rows: list[int], factor: float) -> Bobweight:
     masses = [engine.weighed[row] for row in rows]
     lines = _list_lines(masses)
+    shares = [engine.find_throw_share(row) for row in rows]
 
     def total(*parts: str) -> float:
         return sum(line.sum_g for line in lines if line.part in parts)
@@ -111,8 +119,9 @@ def _weigh(engine: Engine, rows: list[int], factor: float) -> Bobweight:
         rotating_g=rotating,
         reciprocating_g=reciprocating,
         bobweight_g=rotating + factor * reciprocating,
-        throw_g=1e3 * sum(float(one.share) for one in masses),
+        throw_g=1e3 * sum(share.mass for share in shares),
         lines=lines,
+        is_whole_throw=all(share.is_whole for share in shares),
     )
 
 

@@ -27,12 +27,13 @@ from .bobweights import DEFINITION, NO_THROW, Bobweight, FactorPeaks, PlaneNeed,
 from .fitting import LEFT, Fitting, Slot
 from .options import SchemeOptions
 from .planes import SAME_PLACE, find_unbalance, move_along, read_planes
-from .remedy import Remedy, fit_devices, remove_counterweights
+from .remedy import Remedy, fit_devices, remove_weights_beside_webs
 
 _NEARLY = 0.05  # masses nearly cancel if their vector sum is below this share of the largest mass
 _FLAT = 1e-9  # factors are equally good if their peaks differ by this share of the largest or less
 _ROUNDS = 32  # number of search steps; they narrow the range of factors to 2e-7 of its width
 _MEASURED = "Opposite the pin: the counterweights that the measured mass implies"
+_BESIDE_WEBS = "At the pin: what the measured mass implies beyond the webs of the file"
 _UNCHANGED = 1e-9  # a bobweight that changes by a smaller share counts as unchanged
 
 
@@ -105,9 +106,11 @@ def size_by_factor(engine: Engine, options: SchemeOptions) -> Remedy:
     own = bool(_find_counterweights(engine)[1].any())
     note = _note(fitting, best, fitted.z, own)
     if not note and options.planes is None and planes is not None:
+        whose = "the file's counterweights" if engine.webs is None else "the webs"
         note = Message(
-            "the weights are in the planes of the file's counterweights; {planes} throws computes "
-            "weights for every throw instead"
+            "the weights are in the planes of {whose}; {planes} throws computes weights for every "
+            "throw instead",
+            whose=whose,
         )
     return fitting.remedy._replace(
         note=note,
@@ -343,10 +346,12 @@ def _change_measured(engine: Engine, options: SchemeOptions) -> Remedy:
     for rows, bobweight in zip(engine.rows_by_pin, card, strict=True):
         pin, z = _locate_pin(engine, rows, masses[rows])
         slots.append(Slot("counterweight", 1, 1, z))
-        unbalances.append(-(measured + bobweight.throw_g / 1e3) * pin)
+        turning = measured + sum(float(engine.weighed[row].share) for row in rows)
+        unbalances.append(-turning * pin - _sum_webs(engine, rows[0]))
         changes.append(_describe_change(bobweight, measured, abs(pin)))
-    bare = remove_counterweights(engine)
-    start = Fitting.start(bare, "factor").add(slots, unbalances, _MEASURED).remedy
+    bare = remove_weights_beside_webs(engine)
+    implied = _MEASURED if engine.webs is None else _BESIDE_WEBS
+    start = Fitting.start(bare, "factor").add(slots, unbalances, implied).remedy
     base = fit_devices(bare, start)
     remedy = size_by_factor(base, wanted)
     remedy = remedy.add_details(
@@ -356,6 +361,15 @@ def _change_measured(engine: Engine, options: SchemeOptions) -> Remedy:
         change=changes,
     )
     return remedy._replace(start=base)
+
+
+def _sum_webs(engine: Engine, row: int) -> complex:
+    """Return the unbalance of the webs of a cylinder's throw at crank angle 0, kg m; 0 if the file
+    has none.
+    """
+    if engine.webs is None:
+        return 0j
+    return complex(engine.webs.find_unbalance(engine.weighed[row].throw))
 
 
 def _describe_change(bobweight: Bobweight, measured: float, radius: float) -> Node:
@@ -378,10 +392,14 @@ def _describe_change(bobweight: Bobweight, measured: float, radius: float) -> No
 
 def _choose_planes(engine: Engine, options: SchemeOptions) -> tuple[float, ...] | None:
     """Return the given planes (z, m), ascending, each once. By default, return those of the file's
-    counterweights if there are at least two, else None (the planes of the pins).
+    counterweights if there are at least two, else None (the planes of the pins). A file with webs
+    has those of its webs.
     """
     if options.planes is None:
-        places = np.round(_find_counterweights(engine)[0], 12)  # without rounding errors
+        places = _find_counterweights(engine)[0]
+        if engine.webs is not None:
+            places = np.array([float(web.z) for web in engine.webs.webs])
+        places = np.round(places, 12)  # without rounding errors
         own = np.unique(places)
         return tuple(own.tolist()) if len(own) > 1 and engine.places_known else None
     if not engine.places_known:

@@ -148,6 +148,13 @@ def fit_devices(engine: Engine, remedy: Remedy) -> Engine:
     return replace(engine, devices=devices, model=_fit_model(engine.model, remedy))
 
 
+def remove_weights_beside_webs(engine: Engine) -> Engine:
+    """Return the engine without the tables [[counterweight]] of its file; webs remain."""
+    devices = [device for device in engine.devices if device.web or not device.is_counterweight]
+    model = engine.model and engine.model.model_copy(update={"counterweight": ()})
+    return replace(engine, devices=tuple(devices), model=model)
+
+
 def remove_counterweights(engine: Engine) -> Engine:
     """Return the engine without the counterweights of its file; coupling rods remain."""
     devices = tuple(device for device in engine.devices if not device.is_counterweight)

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from ...core.cylinders import Device, DeviceKind
-from ...core.phasors import Figure, unit
+from ...core.phasors import Complex, Figure, unit
 from ...errors import BalcliError, InputError, Message, Problem
 from ...file.csv_columns import locate_beside
 from ...file.model import EngineFile
@@ -66,6 +66,18 @@ class Webs(NamedTuple):
         for web in self.webs:
             kinds[web.table] = (*kinds.get(web.table, ()), web)
         return dict(sorted(kinds.items()))
+
+    def find_cheeks(self, throw: int) -> float | None:
+        """Return the unbalance of the cheeks of a throw (index from 0) towards its crank pin, kg m;
+        None if the file gives a web of it without its shape.
+        """
+        unbalances = [web.body.at_pin for web in self.webs if web.throw == throw]
+        known = [unbalance.real for unbalance in unbalances if unbalance is not None]
+        return sum(known) if len(known) == len(unbalances) else None
+
+    def find_unbalance(self, throw: int) -> complex | Complex:
+        """Return the unbalance of the webs of a throw (index from 0) at crank angle 0, kg m."""
+        return sum(web.device.forward for web in self.webs if web.throw == throw)
 
     @property
     def inertia(self) -> float | None:
