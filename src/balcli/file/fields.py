@@ -347,15 +347,26 @@ class OneOrEach:
         one: Type of a figure.
         count: Number of figures in a list; 0: any number.
         copies: Number of members for which a single figure is repeated; 0: it is not repeated.
+        words: Words that may stand in place of figures.
     """
 
-    def __init__(self, one: _Field, count: int = 0, copies: int = 0) -> None:
+    def __init__(
+        self, one: _Field, count: int = 0, copies: int = 0, words: tuple[str, ...] = ()
+    ) -> None:
         self.one = one
         self.count = count
         self.copies = copies
+        self.words = words
 
     def read_one(self, value: object) -> object:
-        """Return the stored form of a figure that holds for all members."""
+        """Return the stored form of a figure that holds for all members, or a word."""
+        if self.words and isinstance(value, str) and value.strip()[:1].isalpha():
+            if value in self.words:
+                return value
+            words = " or ".join(f'"{word}"' for word in self.words)
+            raise ValueError(
+                f"{shorten(value)} is no known word; give a figure, a list, or {words}"
+            )
         return (self.one.read(value),) * self.copies if self.copies else self.one.read(value)
 
     def __get_pydantic_core_schema__(
@@ -376,7 +387,10 @@ class OneOrEach:
         self, schema: CoreSchema, handler: GetJsonSchemaHandler
     ) -> Node:
         one = self.one.json()
-        return {"anyOf": [one, handler(schema)]} | {key: one[key] for key in one.keys() & {"unit"}}
+        forms = [one, handler(schema)]
+        if self.words:
+            forms.append({"enum": list(self.words)})
+        return {"anyOf": forms} | {key: one[key] for key in one.keys() & {"unit"}}
 
 
 class NumberOrTable:

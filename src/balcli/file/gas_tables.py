@@ -462,9 +462,9 @@ class Flywheel(FileTable):
 
 
 class Bearing(FileTable):
-    """Dimensions of the crankshaft's bearings, for bearing loads per area."""
-
-    choices = (Choice((("main_diameter", "main_width"),), complete=True),)
+    """Dimensions of the crankshaft's bearings, for bearing loads per area and the stiffness of
+    throws.
+    """
 
     pin_diameter: Size | None = None
     """Diameter of the crank pins. Example: 48"""
@@ -473,13 +473,16 @@ class Bearing(FileTable):
     pin_width: Size | None = None
     """Width of the big-end bearing of each rod. Example: 20"""
     pin_length: Size | None = None
-    """Length of each crank pin between its two webs, needed with [[web]]. Example: 27"""
+    """Length of each crank pin between its two webs, needed with [[web]] and for the stiffness of a
+    throw. Example: 27"""
     main_diameter: Size | None = None
     """Diameter of the main journals. Example: 60"""
     main_bore: Distance = 0.0
     """Inner diameter of hollow main journals. Example: 20"""
     main_width: Size | None = None
     """Width of each main bearing. Example: 22"""
+    main_length: Size | None = None
+    """Length of each main journal between two webs, for the stiffness of a throw. Example: 26"""
     main_positions: Lengths | None = None
     """Axial positions of all main bearings, ascending; left out: half-way between neighbouring
     throws, and as far outside the end throws. Example: [-186, -93, 0, 93, 186]"""
@@ -487,6 +490,17 @@ class Bearing(FileTable):
     def _check_pin_width(self) -> Iterator[str]:
         if self.pin_width is not None and self.pin_diameter is None:
             yield "has pin_width without pin_diameter; give both pin_diameter and pin_width"
+
+    def _check_main_diameter(self) -> Iterator[str]:
+        """Check that sizes of the main journals come with their diameter, and the other way."""
+        sizes = [key for key in ("main_width", "main_length") if self.has(key)]
+        both = "give both main_diameter and main_width"
+        if self.main_diameter is None:
+            for key in sizes:
+                wanted = both if key == "main_width" else f"give both main_diameter and {key}"
+                yield f"has {key} without main_diameter; {wanted}"
+        elif not sizes:
+            yield f"has main_diameter without main_width; {both}"
 
     def _check_bores(self) -> Iterator[str]:
         """Check that a hollow journal has a diameter larger than its bore."""

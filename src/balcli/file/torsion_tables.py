@@ -351,20 +351,39 @@ class ThrowDamper(FileTable):
 _Parts = Annotated[tuple[Part, ...], Field(max_length=MOST_TORSION_NODES)]
 
 
+KER_WILSON = "ker-wilson"
+CARTER = "carter"
+THROW_FORMULAS = (KER_WILSON, CARTER)  # formulas of the stiffness of a throw
+
+
 class Torsion(ChainKeys):
     """Torsional vibration: a node for each throw, and parts before and behind the throws."""
 
-    throw_stiffness: Annotated[tuple[float, ...], OneOrEach(_STIFFNESS, copies=1)] | None = None
-    """Torsional stiffness between neighbouring throws: one figure for all of them, or a list.
-    Example: 1.25e6
+    throw_stiffness: (
+        Annotated[tuple[float, ...] | str, OneOrEach(_STIFFNESS, copies=1, words=THROW_FORMULAS)]
+        | None
+    ) = None
+    """Torsional stiffness between neighbouring throws: one figure for all of them, or a list; the
+    word "ker-wilson" or "carter": it follows from dimensions by this formula; left out: the mean of
+    both formulas. Example: 1.25e6
     """
+    web_thickness: Size | None = None
+    """Thickness of a web along the shaft, for the stiffness from dimensions; left out: that of
+    [[web]], if all webs have the same. Example: 20"""
+    web_width: Size | None = None
+    """Width of a web across the shaft, half-way between pin and journal, for the stiffness from
+    dimensions. Example: 82"""
+    shear_modulus: Annotated[float, Number(SHEAR_MODULUS, above=0, most=1e6)] = 79.3
+    """Shear modulus of the throws; default: steel. Example: 79.3"""
     throw_inertia: Annotated[tuple[float, ...], OneOrEach(INERTIA_ABOVE_0, copies=1)] | None = None
     """Moment of inertia of the crankshaft at each throw with its counterweights, without rods and
     pistons: one figure for all, or a list; left out: an equal share of crank.inertia. Example:
     46700
     """
     throw_diameter: Size | None = None
-    """Diameter of the crankshaft between throws, needed for its stress. Example: 85"""
+    """Diameter of the crankshaft between throws, needed for its stress; left out: that of the main
+    journal or crank pin, whichever has the larger stress, if all dimensions of a throw are given.
+    Example: 85"""
     throw_bore: Size | None = None
     """Diameter of the bore of a hollow crankshaft between throws. Example: 30"""
     damping: Damping = 0.0
@@ -381,3 +400,9 @@ class Torsion(ChainKeys):
 
     def _check_bore(self) -> Iterator[str]:
         yield from self.check_below("throw_bore", "throw_diameter")
+
+    @property
+    def given_stiffness(self) -> tuple[float, ...]:
+        """Stiffness between throws, one figure or several; empty if it follows from dimensions."""
+        given = self.throw_stiffness
+        return () if given is None or isinstance(given, str) else given

@@ -10,11 +10,18 @@ from itertools import chain
 from math import isfinite
 from typing import NamedTuple
 
+import numpy as np
+
 from ..engine.build import assemble, build
 from ..engine.parts import Parts
 from ..file.model import Counterweight, EngineFile, Shaft, Slider
 from ..file.table import label_table
 from ..file.torsion_tables import Part, find_stiffness
+from ..torsional_vibration.throw_stiffness import (
+    ThrowStiffness,
+    find_throw_size,
+    find_throw_stiffness,
+)
 from .quantity_names import ENGINE, MOUNTS, TORSION
 
 # Keys of the masses and inertia of a rod, with the number of file units in one SI unit.
@@ -63,6 +70,7 @@ class Source(NamedTuple):
         group: Word before the number, if other parts of this kind have other words: `throw`.
         engine: Name of the engine, if the file has several.
         aspect: Word behind the number, such as the dimension that deviates: `thickness`.
+        by_formulas: Whether the tolerance is half of the difference of two formulas.
     """
 
     kind: str
@@ -73,6 +81,7 @@ class Source(NamedTuple):
     group: str = ""
     engine: str = ""
     aspect: str = ""
+    by_formulas: bool = False
 
     @property
     def stem(self) -> str:
@@ -118,8 +127,9 @@ def find_sources(
     if chapter == MOUNTS:
         deviating = _list_mounts(model, within)
     elif chapter == TORSION:
+        spread = _find_half_spread(model)
         model = _spell_out_shafting(model)
-        deviating = _list_shafting(model, within)
+        deviating = _list_shafting(model, within, spread)
     else:
         model = _spell_out_throws(model, angles=bool(within.angle_deg))
         of_devices = _list_devices(model, within)
@@ -299,6 +309,22 @@ def _list_mounts(model: EngineFile, within: Tolerances) -> Iterator[Source]:
         yield _relative("stiffness", label, tolerance, figures)
 
 
+def _find_throw(model: EngineFile) -> ThrowStiffness | None:
+    """Return the stiffness of throws if it follows from dimensions, else None."""
+    if model.torsion is None or model.torsion.given_stiffness:
+        return None
+    size = find_throw_size(model, build(model))
+    return find_throw_stiffness(model.torsion, size, np.arange(1))
+
+
+def _find_half_spread(model: EngineFile) -> float:
+    """Return half of the relative difference of the two formulas by which the stiffness of throws
+    follows from dimensions; 0 if the file gives the stiffness.
+    """
+    throw = _find_throw(model)
+    return 0.0 if throw is None or throw.spread is None else throw.spread / 2
+
+
 def _spell_out_shafting(model: EngineFile) -> EngineFile:
     """Return the file with separate stiffnesses and inertias for all throws, and with a stiffness
     for every shaft that is given by its length.
@@ -307,7 +333,9 @@ def _spell_out_shafting(model: EngineFile) -> EngineFile:
     if torsion is None:
         return model
     throws = len(build(model).throws_m)
-    stiffness = torsion.throw_stiffness or ()
+    throw = _find_throw(model)
+    own = () if throw is None or throw.used is None else (throw.used,)
+    stiffness = torsion.given_stiffness or own
     inertia = torsion.throw_inertia
     return model.with_table(
         "torsion",
@@ -322,16 +350,24 @@ def _stiffen(part: Part) -> Part:
     return part.model_copy(update={"stiffness": find_stiffness(part), "length": None})
 
 
-def _list_shafting(model: EngineFile, within: Tolerances) -> Iterator[Source]:
-    """Yield the stiffness of each shaft, the inertia of each node, and the mass of each piston."""
+def _list_shafting(model: EngineFile, within: Tolerances, spread: float) -> Iterator[Source]:
+    """Yield the stiffness of each shaft, the inertia of each node, and the mass of each piston.
+
+    Args:
+        model: File that gives a stiffness and an inertia for each throw.
+        within: Tolerances.
+        spread: Least tolerance of the stiffness of throws.
+    """
     torsion = model.torsion
     mass = within.mass
     if torsion is None:
         return
     elastic = OF_SHAFTS if within.stiffness is None else within.stiffness
-    for k, value in enumerate(torsion.throw_stiffness or (), 1):
+    for k, value in enumerate(torsion.given_stiffness, 1):
         path = f"torsion.throw_stiffness.{k}"
-        yield _relative("stiffness", f"{k}-{k + 1}", elastic, {path: value}, "throw")
+        tolerance = max(elastic, spread)
+        of_throw = _relative("stiffness", f"{k}-{k + 1}", tolerance, {path: value}, "throw")
+        yield of_throw._replace(by_formulas=spread > elastic)
     for k, value in enumerate(torsion.throw_inertia or (), 1):
         path = f"torsion.throw_inertia.{k}"
         yield _relative("inertia", k, mass, {path: value}, "throw")

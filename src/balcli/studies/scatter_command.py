@@ -30,6 +30,10 @@ if TYPE_CHECKING:
 
 SHOWN = 6  # largest number of changes of each quantity in a table
 BOUND = "Bound: nominal value plus the magnitudes of all single changes; variants may exceed it"
+BY_FORMULAS = (
+    "Throws: half of the difference of the two formulas by which their stiffness follows from "
+    "dimensions."
+)
 _SHAPES = {
     "uniform": "deviations evenly distributed",
     "normal": (
@@ -69,7 +73,9 @@ def sheet(result: Scatter, system: System) -> Sheet:
         for change, part in parts:
             causes.append((head, change, part))
             head = ""  # only the first row of a quantity names it
-    notes = (f"{_list_tolerances(result)}.", f"{BOUND}.", tell_speeds(result.quantities))
+    formulas = BY_FORMULAS if any(part.by_formulas for part in result.parts) else ""
+    tolerances = f"{_list_tolerances(result)}."
+    notes = (tolerances, formulas, f"{BOUND}.", tell_speeds(result.quantities))
     note = " ".join(filter(None, notes))
     title = f"Spread of {count_name(result.samples)} random {result.varied}"
     spread_of_all = Grid.of_rows(title, heads, lines, note)
@@ -85,7 +91,7 @@ def _list_tolerances(result: Scatter) -> str:
     for part in result.parts:
         size = f"{part.tolerance:g} {part.unit}"
         if part.is_relative:
-            size = f"{100 * part.tolerance:g} %"
+            size = f"{100 * part.tolerance:.4g} %"
         kinds.setdefault(size, {})[f"{part.kind} {part.aspect}".rstrip()] = None
     message = "; ".join(f"{', '.join(names)} ±{size}" for size, names in kinds.items())
     return f"Tolerances: {message}; {_SHAPES[result.distribution]}"

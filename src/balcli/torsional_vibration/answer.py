@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 from ..core.phases import RPM
 from ..core.phasors import Array
 from ..core.records import HIDDEN, Asked, change_attributes
-from ..core.vibration import Real
+from ..core.vibration import Indices, Real
 from ..engine.engine import CylinderNumber, Engine, take_model
 from ..engine.load import build_tables
 from ..errors import Argument, ArgumentError, check_type
@@ -41,6 +41,7 @@ from .modes import (
     Critical,
     NaturalMode,
     OutsideCritical,
+    find_chain_modes,
     find_criticals,
     find_criticals_outside,
     find_natural_modes,
@@ -48,6 +49,7 @@ from .modes import (
 )
 from .response import TorsionResponse, find_response
 from .system import TorsionalSystem
+from .throw_stiffness import ThrowStiffness, Used
 from .verdicts import Judgment, LimitVerdict, judge_system
 from .worst_misfire import WorstMisfire, find_worst_misfire
 
@@ -148,6 +150,30 @@ class HolzerTable:
     end: Annotated[int, HIDDEN]
 
 
+@dataclass(frozen=True, kw_only=True)
+class ThrowFormulas:
+    """Stiffness of the throws by two formulas.
+
+    Attributes:
+        ker_wilson_Nm_per_rad: By Ker Wilson; left out if journal and pin overlap.
+        carter_Nm_per_rad: By Carter.
+        used_Nm_per_rad: Used stiffness; left out if the file gives several.
+        used: Where the used stiffness comes from.
+        spread: Difference of the formulas over their mean; left out if journal and pin overlap.
+        ker_wilson_mode_1_Hz: Frequency of the first mode with Ker Wilson's stiffness in all throws;
+            left out if journal and pin overlap.
+        carter_mode_1_Hz: Frequency of the first mode with Carter's stiffness.
+    """
+
+    ker_wilson_Nm_per_rad: float | None = None
+    carter_Nm_per_rad: float
+    used_Nm_per_rad: float | None = None
+    used: Used
+    spread: float | None = None
+    ker_wilson_mode_1_Hz: float | None = None
+    carter_mode_1_Hz: float
+
+
 _LIMITED = "speeds=[1500, 2000], and a limit in the file"
 _EXCITED = "[gas] in the engine file, or [[excitation]] in the chain file"
 
@@ -182,6 +208,7 @@ class TorsionAnalysis(Result):
             without a limit or without speeds.
         measured: Measured curve of the free end beside the computed one; left out if the file names
             none.
+        throw: Stiffness of the throws from their dimensions; left out without dimensions.
         system: Analyzed system.
     """
 
@@ -203,21 +230,25 @@ class TorsionAnalysis(Result):
     limits: Asked[tuple[LimitVerdict, ...]] = Asked(_LIMITED)
     barred_rpm: Asked[tuple[tuple[float, float], ...]] = Asked(_LIMITED)
     measured: MeasuredCurve | None = None
+    throw: ThrowFormulas | None = None
     system: Annotated[TorsionalSystem, HIDDEN]
 
     @property
     def doubts(self) -> tuple[Doubt, ...]:
-        """Warnings of shafts whose inertia is left out, of speeds for which the file describes no
-        gas, of swings that are too large for the linear model, and of a stress that breaks a shaft.
+        """Warnings of shafts whose inertia is left out, of formulas that differ much, of speeds for
+        which the file describes no gas, of swings that are too large for the linear model, and of a
+        stress that breaks a shaft.
         """
+        throw = self.system.throw
+        of_system = *self.system.doubts, *(() if throw is None else throw.list_doubts())
         if not hasattr(self, "response"):
-            return self.system.doubts
+            return of_system
         excitation = self.system.excitation
         of_response = _find_doubts(self.response)
         law = excitation and excitation.gas and excitation.gas.law
         of_gas = law.list_doubts(self.response.speeds_rpm) if law else ()
         of_limits = _doubt_limits(self.system, self.response.speeds_rpm)
-        return *self.system.doubts, *of_gas, *of_response, *of_limits
+        return *of_system, *of_gas, *of_response, *of_limits
 
     @property
     def summary(self) -> str:
@@ -356,8 +387,36 @@ def _analyze_system(
         response=response,
         limits=judgment.verdicts,
         barred_rpm=judgment.barred_rpm,
+        throw=None if system.throw is None else _compare_formulas(system, system.throw),
         system=system,
     )
+
+
+def _compare_formulas(system: TorsionalSystem, throw: ThrowStiffness) -> ThrowFormulas:
+    """Return the stiffness of the throws by both formulas, and the first mode with each."""
+    first = _find_first_mode(system, throw.shafts, throw.carter)
+    formulas = ThrowFormulas(
+        carter_Nm_per_rad=throw.carter,
+        used_Nm_per_rad=throw.used,
+        used=throw.source,
+        carter_mode_1_Hz=first,
+    )
+    if throw.ker_wilson is None:
+        return formulas
+    return replace(
+        formulas,
+        ker_wilson_Nm_per_rad=throw.ker_wilson,
+        spread=throw.spread,
+        ker_wilson_mode_1_Hz=_find_first_mode(system, throw.shafts, throw.ker_wilson),
+    )
+
+
+def _find_first_mode(system: TorsionalSystem, shafts: Indices, stiffness: float) -> float:
+    """Return the frequency of the first mode, Hz, if these shafts have this stiffness, N m/rad."""
+    stiff = system.chain.stiffness.copy()
+    stiff[shafts] = stiffness
+    modes = find_chain_modes(system.chain._replace(stiffness=stiff))
+    return float(modes.omega[modes.rigid]) / (2 * np.pi)
 
 
 def _tabulate(

@@ -27,7 +27,7 @@ from ..engine.engine import Engine
 from ..errors import BalcliError, InputError, Problem
 from ..file.assumed import STEADY, Assumed, assume
 from ..file.doubt import Doubt
-from ..file.fields import counted, shorten
+from ..file.fields import counted, limit_digits, shorten
 from ..file.model import EngineFile
 from ..file.torsion_tables import (
     STEEL,
@@ -58,6 +58,14 @@ from .chain import (
 from .chain_file import ChainFile, refuse_node
 from .permitted import LimitTable, ShaftLimit, list_limits
 from .system import Excitation, Pendulums, TorsionalSystem, ViscousRing
+from .throw_stiffness import (
+    ThrowSize,
+    ThrowStiffness,
+    find_problems,
+    find_throw_size,
+    find_throw_stiffness,
+    find_web_thickness,
+)
 
 NO_DAMPERS: Mapping[str, Damper | None] = MappingProxyType({})
 _LIGHT = 0.05  # negligible inertia of a shaft, as a share of the smaller inertia at its ends
@@ -448,7 +456,7 @@ def build_engine_system(
     throws = list_throws(engine)
     joints = _join_parts(torsion, throws)
     front = len(torsion.front)
-    problems = list(_find_misfits(torsion, engine, throws, joints))
+    problems = list(_find_misfits(model, torsion, engine, throws, joints))
     own_speed = "speed" in model.operation.model_fields_set
     if not own_speed:
         wanted = "rated_speed, or the engine's operation.speed"
@@ -468,13 +476,19 @@ def build_engine_system(
         shaft = PlannedShaft(part.name, place[of], place[part.name], part, ratio)
         known = part.stiffness is not None
         leading.append(shaft._replace(path=f"{path}.stiffness") if known else shaft)
-    plain = ShaftKeys.model_construct(diameter=torsion.throw_diameter, bore=torsion.throw_bore)
-    stiffness = _each(torsion.throw_stiffness or (), len(throws) - 1)
+    size = find_throw_size(model, engine)
+    throw = find_throw_stiffness(torsion, size, np.arange(front, front + len(throws) - 1))
+    assumed = engine.list_assumed("gas", "torsion", without=(*STEADY, "operation.speed")) or ()
+    if throw is not None and throw.follows:
+        assumed = *assumed, *_assume_throw(model, torsion, throw)
+    plain = _make_section(torsion, size)
+    own = () if throw is None or throw.used is None else (throw.used,)
+    stiffness = _each(torsion.given_stiffness or own, len(throws) - 1)
     tables = [plain.model_copy(update={"stiffness": each}) for each in stiffness]
+    given = "torsion.throw_stiffness" if torsion.given_stiffness else ""
     names = enumerate(zip(_name_between(throws), tables, strict=False), front)
     between = [
-        PlannedShaft(name, first, first + 1, table, path="torsion.throw_stiffness")
-        for first, (name, table) in names
+        PlannedShaft(name, first, first + 1, table, path=given) for first, (name, table) in names
     ]
     ends = (
         place[_find_end([j for j in led if j.path.startswith(f"torsion.{key}")], gears, start)]
@@ -491,9 +505,34 @@ def build_engine_system(
         reference=front,
         ends=tuple(ends),
         silent=engine.silent,
-        assumed=engine.list_assumed("gas", "torsion", without=(*STEADY, "operation.speed")) or (),
+        throw=throw,
+        assumed=assumed,
         file=name,
     )
+
+
+def _make_section(torsion: Torsion, size: ThrowSize | None) -> ShaftKeys:
+    """Return diameter and bore of the crankshaft between throws: those of [torsion], else those of
+    the journal or pin with the larger stress.
+    """
+    diameter = torsion.throw_diameter
+    bore = torsion.throw_bore
+    if diameter is None and size is not None:
+        outer, inner = size.weakest_section
+        diameter = 1e3 * outer
+        bore = 1e3 * inner
+    return ShaftKeys.model_construct(diameter=diameter, bore=bore)
+
+
+def _assume_throw(model: EngineFile, torsion: Torsion, throw: ThrowStiffness) -> Iterator[Assumed]:
+    """Yield the values that are used because the file leaves out how stiff its throws are."""
+    if throw.source == "mean" and throw.used is not None:
+        yield assume("torsion.throw_stiffness", torsion, limit_digits(throw.used))
+    thickness = find_web_thickness(model)
+    if torsion.web_thickness is None and thickness is not None:
+        yield assume("torsion.web_thickness", torsion, thickness)
+    if not torsion.has("shear_modulus"):
+        yield assume("torsion.shear_modulus", torsion, torsion.shear_modulus)
 
 
 def _plan_throws(torsion: Torsion, engine: Engine, throws: Sequence[str]) -> Iterator[PlannedNode]:
@@ -640,11 +679,17 @@ def excite_engine(model: EngineFile, engine: Engine, orders: Real | None) -> Exc
 
 # ------------------------------------------------------------------ contradictions in [torsion]
 def _find_misfits(
-    torsion: Torsion, engine: Engine, throws: Sequence[str], joints: Sequence[_Joint]
+    model: EngineFile,
+    torsion: Torsion,
+    engine: Engine,
+    throws: Sequence[str],
+    joints: Sequence[_Joint],
 ) -> Iterator[Problem]:
     if engine.rotary:
         yield Problem("torsion", "needs a crankshaft that turns; that of a rotary engine does not")
         return
+    if len(throws) > 1 and not torsion.given_stiffness:
+        yield from find_problems(model, engine, counted(len(throws), "throw"))
     yield from _check_throws(torsion, engine, len(throws))
     names = [*throws, *(joint.part.name for joint in joints)]
     reserved = {*throws, *_name_between(throws)}
@@ -669,13 +714,10 @@ def _check_throws(torsion: Torsion, engine: Engine, throws: int) -> Iterator[Pro
     """
     places = throws - 1
     in_file = len(engine.throws_m)
-    if torsion.throw_stiffness is None and places:
-        hint = f"give the stiffness between the {counted(throws, 'throw')}, such as "
-        yield Problem.of_missing("torsion.throw_stiffness", f"{hint}throw_stiffness = 1.25e6")
-    lists = ("throw_stiffness", places, places), ("throw_inertia", throws, in_file)
-    for key, needed, also in lists:
-        values = getattr(torsion, key) or [0]
-        if len(values) not in (1, needed, also):
+    stiffness = "throw_stiffness", torsion.given_stiffness, places, places
+    inertia = "throw_inertia", torsion.throw_inertia or (), throws, in_file
+    for key, values, needed, also in (stiffness, inertia):
+        if len(values) not in (0, 1, needed, also):
             text = f"has {len(values)} values, but {counted(throws, 'throw')} need {needed}"
             yield Problem(f"torsion.{key}", f"{text}; give one value for all, or {needed} values")
     for number, each in enumerate(torsion.throw, 1):

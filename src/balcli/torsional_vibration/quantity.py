@@ -93,7 +93,7 @@ class Variants:
         excitation = remember(
             self._excitations, tuple(own.items()), lambda: excite_engine(self._model, engine, None)
         )
-        varied = change_figures(self._model, values, {"torsion"})
+        varied = change_figures(self._model, values, {"torsion", "bearing"})
         system = build_engine_system(varied, engine, excitation)
         figures = dict[str, float]()
         if any(q.kind == "torsion" for q in self._quantities):

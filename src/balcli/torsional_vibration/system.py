@@ -19,6 +19,7 @@ from ..file.doubt import Doubt
 from ..forces.spectrum import GasAtSpeeds
 from .chain import Chain, Damping, find_pieces, pendulum_inertia, pendulum_swing, viscous_inertia
 from .permitted import ShaftLimit
+from .throw_stiffness import ThrowStiffness
 
 
 class ViscousRing(NamedTuple):
@@ -104,6 +105,7 @@ class TorsionalSystem:
         reference: Index of the node to which speeds and orders refer.
         rated_rpm: Speed in the file; None if it gives none.
         silent: Cylinders of the engine that do not fire.
+        throw: Stiffness of the throws from their dimensions; None without dimensions.
         assumed: Values assumed because the file leaves them out.
         file: Name of the file, for messages; may be empty.
     """
@@ -127,6 +129,7 @@ class TorsionalSystem:
     rated_rpm: float | None = None
     reference: int = 0
     silent: SilentCylinders = NONE_SILENT
+    throw: ThrowStiffness | None = None
     assumed: tuple[Assumed, ...] = ()
     file: str = ""
 
