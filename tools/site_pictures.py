@@ -44,7 +44,7 @@ def main() -> None:
         page.write_text(make_play_page(), encoding="utf-8")
         browser = Browser(Path(folder) / "profile")
         for screen in SCREENS:
-            browser.open(page, screen.width, screen.height, screen.dark)
+            browser.open(page, width=screen.width, height=screen.height, dark=screen.dark)
             browser.run(SETTLED)
             taken = browser.call("Page.captureScreenshot", format="png")["data"]
             write_picture(base64.b64decode(taken), ROOT / "docs" / screen.file)

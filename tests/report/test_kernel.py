@@ -4,24 +4,18 @@ sides of limits, devices and rods of every form. Figures of the page are those o
 
 import pytest
 from support.browser import live
-from support.commands import ask
 from support.engines import GOOD, build_text, changed
 from support.kernel import answer, compute, differences, find_findings
-from support.paths import write
-from support.pictures import without_pictures
 
 from balcli.report.live import describe_engine, explain_still
 from balcli.show.sheet import number
 from balcli.sizing.ladder import find_ladder
 
 
-@pytest.fixture(scope="module")
-def page(browser, tmp_path_factory):
+@pytest.fixture
+def page(browser, report):
     """A browser with the page of a plain engine."""
-    folder = tmp_path_factory.mktemp("kernel")
-    with without_pictures():
-        ask("-q", "report", write(folder / "engine.toml", GOOD), "-o", folder / "page.html")
-    browser.open(folder / "page.html")
+    browser.keep(report(GOOD))
     return browser
 
 

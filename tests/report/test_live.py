@@ -9,7 +9,6 @@ from functools import cache
 from urllib.parse import quote
 
 import pytest
-from docs_site import make_play_page
 from support.browser import live
 from support.cases import slow
 from support.commands import ask, ask_json
@@ -40,43 +39,27 @@ WEIGHED = GOOD + "[[counterweight]]\nmass = 2\nradius = 50\nangle = 180\n"
 HOSTILE = '</script><img src=x onerror=alert(1)> & "quoted" {{ 7 * 7 }} 发动机'
 
 
-@pytest.fixture(scope="module")
-def play(tmp_path_factory):
-    return write(tmp_path_factory.mktemp("site") / "play.html", make_play_page())
-
-
-@pytest.fixture(scope="module")
-def report(tmp_path_factory):
-    """The file with the page of an engine, without pictures, written once: a function of the engine file's text and
-    name, and of options.
-    """
-
-    @cache
-    def write_page(text: str, name: str, *options: str):
-        folder = tmp_path_factory.mktemp("page")
-        with without_pictures():
-            ask("-q", "report", write(folder / name, text), *options, "-o", folder / "page.html")
-        return folder / "page.html"
-
-    return write_page
-
-
 @pytest.fixture
 def show(browser, report):
+    """Show the page of an engine, anew or with another address: the state of a page is that of its address."""
+
     def opened(text: str = GOOD, address: str = "", *options: str, name: str = "engine.toml", **how):
-        browser.open(report(text, name, *options), **how)
-        browser.run(WAIT)
+        page = report(text, *options, name=name)
         if address:
+            browser.keep(page, **how)
             go(browser, address)
+        else:
+            browser.open(page, **how)
         return browser
 
     return opened
 
 
 def go(page, address):
-    """Follow an address within the page."""
+    """Follow an address within the page, which may have it already."""
     listen = "addEventListener('hashchange', () => setTimeout(done, 0), { once: true })"
-    page.run(f"new Promise(done => {{ {listen}; location.hash = {json.dumps(address)}; }})")
+    follow = f"history.replaceState(null, '', location.pathname), location.hash = {json.dumps(address)}"
+    page.run(f"new Promise(done => {{ {listen}; {follow}; }})")
 
 
 def figures(page):
@@ -107,7 +90,7 @@ STEPS_OF_EXAMPLES = [8, *slow(1)]
 @live
 @pytest.mark.parametrize("step", STEPS_OF_EXAMPLES)
 def test_the_kernel_agrees_on_examples(browser, play, step):
-    browser.open(play)
+    browser.keep(play)
     known = list_known(step)
     assert len(known) > 60 / step
     made = compute(browser, [[data, values(data)] for *_, data in known])
@@ -142,7 +125,7 @@ def change_some(seed, count):
 @live
 @pytest.mark.stress
 def test_the_kernel_agrees_on_random_engines(browser, play):
-    browser.open(play)
+    browser.keep(play)
     tried = change_some(5, 300)
     made = compute(browser, [[data, values(data) | new] for new, _, data in tried])
     wrong = [(new, each) for (new, engine, _), found in zip(tried, made, strict=True)
@@ -198,14 +181,14 @@ def check_tables(browser, states):
 @live
 @pytest.mark.parametrize("step", STEPS_OF_EXAMPLES)
 def test_the_tables_are_those_of_the_command(browser, play, step):
-    browser.open(play)
+    browser.keep(play)
     check_tables(browser, [(engine, data, values(data)) for _, _, engine, data in list_known(step)])
 
 
 @live
 @pytest.mark.parametrize("count", [10, *slow(200)])
 def test_the_tables_of_random_engines_are_those_of_the_command(browser, play, count):
-    browser.open(play)
+    browser.keep(play)
     check_tables(browser, [(engine, data, values(data) | new) for new, engine, data in change_some(7, count)])
 
 
@@ -335,7 +318,7 @@ STEPS = "[...document.querySelectorAll('#ladder-table tbody th')].map(cell => ce
 @live
 @pytest.mark.parametrize("step", STEPS_OF_EXAMPLES)
 def test_steps_have_the_names_of_the_command(browser, play, step):
-    browser.open(play)
+    browser.keep(play)
     for name, _, engine, _ in list_known(step):
         go(browser, f"#engine={name}")
         listed = [f"{row} {each.step}" for row, each in enumerate(find_ladder(engine).steps)]
@@ -344,7 +327,7 @@ def test_steps_have_the_names_of_the_command(browser, play, step):
 
 @live
 def test_the_command_takes_the_names_of_steps(browser, play, tmp_path):
-    browser.open(play)
+    browser.keep(play)
     file = write(tmp_path / "i3.toml", examples.text("i3"))
     go(browser, "#engine=i3")
     for step in browser.run(STEPS)[1:]:
@@ -358,7 +341,7 @@ def test_the_command_takes_the_names_of_steps(browser, play, tmp_path):
 @pytest.mark.parametrize("step", STEPS_OF_EXAMPLES)
 def test_the_page_finds_what_the_command_finds(browser, play, small, step):
     """On examples, and with a further shaft and counterweight."""
-    browser.open(play)
+    browser.keep(play)
     more = {"shaft.9.ratio": -1, "shaft.9.unbalance": 20000, "shaft.9.angle": 30, "shaft.9.position": 40}
     more |= {"counterweight.9.unbalance": 7000, "counterweight.9.angle": 170, "counterweight.9.position": -20}
     known = list_known(step)
@@ -383,7 +366,7 @@ def with_more(model):
 @live
 @pytest.mark.stress
 def test_the_page_finds_what_the_command_finds_on_random_engines(browser, play):
-    browser.open(play)
+    browser.keep(play)
     tried = change_some(6, 200)
     made = compute(browser, [[data, values(data) | new] for new, _, data in tried])
     wanted = [find_findings(engine) for _, engine, _ in tried]
@@ -513,11 +496,10 @@ def test_moments_that_are_not_known_are_said_to_be_unknown(show):
 
 @live
 def test_roll_with_gas_is_headed_as_of_inertia(browser, play):
-    browser.open(play)
+    browser.keep(play)
     head = "document.querySelector('#largest-list dt').textContent"
     go(browser, "#engine=i4_wiebe")
     assert browser.run(head) == "roll moment, inertia alone"
-    browser.open(play)
     go(browser, "#engine=vtwin45")
     assert browser.run(head) == "roll moment"
 
@@ -609,7 +591,7 @@ def analyze_file(path):
 )
 def test_another_bank_angle_or_throw_makes_a_file_that_is_read(browser, play, tmp_path, name):
     """A firing order that fits the former throws alone is left out; the numbering stays."""
-    browser.open(play)
+    browser.keep(play)
     known = values(describe(name)[2])
     changed = "layout.bank_angle" if "layout.bank_angle" in known else "crank.throws.2"
     go(browser, f"#engine={name}&{changed}={known[changed] + 7}")

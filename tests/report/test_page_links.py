@@ -7,12 +7,8 @@ import tomllib
 import zlib
 
 import pytest
-from docs_site import make_play_page
 from support.browser import live
-from support.commands import ask
 from support.engines import GOOD, RADIAL
-from support.paths import write
-from support.pictures import without_pictures
 
 from balcli import load_example
 from balcli.report.live import explain_still
@@ -21,22 +17,10 @@ WAIT = "new Promise(done => setTimeout(done, {}))"
 KEEP = "window.sent = '', Object.defineProperty(navigator, 'clipboard', { value: { writeText: async (text) => { sent = text; } } }), 0"
 
 
-@pytest.fixture(scope="module")
-def play(tmp_path_factory):
-    return write(tmp_path_factory.mktemp("site") / "play.html", make_play_page())
-
-
-def report(folder, text, *options):
-    """The page of an engine file."""
-    with without_pictures():
-        ask("-q", "report", write(folder / "mine.toml", text), *options, "-o", folder / "mine.html")
-    return folder / "mine.html"
-
-
-@pytest.fixture(scope="module")
-def page(browser, tmp_path_factory):
+@pytest.fixture
+def page(report):
     """The page of a four."""
-    return report(tmp_path_factory.mktemp("page"), GOOD)
+    return report(GOOD)
 
 
 def copy_link(browser):
@@ -91,8 +75,8 @@ def test_a_damaged_link_says_so_and_the_page_shows_its_first_engine(browser, pag
 
 @live
 @pytest.mark.parametrize(("more", "fits"), [(19_000, True), (20_500, False)])
-def test_a_long_file_has_to_be_sent_itself(browser, tmp_path, more, fits):
-    browser.open(report(tmp_path, GOOD + f"# {'x' * (more - len(GOOD))}\n"))
+def test_a_long_file_has_to_be_sent_itself(browser, report, more, fits):
+    browser.open(report(GOOD + f"# {'x' * (more - len(GOOD))}\n"))
     state = browser.run("[link.disabled, link.textContent]")
     assert state == ([False, "Copy link"] if fits else [True, "Too long for a link: send the file"])
 
@@ -100,9 +84,9 @@ def test_a_long_file_has_to_be_sent_itself(browser, tmp_path, more, fits):
 # ------------------------------------------------------------------ steps and schemes
 @live
 @pytest.mark.parametrize("text", [GOOD, RADIAL])
-def test_a_step_that_the_engine_does_not_have_is_an_error(browser, tmp_path, text):
+def test_a_step_that_the_engine_does_not_have_is_an_error(browser, report, text):
     """Also on a page without sliders, whose steps are in its address, too."""
-    file = report(tmp_path, text)
+    file = report(text)
     browser.open(file)
     steps = browser.run("document.querySelectorAll('#ladder-table tbody tr').length")
     browser.open(file, address="#step=9")
@@ -116,8 +100,8 @@ SCHEMES = "[...document.querySelectorAll('#steps label')].filter(one => one.text
 
 
 @live
-def test_a_scheme_is_one_more_choice_and_greyed_after_a_change(browser, tmp_path):
-    browser.open(report(tmp_path, GOOD, "--scheme", "two-shaft"))
+def test_a_scheme_is_one_more_choice_and_greyed_after_a_change(browser, report):
+    browser.open(report(GOOD, "--scheme", "two-shaft"))
     assert browser.run(SCHEMES) == [["scheme two-shaft", False, True]]
     browser.run("Live.change('rod.length', 170)")
     assert browser.run(SCHEMES) == [["scheme two-shaft", True, False]]
@@ -172,11 +156,11 @@ exhaust_opens = 110
 
 
 @live
-def test_a_stroke_that_makes_it_an_engine_with_crosshead_is_refused_where_the_power_is_of_gas(browser, tmp_path):
+def test_a_stroke_that_makes_it_an_engine_with_crosshead_is_refused_where_the_power_is_of_gas(browser, report):
     """Both sides of 2.5 bores; with its power in the file, the page computes such an engine."""
     refused = {}
     for text in (TRUNK, TRUNK.replace("speed = 4000", "speed = 4000\npower = 20")):
-        browser.open(report(tmp_path, text))
+        browser.open(report(text))
         for stroke in (149, 151):
             browser.run(f"Live.change('crank.stroke', {stroke})")
             refused[stroke] = [*refused.get(stroke, []), "with crossheads" in browser.read("live-wrong")]

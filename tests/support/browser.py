@@ -6,7 +6,7 @@ import os
 import shutil
 import subprocess
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import pytest
 
@@ -19,6 +19,15 @@ CHROMIUM = next(
 def live(test):
     """A test that needs a browser."""
     return pytest.mark.browser(pytest.mark.skipif(CHROMIUM is None, reason="no Chromium is installed")(test))
+
+
+class View(NamedTuple):
+    """How a page is shown; one that is `still` moves only if it is asked to."""
+
+    width: int = 1280
+    height: int = 900
+    dark: bool = False
+    still: bool = True
 
 
 class Browser:
@@ -51,6 +60,7 @@ class Browser:
         self._session = ""
         self.complaints: list[str] = []
         self.requests: list[str] = []
+        self._shown: tuple[Path, View] | None = None
         target = self.call("Target.createTarget", url="about:blank")["targetId"]
         self._session = self.call("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
         for domain in ("Page", "Runtime", "Log", "Network"):
@@ -69,26 +79,31 @@ class Browser:
             raise RuntimeError(f"{method}: {answer['error']}")
         return answer["result"]
 
-    def open(
-        self,
-        page: Path,
-        width: int = 1280,
-        height: int = 900,
-        dark: bool = False,
-        still: bool = True,
-        address: str = "",
-    ) -> None:
-        """Show a file and wait until it is loaded. Pages that are `still` move only if they are asked to."""
-        self.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
-        scheme = {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}
-        motion = {"name": "prefers-reduced-motion", "value": "reduce" if still else "no-preference"}
+    def open(self, page: Path, address: str = "", **how: Any) -> None:
+        """Show a file and wait until it is loaded; `how`: attributes of `View`."""
+        view = View(**how)
+        size = {"width": view.width, "height": view.height}
+        self.call("Emulation.setDeviceMetricsOverride", **size, deviceScaleFactor=1, mobile=False)
+        scheme = {"name": "prefers-color-scheme", "value": "dark" if view.dark else "light"}
+        motion = {"name": "prefers-reduced-motion", "value": "reduce" if view.still else "no-preference"}
         self.call("Emulation.setEmulatedMedia", features=[scheme, motion])
         self.complaints = []
         self.requests = []
+        self._shown = page, view
         for url in ("about:blank", page.as_uri() + address):  # another address alone loads no page
             self.call("Page.navigate", url=url)
             while self._next().get("method") != "Page.loadEventFired":
                 pass
+
+    def keep(self, page: Path, **how: Any) -> bool:
+        """Show a file, but leave it as it is if it is shown already; return whether it was. Loading a page takes
+        longer than most of what tests do with it.
+        """
+        kept = self._shown == (page, View(**how))
+        if not kept:
+            self.open(page, **how)
+        self.complaints = []
+        return kept
 
     def run(self, script: str) -> Any:
         """Value of an expression in the page (a promise is awaited)."""
