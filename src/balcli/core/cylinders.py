@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Collection
 from dataclasses import dataclass
 from enum import IntEnum
+from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -108,14 +109,25 @@ class Cylinders:
         self, orders: ArrayLike, wanted: Collection[str]
     ) -> tuple[Harmonics, Rows]:
         """Return the harmonics of all different mechanisms, and the index of each cylinder's
-        mechanism.
+        mechanism. Those of a single engine are kept, because its devices and masses change more
+        often than its mechanisms; do not change them.
 
         Args:
             orders: Whole orders, shape (orders,).
             wanted: Names of series (`closed_form.SERIES`).
         """
         kind = self.linkage or harmonics
-        return kind.find_distinct_harmonics(orders, self.lam, self.eps, wanted)
+        if self.pin_deg.ndim > 1:
+            return kind.find_distinct_harmonics(orders, self.lam, self.eps, wanted)
+        asked = np.asarray(orders, float).tobytes(), frozenset(wanted)
+        if asked not in self._kept:
+            self._kept[asked] = kind.find_distinct_harmonics(orders, self.lam, self.eps, wanted)
+        return self._kept[asked]
+
+    @cached_property
+    def _kept(self) -> dict[tuple[bytes, frozenset[str]], tuple[Harmonics, Rows]]:
+        """Harmonics by orders and series."""
+        return {}
 
     def find_highest_order(self) -> int:
         """Return the order beyond which the harmonics of all mechanisms are below rounding."""
