@@ -133,8 +133,8 @@ GRID = ("layout.bank_angle=0:100:1", "rod.ratio=0.2:0.3:0.0002")
 @pytest.mark.parametrize("threads", [2, 5, 64])
 def test_threads_give_identical_rows(monkeypatch: pytest.MonkeyPatch, threads: int) -> None:
     """From the first box on, many more boxes than threads or fewer."""
-    monkeypatch.setattr("balcli.studies.sweep.CHUNK", 300)
-    sweep = asked(VEE, *GRID, of="force.2.major,moment.1.backward")
+    monkeypatch.setattr("balcli.studies.sweep.CHUNK", 30)
+    sweep = asked(VEE, "layout.bank_angle=0:100:2", "rod.ratio=0.2:0.3:0.002", of="force.2.major,moment.1.backward")
     there = "".join(sweep_csv(sweep, evaluate_chunks(sweep, partial(share_among_threads, threads=threads))))
     assert there == "".join(sweep_csv(sweep, evaluate_chunks(sweep)))
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from contextlib import suppress
+from functools import partial
 from itertools import compress
 from typing import NamedTuple
 
@@ -15,7 +16,7 @@ import numpy as np
 
 from ..core.cylinders import Device
 from ..core.loads import share_by_lever
-from ..core.peaks import find_largest, find_least, find_peak
+from ..core.peaks import find_least, find_peak, find_peaks
 from ..core.phasors import EPS, Array, Complex, Phasors, unit
 from ..core.records import Node
 from ..engine.engine import CylinderNumber, Engine
@@ -31,7 +32,10 @@ from .remedy import Remedy, fit_devices, remove_weights_beside_webs
 
 _NEARLY = 0.05  # masses nearly cancel if their vector sum is below this share of the largest mass
 _FLAT = 1e-9  # factors are equally good if their peaks differ by this share of the largest or less
-_ROUNDS = 32  # number of search steps; they narrow the range of factors to 2e-7 of its width
+_ROUNDS = (
+    40  # largest number of search steps; they narrow the range of factors to 4e-9 of its width
+)
+_REACHED = 1e-12  # the search ends if the peak exceeds its bound by a smaller share
 _MEASURED = "Opposite the pin: the counterweights that the measured mass implies"
 _BESIDE_WEBS = "At the pin: what the measured mass implies beyond the webs of the file"
 _UNCHANGED = 1e-9  # a bobweight that changes by a smaller share counts as unchanged
@@ -146,17 +150,60 @@ def find_best_peaks(engine: Engine, options: SchemeOptions, remedy: Remedy) -> F
     return min(peaks, key=lambda peaks: peaks.cost)
 
 
+class _Top(NamedTuple):
+    """Largest value of a load over a revolution, and what it is made of: at this place and crank
+    angle, the load is `lowest + share * change`.
+    """
+
+    value: float
+    lowest: complex
+    change: complex
+
+
 class _LinearLoad(NamedTuple):
     """A load that is linear in the factor: at the lowest factor, and its change up to the highest
-    one.
+    one. Both may have a trailing axis of places.
     """
 
     lowest: Phasors
     change: Phasors
 
-    def find_peak(self, share: float) -> float:
+    def find_top(self, share: float) -> _Top:
         """Return the largest value over a revolution at a share of the range of factors."""
-        return float(find_largest((self.lowest + share * self.change).drop_noise()).max())
+        load = (self.lowest + share * self.change).drop_noise()
+        if load.vectors.ndim == 2:
+            peak = find_peak(load)
+            parts = (self.lowest, self.change)
+        else:
+            peaks = find_peaks(load)
+            place = max(range(len(peaks)), key=lambda k: peaks[k].value)
+            peak = peaks[place]
+            parts = (self.lowest.select_place(place), self.change.select_place(place))
+        return _Top(peak.value, *(complex(part.values(peak.theta)) for part in parts))
+
+    def find_best_share(self) -> float:
+        """Return the share of the range of factors at which the peak is smallest.
+
+        At any share, the peak is at least the size of the load at the place and angle of each top
+        found so far. The share at which the largest of these sizes is smallest is tried next, until
+        the peak is no larger than this bound.
+        """
+        share = 0.5
+        tops = []
+        for _ in range(_ROUNDS):
+            tops.append(self.find_top(share))
+            lowest = np.array([top.lowest for top in tops])
+            change = np.array([top.change for top in tops])
+            judge = partial(_find_largest_size, lowest, change)
+            better = find_least(judge, 0.0, 1.0, _ROUNDS)
+            if tops[-1].value <= judge(better) * (1 + _REACHED):
+                break
+            share = better
+        return share
+
+
+def _find_largest_size(lowest: Complex, change: Complex, share: float) -> float:
+    return float(np.abs(lowest + share * change).max())
 
 
 def _find_best_factors(
@@ -167,19 +214,19 @@ def _find_best_factors(
     omitted.
 
     At each crank angle, a load is linear in the factor; so its peak is a convex function of the
-    factor, and has one minimum.
+    factor, and has one smallest value.
     """
     first = _list_curves(engine, low, planes)
     last = _list_curves(engine, high, planes)
     best: dict[str, dict[str, float]] = {}
     for key, curve in first.items():
         load = _LinearLoad(curve, last[key] - curve)
-        share = find_least(load.find_peak, 0.0, 1.0, _ROUNDS)
+        share = load.find_best_share()
         factors = [chosen["factor"] for chosen in best.values()]
         factors.append(round(low + share * (high - low), 6))
-        peaks = [load.find_peak((factor - low) / (high - low)) for factor in factors]
+        peaks = [load.find_top((factor - low) / (high - low)).value for factor in factors]
         least = min(peaks)
-        most = max(load.find_peak(0.0), load.find_peak(1.0))
+        most = max(load.find_top(share).value for share in (0.0, 1.0))
         if most - least > _FLAT * most:
             flat = (peak - least <= _FLAT * most for peak in peaks)
             name = key.removeprefix("peak_").rpartition("_")[0]
