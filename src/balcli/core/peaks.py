@@ -18,10 +18,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from functools import lru_cache
 from typing import NamedTuple, TypeVar
 
 import numpy as np
-from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import ArrayLike, NDArray
 
 from .phasors import Array, Phasors
@@ -40,6 +40,8 @@ _SHORT = 1e-6
 # the highest order away, the next term is below 0.39^13/13! = 1e-15 of the sum of all amplitudes.
 _TERMS = 13
 _ZERO = 1e-12  # rad; an angle this close to a whole turn is 0
+# Part of the swing below the highest sample in which the samples next to the highest peak lie.
+_NEAR = 1 - math.cos(math.pi / _SAMPLES) ** 2
 _EQUAL = 1e-12  # peaks that differ by a smaller share of the sum of all amplitudes are equal
 
 
@@ -184,10 +186,11 @@ def _search(orders: ArrayLike, phasors: Complex, *, squared: bool) -> CyclePeak:
     negatives, and the first angles of these, each of shape (1 or 2, *curves).
     """
     halves = 2 * np.asarray(orders, float)
-    present = np.any(phasors != 0, axis=tuple(range(1, phasors.ndim)))
-    present |= not np.any(present)
+    present = (phasors != 0).any(axis=tuple(range(1, phasors.ndim)))
+    present |= not present.any()
     harmonics = np.rint(halves).astype(np.int64)
-    if np.any(harmonics != halves) or np.any(harmonics < 0) or len(set(halves)) < len(halves):
+    wrong = (harmonics != halves) | (harmonics < 0)
+    if wrong.any() or len(set(halves.tolist())) < len(halves):
         raise ValueError("orders have to be different multiples of 1/2, none below 0")
     common = max(int(np.gcd.reduce(harmonics[present])), 1)  # shortens the cycle as far as possible
     harmonics = harmonics[present] // common
@@ -200,7 +203,7 @@ def _search(orders: ArrayLike, phasors: Complex, *, squared: bool) -> CyclePeak:
     tops = [np.zeros((2, signs, 0))]
     for start in range(0, len(parts), step):
         some = parts[start : start + step]
-        size = np.sum(np.abs(some), axis=(1, 2))
+        size = np.abs(some).sum(axis=(1, 2))
         scaled = some / np.where(size > _SMALLEST, size, 1)[:, None, None]
         waves = _sample(harmonics, scaled)
         if not squared:  # the lowest value of a curve is the highest of its negative
@@ -242,12 +245,12 @@ def _find_tops(
         waves: Samples of the components, shape (curves, components, samples).
         squared: Whether the squared length is wanted, not the value of a single component.
     """
-    samples = np.sum(waves**2, axis=1) if squared else waves[:, 0]
+    samples = (waves**2).sum(axis=1) if squared else waves[:, 0]
     count = samples.shape[1]
     highest_at = samples.argmax(axis=1)
     high = samples.max(axis=1)
     swing = high - (0 if squared else samples.min(axis=1))
-    least = high - (1 - np.cos(np.pi / _SAMPLES) ** 2) * swing
+    least = high - _NEAR * swing
     curve, at = np.divmod(np.flatnonzero(samples >= least[:, None]), count)
     before, here, after = (samples[curve, (at + k) % count] for k in (-1, 0, 1))
     peaked = ((here > before) & (here >= after)) | (at == highest_at[curve])
@@ -293,19 +296,22 @@ def _climb(
         count: Number of samples in a turn.
     """
     highest = max(int(harmonics.max(initial=1)), 1)
-    roots = np.exp(1j * (_TURN / count) * np.arange(count))
-    turned = parts * roots[at[:, None] * harmonics % count][:, None]
+    turned = parts * _find_roots(count)[at[:, None] * harmonics % count][:, None]
     pairs = turned.view(float).reshape(-1, 2 * len(harmonics))
-    derivatives = (pairs @ _differentiate(harmonics / highest)).reshape(*parts.shape[:2], -1)
+    shares = tuple((harmonics / highest).tolist())
+    derivatives = (pairs @ _differentiate(shares)).reshape(*parts.shape[:2], -1)
     step = highest * _TURN / count
     value = np.empty(len(at))
     away = vertex * step  # from the sample, as phase of the highest harmonic
     moving = np.arange(len(at))
-    series = sliding_window_view(derivatives, _TERMS, axis=-1)  # of x, slope and bend
-    factorials = np.cumprod(np.maximum(np.arange(_TERMS), 1.0))
+    powers = np.empty((len(at), _TERMS, 1))
     for _ in range(_ROUNDS):
-        powers = np.vander(away[moving], _TERMS, increasing=True) / factorials
-        x, slope, bend = np.einsum("tcdk,tk->dtc", series[moving], powers)
+        series = derivatives[moving]
+        here = powers[: len(moving)]  # away^k / k!
+        here[:, 0] = 1
+        here[:, 1:, 0] = away[moving, None] / np.arange(1, _TERMS)
+        np.multiply.accumulate(here, axis=1, out=here)
+        x, slope, bend = ((series[..., k : k + _TERMS] @ here)[..., 0] for k in range(3))
         if squared:
             bend = 2 * (slope * slope + x * bend)
             slope = 2 * x * slope
@@ -313,8 +319,9 @@ def _climb(
         x = x.sum(axis=1)
         slope = slope.sum(axis=1)
         bend = bend.sum(axis=1)
-        uphill = np.where(bend < 0, -slope / np.where(bend < 0, bend, -1), np.sign(slope) * step)
-        move = np.clip(away[moving] + uphill, -step, step) - away[moving]
+        rounded = bend < 0
+        uphill = np.where(rounded, -slope / np.where(rounded, bend, -1), np.sign(slope) * step)
+        move = np.minimum(np.maximum(away[moving] + uphill, -step), step) - away[moving]
         gain = slope * move / 2  # exact for a parabola
         value[moving] = x + gain
         away[moving] += move
@@ -324,17 +331,24 @@ def _climb(
     return value, at * (_TURN / count) + away / highest
 
 
-def _differentiate(shares: Real) -> Real:
+@lru_cache(maxsize=64)
+def _find_roots(count: int) -> Complex:
+    """Return the roots of 1, shape (count,)."""
+    return np.exp(1j * (_TURN / count) * np.arange(count))
+
+
+@lru_cache(maxsize=64)
+def _differentiate(shares: tuple[float, ...]) -> Real:
     """Return the matrix that makes the derivatives of curves, `d^k/du^k Re sum of c e^{i s u}` at
     u = 0, of their phasors c, written as pairs of real and imaginary parts.
 
     Args:
-        shares: s, shape (orders,).
+        shares: s of each order.
 
     Returns:
         Shape (2 orders, derivatives).
     """
-    powers = np.vander(shares, _TERMS + 2, increasing=True)
+    powers = np.vander(np.array(shares), _TERMS + 2, increasing=True)
     turns = 1j ** np.arange(_TERMS + 2)  # Re(i^k c) = Re i^k Re c - Im i^k Im c
     pairs = np.stack([powers * turns.real, -powers * turns.imag], axis=1)
     return pairs.reshape(-1, _TERMS + 2)
