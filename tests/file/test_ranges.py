@@ -75,12 +75,59 @@ LIMITS = {  # path: limit, whether figures below it are doubted, and the tables 
 }
 
 
+WEB = {"thickness": 20.0, "hub": 60.0, "boss": 50.0, "outer_radius": 72.0, "opening": 100.0}
+WEIGHED = {"thickness": 20.0, "mass": 1.5, "cg": [-10.0, 0.0], "inertia": 3600.0}
+PINS = {"pin_diameter": 42.0, "pin_length": 24.0}
+
+
+def give_web(key, form=WEB):
+    return lambda x: {"web": [form | {key: x}], "bearing": PINS}
+
+
+def give_pin(key):
+    return lambda x: {"web": [WEB | {"thickness": 5.0}], "bearing": PINS | {key: x}}
+
+
+def give_tolerance(key):
+    return lambda x: {"web": [WEB | {"tolerance": {key: x}}], "bearing": PINS}
+
+
+LIMITS |= {
+    "web.1.thickness": (0.05 * STROKE, True, 1, give_web("thickness")),
+    "web.1.thickness between throws": ((90 - 24) / 2, False, 1, give_web("thickness")),
+    "web.1.hub": (0.2 * STROKE, True, 1, give_web("hub")),
+    "web.1.boss": (0.15 * STROKE, True, 1, give_web("boss")),
+    "web.1.outer_radius": (3 * STROKE, False, 1, give_web("outer_radius")),
+    "web.1.clearance": (0.2 * STROKE, False, 1, give_web("clearance")),
+    "web.1.density": (2.0, True, 0, give_web("density")),
+    "web.1.density most": (20.0, False, 0, give_web("density")),
+    "web.1.holes.1.diameter": (0.01 * STROKE, True, 1, lambda x: give_web("holes")([{"x": 0, "diameter": x}])),
+    "web.1.mass": (30 * SWUNG, False, 3, give_web("mass", {**WEIGHED, "inertia": None})),
+    "web.1.cg": (0.005 * STROKE, True, 1, lambda x: give_web("cg", WEIGHED)([x / 2, -x])),
+    "web.1.inertia": (1.5 * (0.1 * STROKE) ** 2, True, 5, give_web("inertia", WEIGHED)),
+    "web.1.inertia most": (1.5 * (2 * STROKE) ** 2, False, 5, give_web("inertia", WEIGHED)),
+    "web.1.tolerance.thickness": (2.0, False, 1, give_tolerance("thickness")),
+    "web.1.tolerance.opening": (10, False, 0, give_tolerance("opening")),
+    "web.1.tolerance.density": (0.1, False, 0, give_tolerance("density")),
+    "bearing.pin_length": (0.1 * STROKE, True, 1, give_pin("pin_length")),
+    "frame.crankcase": (0.55 * STROKE, True, 1, lambda x: {"frame": {"crankcase": x}}),
+    "piston.skirt": (0.05 * BORE, True, 1, lambda x: {"piston": {"skirt": x}}),
+    "bearing.main_positions": (
+        0.2 * BORE,
+        True,
+        1,
+        lambda x: {"bearing": {"main_positions": [500, 500 + x, 900]}},
+    ),
+}
+
+
 def strip(tables):
     """Leave out what is None, and scale places that the cases give for the small engine."""
-    return {
-        key: {name: value for name, value in table.items() if value is not None} if isinstance(table, dict) else table
-        for key, table in tables.items()
-    }
+    if isinstance(tables, list):
+        return [strip(table) for table in tables] if tables and isinstance(tables[0], dict) else tables
+    if isinstance(tables, dict):
+        return {key: strip(table) for key, table in tables.items() if table is not None}
+    return tables
 
 
 @pytest.mark.parametrize("name", LIMITS)
@@ -143,6 +190,26 @@ def test_a_mean_pressure_lies_above_the_intake(key, intake):
 def test_a_round_part_of_a_turn_in_radians_is_doubted(angle, doubted):
     weight = {"unbalance": 3000, "position": 90, "angle": angle}
     assert ("counterweight.1.angle" in list_doubted(make(counterweight=[weight]))) == doubted
+
+
+@pytest.mark.parametrize("key", ["opening", "angle"])
+def test_angles_of_webs_in_radians_are_doubted(key):
+    for angle, doubted in ((2.618, True), (150, False)):
+        tables = make(**give_web(key, WEB | {"opening": 20.0})(angle))
+        assert (f"web.1.{key}" in list_doubted(tables)) == doubted
+
+
+def test_open_dimensions_of_webs_are_not_doubted():
+    for key in ("thickness", "outer_radius", "opening"):
+        assert list_doubted(make(**give_web(key)("fit"))) == []
+
+
+def test_a_percentage_without_its_sign_is_asked_back():
+    (doubt,) = find_suspicious(parse(tomli_w.dumps(make(**give_tolerance("density")(0.3)))))
+    assert str(doubt) == (
+        "web.1.tolerance.density: 0.3, where at most 0.1 is usual with a metal; a bare number is a share; in percent, "
+        'write it: "0.3 %"'
+    )
 
 
 @pytest.mark.parametrize(("opening", "doubted"), [(2.618, True), (150, False)])

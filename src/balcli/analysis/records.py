@@ -2,7 +2,7 @@
 moments, strokes, devices, journals and masses.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Annotated, Any, Literal, NamedTuple
 
@@ -612,6 +612,18 @@ class WebPart(NamedTuple):
 _CLEARANCE_ROUNDING_M = 1e-6
 
 
+def _choose_nearest(webs: Iterable[WebPart]) -> Iterator[WebPart]:
+    """Yield of each [[web]] table the web nearest to a piston, or else to the crankcase."""
+    nearest: dict[int, tuple[float, WebPart]] = {}
+    for web in webs:
+        gaps = [gap for gap in (web.clearance_m, web.crankcase_m) if gap is not None]
+        gap = round(min(gaps, default=0.0), 9)
+        if web.table not in nearest or gap < nearest[web.table][0]:
+            nearest[web.table] = gap, web
+    for _, web in nearest.values():
+        yield web
+
+
 class ThrowPart(NamedTuple):
     """A throw of the crankshaft and what balances it.
 
@@ -667,7 +679,7 @@ class BalanceParts(NamedTuple):
         """Warnings about counterweights that would touch a piston, and about webs too close to
         piston or crankcase.
         """
-        for web in self.webs or ():
+        for web in _choose_nearest(self.webs or ()):
             yield from web.doubts
         for number, part in enumerate(self.counterweights, 1):
             if part.clearance_m is not None and part.clearance_m < 0:

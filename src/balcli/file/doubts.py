@@ -99,6 +99,10 @@ def find_suspicious(model: EngineFile) -> list[Doubt]:
         if key in PRESSURES:
             figures.append(Figure(path, value, *PRESSURES[key], question))
     figures += find_unusual(list_ranges(model))
+    if model.web:
+        from .web_ranges import list_web_ranges  # loaded only for files with [[web]]
+
+        figures += find_unusual(list_web_ranges(model))
     doubts = [
         *doubt_drifting(model),
         *_find_missing(model),

@@ -116,9 +116,9 @@ class Range(NamedTuple):
 
 
 # Units that may be meant, the likeliest first
-_LENGTHS = ("in", "m")
+LENGTHS = ("in", "m")
 _PRESSURES = ("MPa", "psi", "kPa")
-_INERTIAS = ("kg m^2", "kg cm^2", "g m^2")
+INERTIAS = ("kg m^2", "kg cm^2", "g m^2")
 _UNBALANCES = ("kg mm", "g cm", "oz in", "kg m")
 # Absolute pressures: 0.26 bar at an altitude of 10 km, 10 bar after two stages of charging; figures
 # in psi or MPa lie outside.
@@ -143,7 +143,7 @@ def list_ranges(model: EngineFile) -> Iterator[Range]:
         least=0.02 * size.bore,
         most=size.wide,
         dimension=LENGTH,
-        others=_LENGTHS,
+        others=LENGTHS,
         basis=bore,
         also=_BORE,
     )
@@ -155,7 +155,7 @@ def list_ranges(model: EngineFile) -> Iterator[Range]:
             least=0.1 * size.rod,
             most=math.inf,
             dimension=LENGTH,
-            others=_LENGTHS,
+            others=LENGTHS,
             basis=f"a rod of {size.rod:g} mm",
             hint=share,
             also=_ROD,
@@ -165,7 +165,7 @@ def list_ranges(model: EngineFile) -> Iterator[Range]:
         least=0.001 * size.stroke,
         most=math.inf,
         dimension=LENGTH,
-        others=_LENGTHS,
+        others=LENGTHS,
         basis=stroke,
         also=_STROKE,
     )
@@ -175,7 +175,7 @@ def list_ranges(model: EngineFile) -> Iterator[Range]:
             least=0.2 * size.radius,
             most=1.5 * size.radius,
             dimension=LENGTH,
-            others=_LENGTHS,
+            others=LENGTHS,
             basis=f"a crank radius of {size.radius:g} mm",
             also=_STROKE,
         )
@@ -183,6 +183,7 @@ def list_ranges(model: EngineFile) -> Iterator[Range]:
     yield from _list_points(model, size, stroke)
     yield from _list_pressures(model)
     yield from _list_inertias(model, size)
+    yield from _list_room(model, size, bore)
 
 
 def _list_places_of_throws(model: EngineFile, size: Sizes, bore: str) -> Iterator[Range]:
@@ -200,7 +201,7 @@ def _list_places_of_throws(model: EngineFile, size: Sizes, bore: str) -> Iterato
         least=least,
         most=10 * size.wide,
         dimension=LENGTH,
-        others=_LENGTHS,
+        others=LENGTHS,
         basis=bore,
         subject="" if crank.positions is None else "the distance of two neighbours is",
         also=_BORE,
@@ -220,15 +221,49 @@ def _list_devices(model: EngineFile, size: Sizes, stroke: str) -> Iterator[Range
             radii.append((f"{path}.radius", table.radius or 0.0))
             if table.unbalance is not None and not table.to_fit:
                 given.append((f"{path}.unbalance", abs(table.unbalance)))
-        yield Range(places, 0.005 * size.stroke, math.inf, LENGTH, _LENGTHS, stroke, also=_STROKE)
+        yield Range(places, 0.005 * size.stroke, math.inf, LENGTH, LENGTHS, stroke, also=_STROKE)
         yield Range(
-            radii, 0.1 * size.stroke, 5 * size.stroke, LENGTH, _LENGTHS, stroke, also=_STROKE
+            radii, 0.1 * size.stroke, 5 * size.stroke, LENGTH, LENGTHS, stroke, also=_STROKE
         )
         if unbalance:
             basis = f"rods and pistons of {size.mass:.4g} kg"
             yield Range(
                 given, 0.001 * unbalance, math.inf, UNBALANCE, _UNBALANCES, basis, also=_MASSES
             )
+
+
+def _list_room(model: EngineFile, size: Sizes, bore: str) -> Iterator[Range]:
+    """Yield ranges of what bounds the room around the crank, and of the places of main bearings."""
+    yield Range(
+        figures=[("frame.crankcase", model.frame.crankcase or 0.0)],
+        least=0.55 * size.stroke,
+        most=6 * size.stroke,
+        dimension=LENGTH,
+        others=LENGTHS,
+        basis=f"a stroke of {size.stroke:g} mm",
+        also=_STROKE,
+    )
+    yield Range(
+        figures=[("piston.skirt", model.piston.skirt or 0.0)],
+        least=0.05 * size.bore,
+        most=2 * size.wide,
+        dimension=LENGTH,
+        others=LENGTHS,
+        basis=bore,
+        also=_BORE,
+    )
+    mains = () if model.bearing is None else model.bearing.main_positions or ()
+    steps = [after - before for before, after in pairwise(sorted(mains))]
+    yield Range(
+        figures=[("bearing.main_positions", step) for step in steps],
+        least=0.2 * size.bore,
+        most=40 * size.wide,
+        dimension=LENGTH,
+        others=LENGTHS,
+        basis=bore,
+        subject="the distance of two neighbours is",
+        also=_BORE,
+    )
 
 
 def _list_points(model: EngineFile, size: Sizes, stroke: str) -> Iterator[Range]:
@@ -238,7 +273,7 @@ def _list_points(model: EngineFile, size: Sizes, stroke: str) -> Iterator[Range]
         for number, table in enumerate(getattr(model, kind, ()), 1):
             place = max(map(abs, table.at))
             places.append((f"{kind}.{number}.at", place))
-        yield Range(places, 0.05 * size.stroke, math.inf, LENGTH, _LENGTHS, stroke, also=_STROKE)
+        yield Range(places, 0.05 * size.stroke, math.inf, LENGTH, LENGTHS, stroke, also=_STROKE)
 
 
 def _list_pressures(model: EngineFile) -> Iterator[Range]:
@@ -270,7 +305,7 @@ def _list_inertias(model: EngineFile, size: Sizes) -> Iterator[Range]:
     swung = size.mass * size.radius**2
     inertias = [("torsion.throw_inertia", inertia) for inertia in torsion.throw_inertia]
     basis = f"rods and pistons of {size.mass:.4g} kg"
-    yield Range(inertias, 0.02 * swung, 1000 * swung, INERTIA, _INERTIAS, basis, also=_MASSES)
+    yield Range(inertias, 0.02 * swung, 1000 * swung, INERTIA, INERTIAS, basis, also=_MASSES)
 
 
 def find_unusual(ranges: Iterable[Range]) -> Iterator[Figure]:
@@ -284,7 +319,7 @@ def find_unusual(ranges: Iterable[Range]) -> Iterator[Figure]:
                 value=value,
                 least=usual.least if value > 0 else -usual.most,
                 most=usual.most if value > 0 else -usual.least,
-                unit=f" {usual.dimension.unit}",
+                unit=f" {usual.dimension.unit}".rstrip(),
                 hint=usual.hint or _guess_unit(value, usual),
                 subject=usual.subject,
                 also=usual.also,
@@ -330,7 +365,12 @@ def find_radians(model: EngineFile) -> Iterator[tuple[str, float]]:
     each key.
     """
     tables = list_tables(model)
-    for name, classes in _TABLES_OF_ANGLES.items():
+    of_angles = dict(_TABLES_OF_ANGLES)
+    if model.web:
+        from .web_tables import Web
+
+        of_angles["web"] = (Web,)
+    for name, classes in of_angles.items():
         angles = _list_angles(classes)
         seen = set()
         for path, _, value in walk_figures(name, tables.get(name)):
