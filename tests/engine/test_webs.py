@@ -7,7 +7,7 @@ import ezdxf
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
-from support.commands import ask
+from support.commands import ask, ask_csv
 
 from balcli import SchemeOptions, analyze, balance, load
 from balcli.errors import ArgumentError, InputError
@@ -239,6 +239,21 @@ def test_card_and_masses_have_the_throw_with_its_cheeks(tmp_path):
         assert ("does not tell what belongs to its cheek" in " ".join(table.split())) == (label == "crank pin alone")
     assert "Bobweight of pins 2, 3, 4" in table
     assert "Bobweight of pin 1\n" in table
+
+
+def test_csv_has_the_figures_of_every_web(tmp_path):
+    """For the foundry: one line a figure, with x and y of the centre of mass."""
+    rows = ask_csv("analyze", write_four(tmp_path, WEB | {"angle": 186}), "--only", "parts")
+    web = analyze(load(tmp_path / "e.toml"), only=["parts"]).parts.webs[2]
+    found = {row["figure"]: row["value"] for row in rows if row["quantity"] == "web 3"}
+    assert_allclose([float(found[f"cg_m.{axis}"]) for axis in (1, 2)], web.cg_m)
+    for key in ("mass_kg", "unbalance_kg_m", "inertia_kg_m2", "opening_deg", "clearance_m", "position_mm"):
+        assert_allclose(float(found[key]), getattr(web, key))
+    assert {row["quantity"] for row in rows} == {
+        *(f"web {number}" for number in range(1, 9)),
+        *(f"throw {number}" for number in range(1, 5)),
+        "crank",
+    }
 
 
 def test_a_measured_mass_counts_beside_the_webs(tmp_path):

@@ -324,7 +324,10 @@ def _percent(share: float | None) -> str:
 def list_web_rows(parts: BalanceParts) -> Iterator[FigureRow]:
     """Yield every figure of webs, throws and crankshaft in SI units."""
     for web in parts.webs or ():
-        yield from record_rows(0, f"web {web.web}", None, web, "web")
+        name = f"web {web.web}"
+        yield from record_rows(0, name, None, web, "web")
+        for number_of_axis, place in enumerate(web.cg_m or (), 1):  # CSV has no lists
+            yield FigureRow(0, name, None, f"cg_m.{number_of_axis}", place + 0.0, "m")
     for throw in parts.throws or ():
         yield from record_rows(0, f"throw {throw.throw}", None, throw, "throw")
     if parts.crank is not None:
