@@ -14,9 +14,9 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.peaks import find_highest, find_peaks_between, find_swing, sum_amplitudes
+from ..core.peaks import find_highest, find_peaks_between
 from ..core.vibration import Indices, Real
-from .motion import compute_curves, compute_in_parts
+from .columns import Columns
 from .permitted import ShaftLimit
 from .response import add_resonances
 from .system import TorsionalSystem
@@ -63,8 +63,8 @@ class _Shares:
     def __init__(self, system: TorsionalSystem, limits: Sequence[ShaftLimit]) -> None:
         self.system = system
         self.limits = limits
-        self.orders = system.require_excitation().orders
         self.columns = np.array([limit.column for limit in limits])
+        self.swings = Columns(system)
 
     def find_factors(self, rpm: Real) -> Real:
         """Return the share of each limit for a curve of 1 N m or 1 rad, shape (speeds, limits)."""
@@ -73,18 +73,13 @@ class _Shares:
 
     def bound(self, rpm: Real) -> Real:
         """Return upper bounds of the shares at speeds (speeds,), shape (speeds, limits)."""
-        parts = [sum_amplitudes(curves) for curves, _ in compute_in_parts(self.system, rpm)]
-        return np.concatenate(parts)[:, self.columns] * self.find_factors(rpm)
+        return self.swings.bound(rpm, self.columns) * self.find_factors(rpm)
 
     def judge(self, at: Real, which: Indices) -> Real:
         """Return the shares at speeds `at`, each of the limit with the index in `which`."""
-        speeds, limit = (each.ravel() for each in np.broadcast_arrays(at, which))
-        rpm, point = np.unique(speeds, return_inverse=True)
-        if not len(rpm):
-            return np.zeros(np.shape(at))
-        phasors, _ = compute_curves(self.system, rpm)
-        swings = find_swing(self.orders, phasors[:, point, self.columns[limit]]).half
-        factors = self.find_factors(rpm)[point, limit]
+        rpm, limit = (each.ravel() for each in np.broadcast_arrays(at, which))
+        factors = self.find_factors(rpm)[np.arange(len(rpm)), limit]
+        swings = self.swings.find(rpm, self.columns[limit])
         return np.asarray((swings * factors).reshape(np.shape(at)))
 
     def refine(self, heights: Real, rpm: Real, where: NDArray[np.bool_]) -> None:
