@@ -7,7 +7,8 @@ range and a remedy.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from typing import Any
 
 import numpy as np
 
@@ -107,7 +108,7 @@ def find_suspicious(model: EngineFile) -> list[Doubt]:
         *doubt_drifting(model),
         *_find_missing(model),
         *doubt_figures(figures),
-        *doubt_losses("torsion", model.torsion),
+        *doubt_losses(walk_figures("torsion", list_tables(model.torsion))),
     ]
     doubted = {doubt.path for doubt in doubts}
     for path, value in find_radians(model):
@@ -135,17 +136,16 @@ def doubt_drifting(model: EngineFile) -> Iterator[Doubt]:
         yield Doubt(f"{first}.ratio", message, tuple(others))
 
 
-def doubt_losses(path: str, tables: object) -> Iterator[Doubt]:
+def doubt_losses(figures: Iterable[tuple[str, Any, Any]]) -> Iterator[Doubt]:
     """Yield warnings for impossibly large loss factors, which are probably given in percent.
 
     Args:
-        path: Path of the tables; empty: the tables are a whole file.
-        tables: Table or tables in which each key `loss` is checked.
+        figures: Result of `walk_figures`; each key `loss` is checked.
     """
     hint = "{0:g} % is {1:g}, and a relative damping psi is a loss factor of psi/(2 pi)"
     yield from doubt_figures(
         Figure(place, loss, 0, LOSS, "", hint.format(loss, loss / 100))
-        for place, key, loss in walk_figures(path, list_tables(tables))
+        for place, key, loss in figures
         if key == "loss"
     )
 

@@ -69,12 +69,17 @@ def _key(key: object) -> str:
     raise TypeError(f'{message}; write it as in a file, such as "stroke"')
 
 
+_PLAIN = {str, float, int, bool}  # types of values that stay as they are
+
+
 def _plain_table(table: Mapping[Any, object]) -> Node:
     """Return a table without keys whose value is None."""
     return {_key(key): _plain(value) for key, value in table.items() if value is not None}
 
 
 def _plain(value: object) -> object:
+    if type(value) in _PLAIN:
+        return value
     if isinstance(value, Mapping):
         return _plain_table(value)
     if isinstance(value, np.generic) or (isinstance(value, np.ndarray) and value.ndim == 0):
@@ -86,6 +91,8 @@ def _plain(value: object) -> object:
 
 def list_tables(value: object) -> Any:
     """Return a file, a table or a value as dicts, lists, numbers and texts, in the file's units."""
+    if type(value) in _PLAIN:
+        return RIGID if value == math.inf else value
     if isinstance(value, FileTable):
         return _list_fields(value)
     if isinstance(value, Mapping):

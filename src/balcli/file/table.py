@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 import tomllib
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from functools import cache
 from inspect import getsource
 from itertools import pairwise
@@ -101,6 +101,15 @@ class KeyDocument(NamedTuple):
     example: object = None
 
 
+@cache
+def _list_rules(table: type) -> tuple[Callable[[object], Iterator[str]], ...]:
+    """Return the rules of a class of tables; rules of base classes come first."""
+    rules = []
+    for base in reversed(table.__mro__):
+        rules += [rule for name, rule in vars(base).items() if name.startswith("_check_")]
+    return tuple(rules)
+
+
 class FileTable(BaseModel):
     """A table of an engine file. It is frozen and rejects unknown keys. Its methods `_check_...`
     are rules: each yields messages about contradictions between keys.
@@ -122,10 +131,8 @@ class FileTable(BaseModel):
         """Yield messages about the contradictions that the rules of this table find. Rules of base
         classes come first.
         """
-        for base in reversed(type(self).__mro__):
-            for name, rule in vars(base).items():
-                if name.startswith("_check_"):
-                    yield from rule(self)
+        for rule in _list_rules(type(self)):
+            yield from rule(self)
 
     @property
     def given(self) -> set[str]:

@@ -21,11 +21,12 @@ from ..engine.figures import find_first_largest
 from ..engine.load import build_named
 from ..engine.parse import join_engines
 from ..errors import InputError, Problem
-from ..file.doubt import Doubt
+from ..file.doubt import Doubt, walk_figures
 from ..file.doubts import doubt_losses
 from ..file.fields import printable, shorten
 from ..file.model import EngineFile
 from ..file.mount_tables import Mount, Point
+from ..file.plain_tables import list_tables
 from ..file.read import REQUIRED, Draft, read_tables, refuse
 from ..file.toml import name_file, read_bytes
 from ..file.units import STANDARD_GRAVITY, ask_unit
@@ -323,4 +324,4 @@ def _find_doubts(model: EngineFile) -> Iterator[Doubt]:
             f"{SAG_MOST:g} mm is usual; {ask_unit('N/mm', '250 kN/m')}"
         )
         yield Doubt("mount.stiffness", message, ("body.mass",))
-    yield from doubt_losses("mount", mounts)
+    yield from doubt_losses(walk_figures("mount", list_tables(mounts)))

@@ -114,6 +114,8 @@ def find_pieces(chain: Chain, shafts: NDArray[np.bool_] | None = None) -> Pieces
     (shafts,); None: all shafts).
     """
     joining = np.ones(len(chain.start), bool) if shafts is None else shafts
+    if not np.any(joining):
+        return Pieces(np.arange(len(chain.inertia)), np.ones(len(chain.inertia)))
     first = np.full(len(chain.inertia), -1)
     pace = np.ones(len(chain.inertia))
     for node in range(len(first)):

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import partial
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from ..core.vibration import Real
 from ..engine.engine import CylinderNumber, Engine, refuse_geared
@@ -72,15 +72,18 @@ def make_chain_source(
     model: ChainFile, name: str, orders: Real | None = None, text: bytes = b""
 ) -> Source:
     """Return the source for the tables of a chain file."""
-    doubts = *doubt_losses("", model), *_doubt_units(model)
+    figures = list(walk_figures("", list_tables(model)))
+    doubts = *doubt_losses(figures), *_doubt_units(figures)
     dampers = {node.name: node.damper for node in model.node}
     return Source(text, doubts, partial(build_chain, model, name, orders), dampers)
 
 
-def _doubt_units(model: ChainFile) -> Iterator[Doubt]:
-    """Yield warnings of inertias and diameters that were probably meant in kg m2 and m."""
+def _doubt_units(figures: Iterable[tuple[str, Any, Any]]) -> Iterator[Doubt]:
+    """Yield warnings of inertias and diameters that were probably meant in kg m2 and m; `figures`
+    is the result of `walk_figures`.
+    """
     units = {"inertia": "kg mm^2", "diameter": "mm"}
-    for path, key, value in walk_figures("", list_tables(model)):
+    for path, key, value in figures:
         if key in units and value < _SMALL:
             larger = ask_unit(units[key], f"{value:.4g} {units[key].replace('mm', 'm')}")
             yield Doubt(path, f"{value:.4g} {units[key]}; {larger}")

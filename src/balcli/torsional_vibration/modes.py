@@ -231,9 +231,8 @@ def find_criticals(
     moved = np.array([mode.shape[excitation.nodes] for mode in modes])
     moved = moved.reshape(len(modes), 1, len(excitation.nodes))
     speeds = np.array([mode.omega for mode in modes])[:, None] / orders  # (modes, orders)
-    within = np.clip(speeds, low * RPM, high * RPM).ravel()  # speeds outside are ignored
-    shape = len(orders), len(modes), len(orders), len(excitation.nodes)
-    torque = np.einsum("kmks->mks", excitation.at(within).reshape(shape))
+    within = np.clip(speeds, low * RPM, high * RPM)  # speeds outside are ignored
+    torque = excitation.at_own(within)
     phasors = np.abs(np.sum(torque * moved, axis=-1))
     rpm = speeds / RPM
     counted = (rpm >= low * (1 - 1e-12)) & (rpm <= high * (1 + 1e-12))

@@ -66,6 +66,17 @@ class Excitation(NamedTuple):
         steady = self.steady[:, None, :] if self.gas is None else self.gas.torque(speeds / RPM)
         return np.asarray(steady + grown, complex)
 
+    def at_own(self, speeds: Real) -> Complex:
+        """Return the torques (*, orders, sources), N m, at speeds (*, orders), rad/s, of which each
+        order has its own.
+        """
+        steady = self.steady
+        if self.gas is not None:
+            of_all = self.gas.torque(speeds / RPM)  # (orders, *, orders, sources)
+            each = np.arange(len(self.orders))
+            steady = np.moveaxis(of_all[each, ..., each, :], 0, -2)
+        return np.asarray(steady + self.growing * speeds[..., None] ** 2, complex)
+
     def combine(self, weights: Complex) -> Excitation:
         """Return the excitation whose sources are sums of these, with weights (sums, sources)."""
         gas = None if self.gas is None else self.gas.combine(np.asarray(weights, complex))
