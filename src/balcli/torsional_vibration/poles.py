@@ -13,6 +13,7 @@ stiffness, and their unit of time makes frequencies about 1.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -44,7 +45,7 @@ _INFINITE = 1e-6  # eigenvalues mu below this share of the largest count as 0: t
 _ILL = 1e7
 _MOST = 128  # terms; the tree of nodes takes less time than the eigenvectors of more poles
 _SLOW = 1e-6  # poles with a lower frequency do not swing
-_AT_ONCE = 1 << 15  # number of terms that are computed at once: more leave the cache
+_AT_ONCE = 1 << 14  # number of terms that are computed at once: more leave the cache
 
 
 class _Equations(NamedTuple):
@@ -187,19 +188,28 @@ class PoleSum:
 
     def find_curves(self, rpm: Real, which: Indices) -> Complex:
         """Return phasors (orders, places) at speeds (places,), each of the curve in `which`."""
-        w, terms = self._respond(rpm)
-        twist = np.einsum("npt,pt->np", terms, self.felt.T[which])
-        return np.asarray(twist * self._find_stiffness(w, which))
+        felt = self.felt.T
+        curves = []
+        for some in self._divide(len(rpm)):
+            w, terms = self._respond(rpm[some])
+            twist = np.einsum("npt,pt->np", terms, felt[which[some]])
+            curves.append(twist * self._find_stiffness(w, which[some]))
+        return np.concatenate(curves, axis=1)
 
     def sum_amplitudes(self, rpm: Real, which: Indices) -> Real:
         """Return the sums of the amplitudes of all orders, shape (speeds, len(which))."""
-        size = len(self.excitation.orders) * len(self.felt)
         sums = []
-        for some in np.array_split(rpm, len(rpm) * size // _AT_ONCE + 1):
-            w, terms = self._respond(some)
+        for some in self._divide(len(rpm)):
+            w, terms = self._respond(rpm[some])
             curves = terms @ self.felt[:, which] * self._find_stiffness(w[..., None], which)
             sums.append(np.abs(curves).sum(axis=0))
         return np.concatenate(sums)
+
+    def _divide(self, count: int) -> Iterator[slice]:
+        """Yield consecutive parts of this number of places, few enough to be computed at once."""
+        step = max(_AT_ONCE // (len(self.excitation.orders) * len(self.felt)), 1)
+        for start in range(0, count, step):
+            yield slice(start, start + step)
 
     def _respond(self, rpm: Real) -> tuple[Real, Complex]:
         """Return frequencies (orders, speeds), rad/s, and the terms (orders, speeds, terms)."""

@@ -34,7 +34,12 @@ _NEAR = 0.9
 
 
 def find_largest(
-    system: TorsionalSystem, rpm: Real, weights: Real | None = None, *, together: bool = False
+    system: TorsionalSystem,
+    rpm: Real,
+    weights: Real | None = None,
+    *,
+    together: bool = False,
+    known: Real | None = None,
 ) -> tuple[Real, Real]:
     """Return the largest value of each column between the first and last speed: its speed
     (columns,), rpm, and the value (columns,).
@@ -48,6 +53,7 @@ def find_largest(
         weights: Factors of the first columns; columns whose factor is 0 or missing are skipped.
             Default: 1 for all.
         together: Whether only the highest of all columns is needed, which takes less time.
+        known: Values of all columns at these speeds, shape (speeds, columns), if they are known.
 
     Raises:
         BalcliError: Nothing excites the system, or an undamped mode is driven at its own frequency.
@@ -67,9 +73,16 @@ def find_largest(
         return np.asarray(values.reshape(at.shape))
 
     heights = columns.bound(speeds, wanted) * factors[wanted]
-    level = judge(speeds[heights.argmax(axis=0)], np.arange(len(wanted)))
+    unknown = np.ones((len(speeds), 1), bool)
+    if known is None:
+        level = judge(speeds[heights.argmax(axis=0)], np.arange(len(wanted)))
+    else:
+        given = np.searchsorted(speeds, rpm)
+        unknown[given] = False
+        heights[given] = known[:, wanted] * factors[wanted]
+        level = heights[given].max(axis=0)
     least = _NEAR * (level.max() if together else level)
-    near = np.nonzero((heights > 0) & (heights >= least))
+    near = np.nonzero(unknown & (heights > 0) & (heights >= least))
     heights[near] = judge(speeds[near[0]], near[1])
     level = heights.max() if together else heights.max(axis=0)
     place, _ = find_highest(judge, speeds, heights, level, _NEAR)
@@ -272,7 +285,7 @@ def find_response(
         pieces.append((find_swing(orders, phasors).half, sum_amplitudes(phasors), lost))
         tell(sum(len(each) for each, *_ in pieces) / len(speeds_rpm))
     swings, sums, heat = (np.concatenate(each) for each in zip(*pieces, strict=True))
-    at, value = find_largest(system, speeds_rpm)
+    at, value = find_largest(system, speeds_rpm, known=np.append(swings, heat, axis=1))
     curves = range(end + 1 + len(system.pendulums))  # torques, free end, pendulums
     there, _ = compute_curves(system, at[: len(curves)])
     by_order = np.abs(there[:, curves, curves])  # of each curve at its worst speed

@@ -62,9 +62,11 @@ class Excitation(NamedTuple):
 
     def at(self, speeds: Real) -> Complex:
         """Return the torques (orders, speeds, sources), N m, at speeds (speeds,), rad/s."""
-        grown = self.growing[:, None, :] * speeds[:, None] ** 2
         steady = self.steady[:, None, :] if self.gas is None else self.gas.torque(speeds / RPM)
-        return np.asarray(steady + grown, complex)
+        if not np.any(self.growing):
+            shape = len(self.orders), len(speeds), len(self.nodes)
+            return np.broadcast_to(np.asarray(steady, complex), shape)
+        return np.asarray(steady + self.growing[:, None, :] * speeds[:, None] ** 2, complex)
 
     def at_own(self, speeds: Real) -> Complex:
         """Return the torques (*, orders, sources), N m, at speeds (*, orders), rad/s, of which each
