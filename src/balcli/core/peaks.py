@@ -204,7 +204,7 @@ def _search(orders: ArrayLike, phasors: Complex, *, squared: bool) -> CyclePeak:
     for start in range(0, len(parts), step):
         some = parts[start : start + step]
         size = np.abs(some).sum(axis=(1, 2))
-        scaled = some / np.where(size > _SMALLEST, size, 1)[:, None, None]
+        scaled = np.asarray(some / np.where(size > _SMALLEST, size, 1)[:, None, None], complex)
         waves = _sample(harmonics, scaled)
         if not squared:  # the lowest value of a curve is the highest of its negative
             scaled = np.concatenate([scaled, -scaled])
