@@ -398,10 +398,12 @@ class NumberOrTable:
 
     Args:
         number: Type of a figure.
+        words: Words that may stand for the figure.
     """
 
-    def __init__(self, number: Number) -> None:
+    def __init__(self, number: Number, *words: str) -> None:
         self.number = number
+        self.words = words
 
     def __get_pydantic_core_schema__(
         self, source: object, handler: GetCoreSchemaHandler
@@ -409,16 +411,21 @@ class NumberOrTable:
         from pydantic_core import core_schema
 
         def read(value: object, read_table: Callable[[object], object]) -> object:
-            return read_table(value) if isinstance(value, Mapping) else self.number.read(value)
+            if isinstance(value, Mapping):
+                return read_table(value)
+            return value if value in self.words else self.number.read(value)
 
-        table = next(part for part in get_args(source) if part is not float)
+        table = next(part for part in get_args(source) if part not in (float, str))
         schema = handler.generate_schema(table)
         return core_schema.no_info_wrap_validator_function(read, schema)
 
     def __get_pydantic_json_schema__(
         self, schema: CoreSchema, handler: GetJsonSchemaHandler
     ) -> Node:
-        return {"anyOf": [self.number.json(), handler(schema)]}
+        kinds = [self.number.json(), handler(schema)]
+        if self.words:
+            kinds.append({"enum": list(self.words)})
+        return {"anyOf": kinds}
 
 
 class ListOrEach:

@@ -138,6 +138,9 @@ class TorqueLimit(LimitBySpeed):
         yield from self.check_values("torque")
 
 
+MEAN = "mean"  # torque limit: the mean torque of the shaft
+
+
 class ShaftKeys(FileTable):
     """Keys of a shaft: its stiffness, or the dimensions and modulus from which it follows."""
 
@@ -163,9 +166,9 @@ class ShaftKeys(FileTable):
     limit: Annotated[float | StressLimit, NumberOrTable(_STRESS)] | None = None
     """Largest permitted stress of this shaft: a number, a table over the speed, or a rule; left
     out: that of all shafts. Example: 40"""
-    torque_limit: Annotated[float | TorqueLimit, NumberOrTable(_TORQUE)] | None = None
-    """Largest permitted vibratory torque of this shaft: a number, or a table over the speed.
-    Example: 5200"""
+    torque_limit: Annotated[float | TorqueLimit | str, NumberOrTable(_TORQUE, MEAN)] | None = None
+    """Largest permitted vibratory torque of this shaft: a number, a table over the speed, or "mean"
+    for the mean torque of the shaft, above which gears hammer. Example: 5200"""
 
     @property
     def is_of_unnamed_steel(self) -> bool:
@@ -348,6 +351,37 @@ class ThrowDamper(FileTable):
     """The damper. Example: { kind = 'pendulum', mass = 3.6, radius = 62, order = 4.5 }"""
 
 
+class NodeExcitation(FileTable):
+    """A torque of one order on a part or throw, such as that of a propeller, fan or alternator."""
+
+    node: Name
+    """Part or throw on which the torque acts. Example: 'propeller'"""
+    order: Annotated[float, Number(PLAIN, above=0, most=1e3)]
+    """Oscillations per turn of this node. Example: 4"""
+    share: Annotated[float, Number(PLAIN, above=0, most=1e3)] | None = None
+    """Amplitude as a share of the mean torque at the node. Example: 0.04"""
+    amplitude: Annotated[float, _TORQUE] | None = None
+    """Amplitude, instead of share. Example: 12000"""
+    angle: Annotated[float, Number(ANGLE, most=1e6)] | None = None
+    """Angle in the torque: amplitude times the cosine of (order times the angle of the node, minus
+    this angle); left out: the phase is not known, and the worst phase counts. Example: 25"""
+    law: Annotated[str, OneOf("propeller")] | None = None
+    """With amplitude: proportional to the square of the speed. Example: 'propeller'"""
+    rated_speed: Speed | None = None
+    """With law: speed of the crankshaft at which the amplitude is as given; default:
+    operation.speed. Example: 95"""
+
+    def _check_size(self) -> Iterator[str]:
+        if self.share is None and self.amplitude is None:
+            yield "has neither share nor amplitude; give one of them"
+        if self.share is not None and self.amplitude is not None:
+            yield "has share and amplitude; leave one of them out"
+        if self.share is not None and self.law is not None:
+            yield "has share and law; a share follows the mean torque, so leave law out"
+        if self.rated_speed is not None and self.law is None:
+            yield 'has rated_speed without law; give law = "propeller", or leave rated_speed out'
+
+
 _Parts = Annotated[tuple[Part, ...], Field(max_length=MOST_TORSION_NODES)]
 
 
@@ -394,6 +428,8 @@ class Torsion(ChainKeys):
     """Parts behind the last throw, in order away from it."""
     throw: Annotated[tuple[ThrowDamper, ...], Field(max_length=MOST_TORSION_NODES)] = ()
     """Dampers on throws."""
+    excitation: Annotated[tuple[NodeExcitation, ...], Field(max_length=MOST_TORSION_NODES)] = ()
+    """Torques on parts and throws, besides those of the cylinders."""
     measured: Annotated[str, FileName()] | None = None
     """CSV file in the folder of the engine file with a measured curve: columns speed_rpm, order and
     amplitude_deg (amplitude of the free end). Example: 'torsiograph.csv'"""

@@ -554,6 +554,19 @@ class GasAtSpeeds(NamedTuple):
         """Return the gas with sums of the torques of cylinders, with weights (sums, cylinders)."""
         return self._replace(torque=lambda speeds_rpm: self.torque(speeds_rpm) @ weights.T)
 
+    def spread_orders(self, rows: NDArray[np.intp], count: int) -> GasAtSpeeds:
+        """Return the gas with its orders at these rows of `count` orders; it has no torque of the
+        others.
+        """
+
+        def find_torque(speeds_rpm: ArrayLike) -> Complex:
+            own = self.torque(speeds_rpm)
+            torque = np.zeros((count, *own.shape[1:]), complex)
+            torque[rows] = own
+            return torque
+
+        return self._replace(torque=find_torque)
+
 
 def follow_gas(engine: Engine, find: Callable[[Engine], Complex]) -> GasAtSpeeds:
     """Return the gas of an engine at any speeds.

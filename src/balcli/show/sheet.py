@@ -141,8 +141,10 @@ def count_name(count: float) -> str:
 
 
 def order_name(order: float) -> str:
-    """Return an order as text: 2, ½, 1½."""
+    """Return an order as text: 2, ½, 1½; 1.316 for an order of a part at another speed."""
     whole, half = divmod(order, 1)
+    if half not in (0, 0.5):
+        return f"{order:.4g}"
     return f"{int(whole) or ''}½" if half else str(int(whole))
 
 

@@ -371,7 +371,7 @@ def _analyze_system(
         span = float(speeds[0]), float(speeds[-1])
         response = find_response(system, speeds, tell)
         judgment = judge_system(system, speeds)
-        outside = find_criticals_outside(system.require_excitation(), modes, span)
+        outside = find_criticals_outside(system, modes, span)
     return TorsionAnalysis(
         name=system.name or None,
         no_gas_in=system.silent.without_gas or None,
@@ -381,7 +381,7 @@ def _analyze_system(
         shafts=tuple(map(ChainJoint, system.shafts, chain.stiffness.tolist())),
         modes=modes,
         orders=None if excitation is None else tuple(map(order_number, excitation.orders.tolist())),
-        criticals=None if excitation is None else find_criticals(excitation, modes, span),
+        criticals=None if excitation is None else find_criticals(system, modes, span),
         criticals_outside=outside,
         holzer=tuple(_tabulate(system, modes, asked) for asked in question.holzer) or None,
         response=response,

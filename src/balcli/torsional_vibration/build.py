@@ -30,6 +30,7 @@ from ..file.doubt import Doubt
 from ..file.fields import counted, limit_digits, shorten
 from ..file.model import EngineFile
 from ..file.torsion_tables import (
+    MEAN,
     STEEL,
     ChainKeys,
     Damper,
@@ -44,6 +45,7 @@ from ..file.torsion_tables import (
 from ..forces.crankshaft import find_shear_stress
 from ..forces.spectrum import compute_spectra, follow_gas, list_gas_orders
 from ..limits import HIGHEST_TORSION_ORDER_UNASKED
+from . import node_torques
 from .chain import (
     SAME_RATIO,
     Chain,
@@ -56,6 +58,7 @@ from .chain import (
     rigid_motions,
 )
 from .chain_file import ChainFile, refuse_node
+from .means import Link, MeanTorques, share_out
 from .permitted import LimitTable, ShaftLimit, list_limits
 from .system import Excitation, Pendulums, TorsionalSystem, ViscousRing
 from .throw_stiffness import (
@@ -103,6 +106,7 @@ def assemble_system(
     keys: ChainKeys,
     clamped: Sequence[int] = (),
     fitted: Mapping[str, Damper | None] = NO_DAMPERS,
+    means: MeanTorques | None = None,
     **others: Any,
 ) -> TorsionalSystem:
     """Return the system of these nodes and shafts. Each rubber ring becomes a node and a shaft,
@@ -115,6 +119,7 @@ def assemble_system(
         clamped: Indices of the nodes that are held.
         fitted: Dampers by the name of their node; each replaces the first damper of the node, and
             None removes it.
+        means: Mean torques of these shafts; None: they are not known.
         others: Further attributes of `TorsionalSystem`.
     """
     nodes = list(planned)
@@ -142,7 +147,8 @@ def assemble_system(
     np.add.at(chain.inertia, chain.end, halves)
     stress_by_torque = np.array([*map(_find_stress, tables)])
     own = len(joining)  # rubber rings have no limits
-    limits = list_limits(tables[:own], stress_by_torque[:own], keys, others.get("rated_rpm"))
+    rated_rpm = others.get("rated_rpm")
+    limits = list_limits(tables[:own], stress_by_torque[:own], keys, rated_rpm, means)
     if keys.angle_limit is not None:
         permitted = LimitTable((1.0,), (math.radians(keys.angle_limit),))
         limits = *limits, ShaftLimit(len(shafts), "angle", 1.0, permitted)
@@ -165,6 +171,7 @@ def assemble_system(
         ),
         rings=tuple(rings),
         pendulums=tuple(pendulums),
+        means=None if means is None else means.extend(len(shafts)),
         limit_pa=None if keys.limit is None else keys.limit * 1e6,
         angle_limit=None if keys.angle_limit is None else math.radians(keys.angle_limit),
         last=len(planned) - 1,
@@ -313,13 +320,23 @@ def build_chain(
         file=name,
     )
     named = [(f"shaft.{k}", shaft) for k, shaft in enumerate(file.shaft, 1)]
-    if problems := list(_find_unrated(named, "rated_speed")):
+    problems = list(_find_unrated(named, "rated_speed"))
+    problems += _find_mean_limits(named)
+    if problems:
         raise InputError(problems, name)
     paths = [f"shaft.{k}" for k, _ in enumerate(file.shaft, 1)]
     paths += [f"gear.{k}" for k, _ in enumerate(file.gear, 1)]
     if problems := list(_find_faults(system, paths)):
         raise InputError(problems, name)
     return system
+
+
+def _find_mean_limits(tables: Iterable[tuple[str, ShaftKeys]]) -> Iterator[Problem]:
+    """Yield the limits of a chain's shafts that are their mean torque."""
+    for path, table in tables:
+        if table.torque_limit == MEAN:
+            message = 'is "mean", but a chain file gives no mean torque; give a torque in N m'
+            yield Problem(f"{path}.torque_limit", message)
 
 
 def _find_unrated(tables: Iterable[tuple[str, ShaftKeys]], wanted: str) -> Iterator[Problem]:
@@ -461,6 +478,11 @@ def build_engine_system(
     if not own_speed:
         wanted = "rated_speed, or the engine's operation.speed"
         problems += _find_unrated(((path, part) for path, part, _ in joints), wanted)
+    known_nodes = [*(joint.part.name for joint in joints), *throws]
+    has_gas = engine.gas is not None
+    problems += node_torques.find_mistakes(
+        torsion, known_nodes, has_gas=has_gas, has_speed=own_speed
+    )
     if problems:
         raise InputError(problems, name)
     parts = [PlannedNode(part, part.node_damping) for _, part, _ in joints]
@@ -494,14 +516,26 @@ def build_engine_system(
         place[_find_end([j for j in led if j.path.startswith(f"torsion.{key}")], gears, start)]
         for key, start in (("front", throws[0]), ("rear", throws[-1]))
     )
+    shafts = [*leading[:front][::-1], *between, *leading[front:]]
+    output = joints[-1].part.name if torsion.rear else throws[-1]
+    means = _find_means(engine, shafts, [*map(gears.__getitem__, place)], front, place[output])
+    carried = set() if means is None else _name_carrying(shafts, means)
+    of_parts = [(path, part) for path, part, _ in joints]
+    if problems := list(node_torques.find_idle_limits(of_parts, carried)):
+        raise InputError(problems, name)
+    rated_rpm = model.operation.speed if own_speed else None
+    torques = tuple(node_torques.make_torques(torsion, place, gears, means, rated_rpm))
+    phased = [torque for torque in torques if torque.turn is not None]
     return assemble_system(
         nodes,
-        [*leading[:front][::-1], *between, *leading[front:]],
+        shafts,
         torsion,
         fitted=fitted,
+        means=means,
         name=engine.name,
-        excitation=excitation,
-        rated_rpm=model.operation.speed if own_speed else None,
+        excitation=excitation.with_torques(phased),
+        torques=torques,
+        rated_rpm=rated_rpm,
         reference=front,
         ends=tuple(ends),
         silent=engine.silent,
@@ -533,6 +567,31 @@ def _assume_throw(model: EngineFile, torsion: Torsion, throw: ThrowStiffness) ->
         yield assume("torsion.web_thickness", torsion, thickness)
     if not torsion.has("shear_modulus"):
         yield assume("torsion.shear_modulus", torsion, torsion.shear_modulus)
+
+
+def _find_means(
+    engine: Engine, shafts: Sequence[PlannedShaft], gears: Sequence[float], front: int, output: int
+) -> MeanTorques | None:
+    """Return the mean torques of shafts; None without gas.
+
+    Args:
+        engine: Engine.
+        shafts: Shafts between the nodes.
+        gears: Speed of each node over crank speed.
+        front: Index of the first throw's node.
+        output: Index of the node that takes the power.
+    """
+    if engine.gas is None:
+        return None
+    links = [Link(shaft.start, shaft.end, gears[shaft.end]) for shaft in shafts]
+    sources = [front + throw for throw in engine.joined_throw_of_rows]
+    return MeanTorques(engine, share_out(links, sources, output))
+
+
+def _name_carrying(shafts: Sequence[PlannedShaft], means: MeanTorques) -> set[str]:
+    """Return the names of the shafts that carry a mean torque."""
+    carries = np.any(means.shares, axis=0).tolist()
+    return {shaft.name for shaft, carried in zip(shafts, carries, strict=True) if carried}
 
 
 def _plan_throws(torsion: Torsion, engine: Engine, throws: Sequence[str]) -> Iterator[PlannedNode]:

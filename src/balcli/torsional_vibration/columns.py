@@ -6,10 +6,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..core.peaks import find_swing, sum_amplitudes
 from ..core.vibration import Indices, Real
-from .motion import compute_curves, compute_in_parts
-from .poles import expand_in_poles
+from .motion import compute_curves, compute_in_parts, find_half_swing
+from .poles import PoleSum, expand_in_poles
 from .system import TorsionalSystem
 
 
@@ -26,19 +25,23 @@ class Columns:
         rubber = len(system.nodes) - 1 - system.last
         self.count = curves + len(system.rings) + rubber
         self._system = system
-        self._orders = system.require_excitation().orders
         self._curves = curves
         self._sum = expand_in_poles(system)
+        self._unphased: list[PoleSum] = []
         self._spanned = np.zeros(self.count, bool)
         if self._sum is not None:
             self._spanned[: len(self._sum.spanned)] = self._sum.spanned
+            self._unphased = [self._sum.drive(own) for own in system.unphased]
 
     def bound(self, rpm: Real, which: Indices) -> Real:
         """Return upper bounds at speeds (speeds,), shape (speeds, len(which))."""
         if self._sum is not None and np.all(self._spanned[which]):
-            return self._sum.sum_amplitudes(rpm, which)
+            sums = self._sum.sum_amplitudes(rpm, which)
+            for unphased in self._unphased:
+                sums = sums + unphased.sum_amplitudes(rpm, which)
+            return sums
         parts = compute_in_parts(self._system, rpm)
-        bounds = [np.append(sum_amplitudes(curves), heat, axis=1) for curves, heat in parts]
+        bounds = [np.append(part.sums, part.heat, axis=1) for part in parts]
         return np.concatenate(bounds)[:, which]
 
     def find(self, rpm: Real, which: Indices) -> Real:
@@ -49,7 +52,10 @@ class Columns:
         summed = self._spanned[which]
         if self._sum is not None and np.any(summed):
             phasors = self._sum.find_curves(rpm[summed], which[summed])
-            values[summed] = find_swing(self._orders, phasors).half
+            values[summed] = find_half_swing(self._sum.excitation.orders, phasors)
+            for unphased in self._unphased:
+                own = unphased.find_curves(rpm[summed], which[summed])
+                values[summed] += np.abs(own[0])
         if not np.all(summed):
             values[~summed] = self.find_exactly(rpm[~summed], which[~summed])
         return values
@@ -60,8 +66,8 @@ class Columns:
         if not len(rpm):
             return values
         speeds, place = np.unique(rpm, return_inverse=True)
-        phasors, heat = compute_curves(self._system, speeds)
+        curves = compute_curves(self._system, speeds)
         swings = which < self._curves
-        values[swings] = find_swing(self._orders, phasors[:, place[swings], which[swings]]).half
-        values[~swings] = heat[place[~swings], which[~swings] - self._curves]
+        values[swings] = curves.select(place[swings], which[swings]).swings
+        values[~swings] = curves.heat[place[~swings], which[~swings] - self._curves]
         return values

@@ -340,7 +340,7 @@ def _find_mode_to_damp(
         loss = np.maximum(system.damping.loss, _LOSS)
         system = replace(system, damping=system.damping._replace(loss=loss))
         worst, rpm, _ = _find_hardest(system, speeds)
-    phasors, _ = compute_curves(system, np.array([rpm]))
+    phasors = compute_curves(system, np.array([rpm])).phasors
     by_order = np.abs(phasors[:, 0, worst])
     order = float(system.require_excitation().orders[by_order.argmax()])
     whole = float(np.sum(system.chain.inertia * (system.gears / system.gears[node]) ** 2))

@@ -135,7 +135,7 @@ def compare_measured(system: TorsionalSystem, points: MeasuredPoints) -> Measure
     """Return the measured amplitudes of the free end beside the computed ones.
 
     Args:
-        system: System of the engine; its own excitation is not used.
+        system: System of the engine; its excitation is used at the measured orders only.
         points: Measured curve.
 
     Raises:
@@ -155,11 +155,14 @@ def _find_amplitudes(system: TorsionalSystem, points: MeasuredPoints) -> Real:
     for an order that nothing excites.
     """
     amplitudes = np.zeros(len(points.orders))
-    orders = points.excitation.orders
+    torques = () if system.excitation is None else system.excitation.further
+    measured = [torque for torque in torques if torque.order in points.orders]
+    excitation = points.excitation.with_torques(measured)
+    orders = excitation.orders
     if not len(orders):
         return amplitudes
     rpm, column = np.unique(points.speeds_rpm, return_inverse=True)
-    phasors, _ = compute_curves(replace(system, excitation=points.excitation), rpm)
+    phasors = compute_curves(replace(system, excitation=excitation, torques=()), rpm).phasors
     of_free_end = np.degrees(np.abs(phasors[:, :, len(system.shafts)]))
     excited = np.isin(points.orders, orders)
     row = np.searchsorted(orders, points.orders[excited])

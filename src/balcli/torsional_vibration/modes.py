@@ -8,6 +8,7 @@ Holzer's table lists angles and torques of a chain at one frequency, node by nod
 
 from __future__ import annotations
 
+import math
 from operator import attrgetter
 from typing import Annotated, NamedTuple
 
@@ -214,60 +215,112 @@ def find_natural_modes(system: TorsionalSystem) -> tuple[NaturalMode, ...]:
     return tuple(natural_modes)
 
 
+class _Drive(NamedTuple):
+    """What torques do at the critical speeds of each mode and order, shape (modes, orders).
+
+    Attributes:
+        orders: Orders, shape (orders,).
+        rpm: Critical speeds.
+        work: Sum of the works of all torques, over pi, J, with their phases.
+        most: Sum of the works without phases.
+        largest: Largest amplitude of a torque, N m.
+    """
+
+    orders: Real
+    rpm: Real
+    work: Real
+    most: Real
+    largest: Real
+
+
 def find_criticals(
-    excitation: Excitation,
+    system: TorsionalSystem,
     modes: tuple[NaturalMode, ...],
     range_rpm: tuple[float, float] | None = None,
 ) -> tuple[Critical, ...]:
-    """Return the critical speeds, sorted by falling work.
+    """Return the critical speeds, sorted by falling work. The work of a torque without a known
+    phase is added.
 
     Args:
-        excitation: Orders and torques.
+        system: System with an excitation.
         modes: Natural modes.
         range_rpm: First and last speed, rpm; None: all speeds.
     """
-    orders = excitation.orders
+    if system.excitation is None:
+        return ()
     low, high = range_rpm or (0.0, np.inf)
+    drive = _find_drive(system.excitation, modes, low, high)
+    for own in system.unphased:
+        drive = _add_drive(drive, _find_drive(own, modes, low, high))
+    counted = (drive.rpm >= low * (1 - 1e-12)) & (drive.rpm <= high * (1 + 1e-12))
+    counted &= drive.work > _UNDRIVEN * drive.most
+    total = np.sum(drive.work, axis=1, where=counted)
+    criticals = []
+    for m, k in np.argwhere(counted):
+        work = float(drive.work[m, k])
+        critical = Critical(
+            mode=modes[m].number,
+            order=order_number(float(drive.orders[k])),
+            speed_rpm=float(drive.rpm[m, k]),
+            phase_sum=work / float(drive.largest[m, k]),
+            work_share=work / float(total[m]),
+            work=math.pi * work,
+        )
+        criticals.append(critical)
+    return tuple(sorted(criticals, key=lambda critical: -critical.work))
+
+
+def _find_drive(
+    excitation: Excitation, modes: tuple[NaturalMode, ...], low: float, high: float
+) -> _Drive:
+    """Return what an excitation does at its critical speeds; torques are computed at speeds (rpm)
+    from `low` to `high`.
+    """
+    orders = excitation.orders
     moved = np.array([mode.shape[excitation.nodes] for mode in modes])
     moved = moved.reshape(len(modes), 1, len(excitation.nodes))
-    speeds = np.array([mode.omega for mode in modes])[:, None] / orders  # (modes, orders)
+    speeds = np.array([mode.omega for mode in modes])[:, None] / orders
     within = np.clip(speeds, low * RPM, high * RPM)  # speeds outside are ignored
     torque = excitation.at_own(within)
-    phasors = np.abs(np.sum(torque * moved, axis=-1))
-    rpm = speeds / RPM
-    counted = (rpm >= low * (1 - 1e-12)) & (rpm <= high * (1 + 1e-12))
-    counted &= phasors > _UNDRIVEN * np.sum(np.abs(torque * moved), axis=-1)
-    total = np.sum(phasors, axis=1, where=counted)
-    criticals = [
-        Critical(
-            mode=modes[m].number,
-            order=order_number(float(orders[k])),
-            speed_rpm=float(rpm[m, k]),
-            phase_sum=float(phasors[m, k] / np.abs(torque[m, k]).max()),
-            work_share=float(phasors[m, k] / total[m]),
-            work=float(np.pi * phasors[m, k]),
-        )
-        for m, k in np.argwhere(counted)
-    ]
-    return tuple(sorted(criticals, key=lambda each: -each.work))
+    work = torque * moved
+    return _Drive(
+        orders=orders,
+        rpm=speeds / RPM,
+        work=np.abs(work.sum(axis=-1)),
+        most=np.abs(work).sum(axis=-1),
+        largest=np.abs(torque).max(axis=-1, initial=0.0),
+    )
+
+
+def _add_drive(drive: _Drive, own: _Drive) -> _Drive:
+    """Return what two excitations do in the worst phase; the second one has a single order."""
+    same = np.flatnonzero(drive.orders == own.orders[0])
+    if not len(same):
+        joined = [np.append(every, some, axis=-1) for every, some in zip(drive, own, strict=True)]
+        return _Drive._make(joined)
+    added = np.zeros_like(drive.work)
+    added[:, same] = own.work
+    largest = drive.largest.copy()
+    largest[:, same] = np.maximum(largest[:, same], own.largest)
+    return drive._replace(work=drive.work + added, most=drive.most + added, largest=largest)
 
 
 _OUTSIDE = 0.2  # share of the first and last speed up to which criticals outside are listed
 
 
 def find_criticals_outside(
-    excitation: Excitation, modes: tuple[NaturalMode, ...], range_rpm: tuple[float, float]
+    system: TorsionalSystem, modes: tuple[NaturalMode, ...], range_rpm: tuple[float, float]
 ) -> tuple[OutsideCritical, ...]:
     """Return the critical speeds in the 20 % below and above a range of speeds, by rising speed.
 
     Args:
-        excitation: Orders and torques.
+        system: System with an excitation.
         modes: Natural modes.
         range_rpm: First and last speed, rpm.
     """
     first, last = range_rpm
-    inside = find_criticals(excitation, modes, range_rpm)
-    near = find_criticals(excitation, modes, (first * (1 - _OUTSIDE), last * (1 + _OUTSIDE)))
+    inside = find_criticals(system, modes, range_rpm)
+    near = find_criticals(system, modes, (first * (1 - _OUTSIDE), last * (1 + _OUTSIDE)))
     within = {(critical.mode, critical.order) for critical in inside}
     outside = []
     for critical in near:

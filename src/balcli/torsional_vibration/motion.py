@@ -13,10 +13,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..core.peaks import find_swing, sum_amplitudes
 from ..core.phases import RPM
 from ..core.vibration import (
     UNDAMPED,
     Complex,
+    Indices,
     Real,
     UndampedResonanceError,
     solve_equations,
@@ -34,7 +36,7 @@ from .chain import (
 )
 from .modes import chain_loss, find_chain_modes
 from .poles import find_poles
-from .system import TorsionalSystem
+from .system import Excitation, TorsionalSystem
 
 _WEAK_PIVOT = 1e-3  # sums that cancel to less than this share of their terms need pivoting
 _RESONANT = 1e-9  # resonance: the chain's dynamic stiffness is below this share of its terms
@@ -225,9 +227,50 @@ _EDGE = 1e-10  # a resonance outside the range of speeds by less than this share
 _AT_A_TIME = 1 << 16  # number of angles and torques computed at once: more leave the cache
 
 
-def _move(system: TorsionalSystem, rpm: Real) -> tuple[Complex, Real]:
-    """Return the curves and heat that `compute_curves` describes."""
-    excitation = system.require_excitation()
+class Curves(NamedTuple):
+    """Vibration at speeds. The curves are the torques of all shafts (N m), the angle of the free
+    end and the angles of pendulums (rad).
+
+    Attributes:
+        orders: Orders of the excitation, shape (orders,).
+        phasors: Phasors (orders, speeds, curves).
+        heat: Power of dampers, W, shape (speeds, dampers): viscous rings, then rubber.
+        unphased: Amplitudes by torques whose phase to the cylinders is not known, shape (torques,
+            speeds, curves).
+    """
+
+    orders: Real
+    phasors: Complex
+    heat: Real
+    unphased: Real
+
+    @property
+    def swings(self) -> Real:
+        """Half of peak to peak of each curve, shape (speeds, curves): orders add with their phases,
+        and torques without a known phase add in the worst phase.
+        """
+        return find_half_swing(self.orders, self.phasors) + self.unphased.sum(axis=0)
+
+    @property
+    def sums(self) -> Real:
+        """Sum of all amplitudes of each curve, shape (speeds, curves)."""
+        return np.asarray(sum_amplitudes(self.phasors) + self.unphased.sum(axis=0))
+
+    def select(self, speeds: Indices, curves: Indices) -> Curves:
+        """Return single curves at single speeds, given by their indices, shape (choices,)."""
+        phasors = self.phasors[:, speeds, curves]
+        return Curves(self.orders, phasors, self.heat, self.unphased[:, speeds, curves])
+
+
+def find_half_swing(orders: Real, phasors: Complex) -> Real:
+    """Return half of peak to peak of curves, shape (...), from their phasors (orders, ...)."""
+    if not len(orders):
+        return np.zeros(phasors.shape[1:])
+    return np.asarray(find_swing(orders, phasors).half)
+
+
+def _move(system: TorsionalSystem, excitation: Excitation, rpm: Real) -> tuple[Complex, Real]:
+    """Return the phasors and the heat that `Curves` describes, for an excitation."""
     speeds = rpm * RPM
     w = np.multiply.outer(excitation.orders, speeds)
     load = excitation.at(speeds) @ np.equal.outer(excitation.nodes, np.arange(len(system.nodes)))
@@ -264,27 +307,35 @@ def _find_heat(system: TorsionalSystem, w: Real, angle: Complex, torque: Complex
     return np.concatenate([oil, rubber], axis=-1) / 2
 
 
-def compute_in_parts(system: TorsionalSystem, rpm: Real) -> Iterator[tuple[Complex, Real]]:
-    """Yield the curves and heat of `compute_curves` for consecutive groups of speeds, which bounds
-    the memory.
+def compute_in_parts(system: TorsionalSystem, rpm: Real) -> Iterator[Curves]:
+    """Yield the curves of `compute_curves` for consecutive groups of speeds, which bounds the
+    memory.
     """
-    work = len(system.require_excitation().orders) * (len(system.nodes) + len(system.shafts))
+    excitation = system.require_excitation()
+    work = len(excitation.orders) * (len(system.nodes) + len(system.shafts))
     for some in np.array_split(rpm, len(rpm) * work // _AT_A_TIME + 1):
-        yield _move(system, some)
+        phasors, heat = _move(system, excitation, some)
+        unphased = np.zeros((len(system.unphased), *phasors.shape[1:]))
+        for torque, alone in enumerate(system.unphased):
+            own, own_heat = _move(system, alone, some)
+            unphased[torque] = np.abs(own[0])
+            heat = heat + own_heat
+        yield Curves(excitation.orders, phasors, heat, unphased)
 
 
-def compute_curves(system: TorsionalSystem, rpm: Real) -> tuple[Complex, Real]:
+def compute_curves(system: TorsionalSystem, rpm: Real) -> Curves:
     """Return torques, swings and the heat of dampers at speeds (speeds,), rpm.
-
-    Returns:
-        Phasors (orders, speeds, curves): the torques of all shafts (N m), the angle of the free end
-        and the angles of pendulums (rad). Heat (speeds, dampers), W: viscous rings, then rubber.
 
     Raises:
         BalcliError: Nothing excites the system, or an undamped mode is driven at its own frequency.
     """
-    curves, heat = zip(*compute_in_parts(system, rpm), strict=True)
-    return np.concatenate(curves, axis=1), np.concatenate(heat)
+    parts = list(compute_in_parts(system, rpm))
+    return Curves(
+        orders=parts[0].orders,
+        phasors=np.concatenate([part.phasors for part in parts], axis=1),
+        heat=np.concatenate([part.heat for part in parts]),
+        unphased=np.concatenate([part.unphased for part in parts], axis=1),
+    )
 
 
 # ------------------------------------------------------------------ limits of the computation
@@ -307,12 +358,16 @@ def refuse_unbounded(system: TorsionalSystem, rpm: Real) -> None:
     loss = chain_loss(system.chain, system.damping, modes, system.attached_rings(modes.omega))
     free = modes.omega[(modes.omega > 0) & (loss <= UNDAMPED)]
     none = Damping(*(np.zeros_like(each) for each in system.damping))
-    for order in excitation.orders.tolist():
+    for order in system.every_order.tolist():
         if system.pendulums:  # their inertia, and so the modes, depend on the order
             poles = find_poles(system, order)
             free = poles.imag[(poles.imag > 0) & (-2 * poles.real <= UNDAMPED * np.abs(poles))]
         met = free / (RPM * order)
         met = met[(met >= rpm[0] * (1 - _EDGE)) & (met <= rpm[-1] * (1 + _EDGE))]
-        if len(met):  # raises if the order drives the mode
-            alone = excitation.only(np.array([order]))
-            compute_curves(replace(system, damping=none, rings=(), excitation=alone), met)
+        if not len(met):
+            continue
+        undamped = replace(system, damping=none, rings=())
+        for own in (excitation, *system.unphased):
+            alone = own.only(np.array([order]))
+            if len(alone.orders):
+                _move(undamped, alone, met)  # raises if the order drives the mode

@@ -11,7 +11,8 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from ..core.vibration import Real
-from ..file.torsion_tables import ChainKeys, ShaftKeys, StressLimit, TorqueLimit
+from ..file.torsion_tables import MEAN, ChainKeys, ShaftKeys, StressLimit, TorqueLimit
+from .means import MeanTorques
 
 M68_FACTOR_ENDS = 0.9  # speed over rated speed up to which the speed factor of M68 falls
 M68_ALLOY = 600.0  # N/mm2; M68 counts a higher strength of intermediate shafts only
@@ -89,7 +90,7 @@ class M68(NamedTuple):
             )
         highest = M68_HIGHEST * self.rated_rpm
         if last_rpm > highest:
-            yield f"{last_rpm:g} rpm is beyond the rule, which ends at {highest:.4g} rpm"
+            yield f"{last_rpm:g} rpm is beyond the rule, which ends at {highest:.6g} rpm"
 
     @property
     def transient(self) -> float:
@@ -102,6 +103,31 @@ class M68(NamedTuple):
         """
         width = 18 - rpm / self.rated_rpm
         return 16 * rpm / width, width * rpm / 16
+
+
+class MeanLimit(NamedTuple):
+    """Limit above which the torque of a shaft reverses: the size of its mean torque.
+
+    Attributes:
+        means: Mean torques of all shafts.
+        shaft: Index of the shaft.
+    """
+
+    means: MeanTorques
+    shaft: int
+
+    @property
+    def corners(self) -> Sequence[float]:
+        """Speeds at which the limit is not smooth."""
+        return self.means.nodes_rpm
+
+    def at(self, rpm: Real) -> Real:
+        """Return the limits at speeds."""
+        return np.abs(self.means.at(rpm)[..., self.shaft])
+
+    def list_doubts(self, _first_rpm: float, _last_rpm: float) -> Iterator[str]:
+        """Yield nothing: the gas has warnings of its own for speeds that it does not cover."""
+        yield from ()
 
 
 class ShaftLimit(NamedTuple):
@@ -117,7 +143,7 @@ class ShaftLimit(NamedTuple):
     column: int
     kind: Literal["stress", "torque", "angle"]
     by_torque: float
-    limit: LimitTable | M68
+    limit: LimitTable | M68 | MeanLimit
 
 
 def list_limits(
@@ -125,6 +151,7 @@ def list_limits(
     stress_by_torque: Real,
     keys: ChainKeys,
     rated_rpm: float | None,
+    means: MeanTorques | None = None,
 ) -> tuple[ShaftLimit, ...]:
     """Return the limits of shafts, in the order of the shafts, stress first.
 
@@ -133,6 +160,7 @@ def list_limits(
         stress_by_torque: Stress of each shaft for 1 N m, Pa; 0 without a diameter.
         keys: Limits of shafts that have none of their own.
         rated_rpm: Speed of the file, for rules; None: the file gives none.
+        means: Mean torques of the shafts; None: they are not known.
     """
     limits = []
     for k, (table, by_torque) in enumerate(zip(tables, stress_by_torque.tolist(), strict=True)):
@@ -141,7 +169,9 @@ def list_limits(
             permitted = _make_stress_limit(stress, table, rated_rpm)
             limits.append(ShaftLimit(k, "stress", by_torque, permitted))
         torque = keys.torque_limit if table.torque_limit is None else table.torque_limit
-        if torque is not None:
+        if torque == MEAN and means is not None:
+            limits.append(ShaftLimit(k, "torque", 1.0, MeanLimit(means, k)))
+        elif torque is not None and not isinstance(torque, str):
             limits.append(ShaftLimit(k, "torque", 1.0, _make_torque_limit(torque)))
     return tuple(limits)
 

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from ..core.peaks import find_swing
 from ..core.vibration import Complex, Indices, Real
 from ..errors import ArgumentError
 from ..file.fields import counted
@@ -76,8 +75,8 @@ def _compute_curves(result: TorsionAnalysis, response: TorsionResponse) -> _Curv
     peaks += [response.free_end_worst.speed_rpm]
     rpm = np.union1d(response.speeds_rpm, peaks)
     orders = result.system.require_excitation().orders
-    phasors, _ = compute_curves(result.system, rpm)
-    return _Curves(rpm, orders, phasors, find_swing(orders, phasors).half)
+    curves = compute_curves(result.system, rpm)
+    return _Curves(rpm, orders, curves.phasors, curves.swings)
 
 
 def make_figures_of_torsion(

@@ -14,7 +14,7 @@ stiffness, and their unit of time makes frequencies about 1.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -37,9 +37,7 @@ from .system import Excitation, TorsionalSystem
 # and hardly at such a number. It is real because real equations, those without loss factors, take
 # a quarter of the time.
 _SIGMA = 0.836
-_HELD = (
-    -0.25
-)  # stiffness of a motion that turns freely: its poles are 0.5 and -0.5, far from _SIGMA
+_HELD = -0.25  # stiffness of a motion that turns freely: its poles 0.5 and -0.5 are no _SIGMA
 _INFINITE = 1e-6  # eigenvalues mu below this share of the largest count as 0: they have no pole
 # Eigenvectors with a larger condition number, of poles that almost coincide, lose too many digits.
 _ILL = 1e7
@@ -172,6 +170,7 @@ class PoleSum:
         unit: Frequency that counts as 1, rad/s.
         mu: (poles,) eigenvalues.
         excitation: Excitation of each term.
+        driven: (terms, nodes) size of each term for 1 N m on each node.
         felt: (terms, curves) share of each term in each twist, and in the angle of the free end.
         stiffness: (curves,) factor of this twist or angle, N m/rad.
         dashpots: (curves,) factor of its rate, N m s/rad.
@@ -182,9 +181,15 @@ class PoleSum:
     unit: float
     mu: Complex
     excitation: Excitation
+    driven: Complex
     felt: Complex
     stiffness: Complex
     dashpots: Real
+
+    def drive(self, excitation: Excitation) -> PoleSum:
+        """Return the sums for another excitation."""
+        own = excitation.combine(self.driven[:, excitation.nodes])
+        return replace(self, excitation=own)
 
     def find_curves(self, rpm: Real, which: Indices) -> Complex:
         """Return phasors (orders, places) at speeds (places,), each of the curve in `which`."""
@@ -267,13 +272,14 @@ def expand_in_poles(system: TorsionalSystem) -> PoleSum | None:
     elastic = np.isfinite(system.chain.stiffness)
     stiffness = np.where(elastic, system.chain.stiffness, 0) * (1 + 1j * system.damping.loss)
     excitation = system.require_excitation()
-    sources = np.asarray(driven[:, excitation.nodes] / equations.scale, complex)
+    of_nodes = np.asarray(driven / equations.scale, complex)
     return PoleSum(
         poles=poles,
         spanned=np.append(elastic, True),
         unit=equations.unit,
         mu=mu,
-        excitation=excitation.combine(sources),
+        excitation=excitation.combine(of_nodes[:, excitation.nodes]),
+        driven=of_nodes,
         felt=felt,
         stiffness=np.append(stiffness, 1),
         dashpots=np.append(system.damping.dashpots, 0),

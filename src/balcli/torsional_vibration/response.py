@@ -9,12 +9,13 @@ highest is then refined.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
 import numpy as np
 
-from ..core.peaks import find_highest, find_swing, sum_amplitudes
+from ..core.peaks import find_highest
 from ..core.phases import RPM
 from ..core.vibration import ROUNDING, Indices, Real
 from ..file.fields import order_number
@@ -99,7 +100,7 @@ def add_resonances(system: TorsionalSystem, rpm: Real) -> Real:
     """
     if len(rpm) == 1:
         return rpm
-    orders = system.require_excitation().orders
+    orders = system.every_order
     if system.pendulums:
         of_orders = [find_poles(system, order) for order in orders.tolist()]
     else:
@@ -139,7 +140,8 @@ class WorstTorque:
         speed_rpm: Speed at which this torque occurs.
         half_peak_to_peak_Nm: Half of the peak-to-peak torque, all orders added with their phases.
         stress_Pa: Stress at that speed; left out without a diameter.
-        orders: Torque by order at that speed.
+        orders: Torque by order at that speed; torques without a known phase come last, each by
+            itself.
         edge: End of the range of speeds at which this torque occurs, so that it may be larger
             outside; left out elsewhere, and for a single speed.
     """
@@ -160,6 +162,7 @@ class ShaftResponse:
         half_peak_to_peak_Nm: Half of the peak-to-peak torque, by speed.
         sum_of_amplitudes_Nm: Sum of the amplitudes of all orders, by speed.
         stress_Pa: Stress under `half_peak_to_peak_Nm`, by speed; left out without a diameter.
+        mean_Nm: Mean torque, by speed; left out without gas.
         worst: Largest torque over the range of speeds.
     """
 
@@ -167,6 +170,7 @@ class ShaftResponse:
     half_peak_to_peak_Nm: Real
     sum_of_amplitudes_Nm: Real
     stress_Pa: Real | None = None
+    mean_Nm: Real | None = None
     worst: WorstTorque
 
 
@@ -239,6 +243,25 @@ class PendulumSwing(NamedTuple):
     worst: WorstPendulum
 
 
+class ExcitationBySpeed(NamedTuple):
+    """A torque of one order on a node, from [[torsion.excitation]].
+
+    Attributes:
+        node: Name of the node.
+        order: Oscillations per turn of the node.
+        crank_order: Oscillations per turn of the crankshaft.
+        phase: Whether the phase to the cylinders is known. If not, what the torque causes is added
+            in the worst phase.
+        amplitude_Nm: Amplitude by speed.
+    """
+
+    node: str
+    order: float
+    crank_order: float
+    phase: Literal["known", "unknown"]
+    amplitude_Nm: Real
+
+
 @dataclass(frozen=True, eq=False, kw_only=True)
 class TorsionResponse:
     """Forced vibration over speeds.
@@ -252,6 +275,7 @@ class TorsionResponse:
         free_end_worst: Largest swing of the free end.
         dampers: Heat of dampers, viscous rings first; left out if there are none.
         pendulums: Swing of pendulums; left out if there are none.
+        excitations: Torques on nodes besides those of the cylinders; left out if there are none.
     """
 
     speeds_rpm: Real
@@ -261,6 +285,7 @@ class TorsionResponse:
     free_end_worst: WorstSwing
     dampers: tuple[DamperHeat, ...] | None = None
     pendulums: tuple[PendulumSwing, ...] | None = None
+    excitations: tuple[ExcitationBySpeed, ...] | None = None
 
 
 def find_response(
@@ -280,16 +305,18 @@ def find_response(
     excitation = system.require_excitation()
     end = len(system.shafts)
     pieces = []
-    orders = excitation.orders
-    for phasors, lost in compute_in_parts(system, speeds_rpm):
-        pieces.append((find_swing(orders, phasors).half, sum_amplitudes(phasors), lost))
+    for part in compute_in_parts(system, speeds_rpm):
+        pieces.append((part.swings, part.sums, part.heat))
         tell(sum(len(each) for each, *_ in pieces) / len(speeds_rpm))
     swings, sums, heat = (np.concatenate(each) for each in zip(*pieces, strict=True))
     at, value = find_largest(system, speeds_rpm, known=np.append(swings, heat, axis=1))
-    curves = range(end + 1 + len(system.pendulums))  # torques, free end, pendulums
-    there, _ = compute_curves(system, at[: len(curves)])
-    by_order = np.abs(there[:, curves, curves])  # of each curve at its worst speed
-    named_orders = list(map(order_number, orders.tolist()))
+    curves = np.arange(end + 1 + len(system.pendulums))  # torques, free end, pendulums
+    worst_curves = compute_curves(system, at[: len(curves)])
+    at_worst = worst_curves.select(curves, curves)  # each curve at its worst speed
+    by_order = np.concatenate([np.abs(at_worst.phasors), at_worst.unphased])
+    unphased = [float(own.orders[0]) for own in system.unphased]
+    named_orders = [*map(order_number, (*excitation.orders.tolist(), *unphased))]
+    means = None if system.means is None else system.means.at(speeds_rpm)
     shafts = []
     for k, name in enumerate(system.shafts):
         by_torque = system.stress_by_torque[k]  # 0 without a diameter
@@ -305,6 +332,7 @@ def find_response(
             half_peak_to_peak_Nm=swings[:, k],
             sum_of_amplitudes_Nm=sums[:, k],
             stress_Pa=swings[:, k] * by_torque if by_torque else None,
+            mean_Nm=None if means is None else means[:, k],
             worst=worst,
         )
         shafts.append(shaft)
@@ -329,7 +357,20 @@ def find_response(
         ),
         dampers=dampers or None,
         pendulums=tuple(pendulums) or None,
+        excitations=tuple(_list_excitations(system, speeds_rpm)) or None,
     )
+
+
+def _list_excitations(system: TorsionalSystem, speeds_rpm: Real) -> Iterator[ExcitationBySpeed]:
+    """Yield the torques of [[torsion.excitation]] at these speeds."""
+    for torque in system.torques:
+        yield ExcitationBySpeed(
+            node=system.nodes[torque.node],
+            order=order_number(torque.own_order),
+            crank_order=order_number(torque.order),
+            phase="unknown" if torque.turn is None else "known",
+            amplitude_Nm=torque.amplitude(speeds_rpm),
+        )
 
 
 def _find_edge(speeds_rpm: Real, at: float, value: float) -> Edge | None:

@@ -4,6 +4,7 @@ vibration over speed, sized damper) and as CSV.
 
 from __future__ import annotations
 
+import cmath
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from operator import attrgetter
@@ -33,6 +34,7 @@ from ..show.sheet import (
     Sheet,
     Text,
     assumed_facts,
+    degrees,
     number,
     order_name,
     size_text,
@@ -190,6 +192,9 @@ def _list_speeds(response: Node) -> Iterator[Line]:
     pendulums = response.get("pendulums", ())
     for s, speed in enumerate(response.get("speeds_rpm", ())):
         head = Line("response", speed_rpm=speed)
+        for torque in response.get("excitations", ()):
+            of_torque = head._replace(name=torque["node"], order=torque["crank_order"])
+            yield from _put(of_torque, list_series(torque, s))
         if "imep_Pa" in response:
             yield from _put(head, [Figure("imep", response["imep_Pa"][s], "Pa")])
         for shaft in shafts:
@@ -243,6 +248,7 @@ def sheet(result: TorsionAnalysis, system: System) -> Sheet:
     parts += [_show_holzer(result, table, system) for table in result.holzer or ()]
     if hasattr(result, "response"):
         parts.append(_show_response(result, result.response, system))
+        parts += _show_excitations(result, result.response, system)
         parts += _show_limits(result, system)
     if result.measured is not None:
         parts.append(_show_measured(result, result.measured))
@@ -582,6 +588,35 @@ def _show_response(
         f"{_describe_edges(result, response)}"
     )
     return Grid.of_rows(f"Vibratory torque, {span}", heads, rows, note)
+
+
+def _show_excitations(
+    result: TorsionAnalysis, response: TorsionResponse, system: System
+) -> Iterator[Text]:
+    """Yield a line for each torque on a node, at the rated speed if that is one of the speeds,
+    otherwise at the last speed.
+    """
+    if not response.excitations:
+        return
+    speeds = response.speeds_rpm
+    rated = result.system.rated_rpm or 0.0
+    rpm = rated if speeds[0] <= rated <= speeds[-1] else float(speeds[-1])
+    lines = []
+    unknown = False
+    for shown, torque in zip(response.excitations, result.system.torques, strict=True):
+        size = size_text(float(torque.amplitude(np.array(rpm))), system.moment)
+        phase = "phase not known"
+        if torque.turn is not None:
+            angle = math.degrees(-cmath.phase(torque.turn))
+            phase = f"phase {degrees(angle % 360)} deg"
+        else:
+            unknown = True
+        name = f"{shown.node}, order {order_name(shown.order)}"
+        at_crank = f"crank order {order_name(shown.crank_order)}"
+        lines.append(f"{name} ({at_crank}): ±{size} at {number(rpm)} rpm, {phase}.")
+    if unknown:
+        lines.append("What a torque without a known phase causes is added in the worst phase.")
+    yield Text("Torques on nodes", tuple(lines))
 
 
 # What the speed of a largest value is marked with at an end of the range.

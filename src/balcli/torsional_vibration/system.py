@@ -4,6 +4,7 @@ Speeds and orders refer to a reference node, the crankshaft or the first node of
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
@@ -18,6 +19,7 @@ from ..file.assumed import Assumed
 from ..file.doubt import Doubt
 from ..forces.spectrum import GasAtSpeeds
 from .chain import Chain, Damping, find_pieces, pendulum_inertia, pendulum_swing, viscous_inertia
+from .means import MeanTorques
 from .permitted import ShaftLimit
 from .throw_stiffness import ThrowStiffness
 
@@ -39,19 +41,53 @@ class Pendulums(NamedTuple):
     length: float
 
 
+class NodeTorque(NamedTuple):
+    """A torque of one order on a node, such as that of a propeller's blades.
+
+    Attributes:
+        node: Index of the node.
+        own_order: Oscillations per turn of the node.
+        order: Order at the reference node.
+        turn: Phasor of 1 N m; None: its phase to the cylinders is not known.
+        amplitude: Function that returns the amplitude, N m, at speeds, rpm.
+    """
+
+    node: int
+    own_order: float
+    order: float
+    turn: complex | None
+    amplitude: Callable[[Real], Real]
+
+    def at(self, speeds: Real) -> Complex:
+        """Return the phasors of a torque with a known phase, N m, at speeds, rad/s."""
+        return np.asarray((self.turn or 0.0) * self.amplitude(speeds / RPM), complex)
+
+    @property
+    def alone(self) -> Excitation:
+        """Excitation by this torque alone; its phase does not matter then."""
+        known = self._replace(turn=self.turn or 1.0)
+        none = np.zeros((1, 0), complex)
+        nodes = np.array([self.node])
+        return Excitation(np.array([self.order]), nodes, none, none, further=(known,))
+
+
 class Excitation(NamedTuple):
     """Complex torques c by order n. The torque of one order is `Re(c e^{i n t})`, where t is the
     angle of the reference node.
 
     Attributes:
         orders: (orders,) orders, rising, above 0.
-        nodes: (sources,) node on which each source (a cylinder, a torque of a chain) acts.
-        steady: (orders, sources) torque that does not depend on the speed, N m; if the gas depends
-            on the speed, the gas torque at the engine's own speed.
-        growing: (orders, sources) torque that is proportional to the square of the speed, divided
+        nodes: (sources,) node on which each source acts: cylinders (or torques of a chain), then
+            further torques.
+        steady: (orders, cylinders) torque that does not depend on the speed, N m; if the gas
+            depends on the speed, the gas torque at the engine's own speed.
+        growing: (orders, cylinders) torque that is proportional to the square of the speed, divided
             by this square, kg m2.
         gas: Gas torque by cylinder as a function of the speed, which replaces `steady`; None: the
             gas torque does not depend on the speed.
+        further: Further torques, whose phases are known.
+        mixed: (sources, further) share of further torques in each source; None: each is a source of
+            its own.
     """
 
     orders: Real
@@ -59,14 +95,24 @@ class Excitation(NamedTuple):
     steady: Complex
     growing: Complex
     gas: GasAtSpeeds | None = None
+    further: tuple[NodeTorque, ...] = ()
+    mixed: Complex | None = None
 
     def at(self, speeds: Real) -> Complex:
         """Return the torques (orders, speeds, sources), N m, at speeds (speeds,), rad/s."""
         steady = self.steady[:, None, :] if self.gas is None else self.gas.torque(speeds / RPM)
-        if not np.any(self.growing):
-            shape = len(self.orders), len(speeds), len(self.nodes)
-            return np.broadcast_to(np.asarray(steady, complex), shape)
-        return np.asarray(steady + self.growing[:, None, :] * speeds[:, None] ** 2, complex)
+        of_cylinders = np.asarray(steady, complex)
+        if np.any(self.growing):
+            of_cylinders = of_cylinders + self.growing[:, None, :] * speeds[:, None] ** 2
+        shape = len(self.orders), len(speeds), self.steady.shape[1]
+        of_cylinders = np.broadcast_to(of_cylinders, shape)
+        if not self.further:
+            return of_cylinders
+        of_others = np.zeros((*shape[:2], len(self.further)), complex)
+        for source, torque in enumerate(self.further):
+            row = np.searchsorted(self.orders, torque.order)
+            of_others[row, :, source] = torque.at(speeds)
+        return self._join(of_cylinders, of_others)
 
     def at_own(self, speeds: Real) -> Complex:
         """Return the torques (*, orders, sources), N m, at speeds (*, orders), rad/s, of which each
@@ -77,21 +123,58 @@ class Excitation(NamedTuple):
             of_all = self.gas.torque(speeds / RPM)  # (orders, *, orders, sources)
             each = np.arange(len(self.orders))
             steady = np.moveaxis(of_all[each, ..., each, :], 0, -2)
-        return np.asarray(steady + self.growing * speeds[..., None] ** 2, complex)
+        of_cylinders = np.asarray(steady + self.growing * speeds[..., None] ** 2, complex)
+        if not self.further:
+            return of_cylinders
+        of_others = np.zeros((*speeds.shape, len(self.further)), complex)
+        for source, torque in enumerate(self.further):
+            row = np.searchsorted(self.orders, torque.order)
+            of_others[..., row, source] = torque.at(speeds[..., row])
+        return self._join(of_cylinders, of_others)
+
+    def _join(self, of_cylinders: Complex, of_others: Complex) -> Complex:
+        """Return the torques of all sources from those of cylinders and further ones."""
+        if self.mixed is not None:
+            return np.asarray(of_cylinders + of_others @ self.mixed.T)
+        return np.concatenate([of_cylinders, of_others], axis=-1)
 
     def combine(self, weights: Complex) -> Excitation:
         """Return the excitation whose sources are sums of these, with weights (sums, sources)."""
-        gas = None if self.gas is None else self.gas.combine(np.asarray(weights, complex))
-        steady = self.steady @ weights.T
+        of_cylinders, of_further = np.split(weights, [self.steady.shape[1]], axis=1)
+        gas = None if self.gas is None else self.gas.combine(np.asarray(of_cylinders, complex))
         return Excitation(
-            self.orders, np.arange(len(weights)), steady, self.growing @ weights.T, gas
+            orders=self.orders,
+            nodes=np.arange(len(weights)),
+            steady=self.steady @ of_cylinders.T,
+            growing=self.growing @ of_cylinders.T,
+            gas=gas,
+            further=self.further,
+            mixed=of_further,
         )
 
     def only(self, orders: Real) -> Excitation:
         """Return the excitation restricted to some orders."""
         kept = np.isin(self.orders, orders)
         gas = None if self.gas is None else self.gas.select_orders(kept)
-        return Excitation(self.orders[kept], self.nodes, self.steady[kept], self.growing[kept], gas)
+        further = tuple(torque for torque in self.further if torque.order in orders)
+        cylinders = self.nodes[: self.steady.shape[1]]
+        nodes = np.append(cylinders, [torque.node for torque in further]).astype(int)
+        steady = self.steady[kept]
+        return Excitation(self.orders[kept], nodes, steady, self.growing[kept], gas, further)
+
+    def with_torques(self, torques: Sequence[NodeTorque]) -> Excitation:
+        """Return the excitation with further torques, whose phases are known."""
+        if not torques:
+            return self
+        orders = np.union1d(self.orders, [torque.order for torque in torques])
+        rows = np.searchsorted(orders, self.orders)
+        steady = np.zeros((len(orders), self.steady.shape[1]), complex)
+        growing = np.zeros_like(steady)
+        steady[rows] = self.steady
+        growing[rows] = self.growing
+        gas = None if self.gas is None else self.gas.spread_orders(rows, len(orders))
+        nodes = np.append(self.nodes, [torque.node for torque in torques]).astype(int)
+        return Excitation(orders, nodes, steady, growing, gas, (*self.further, *torques))
 
 
 @dataclass(frozen=True)
@@ -108,6 +191,9 @@ class TorsionalSystem:
         rings: Viscous dampers, which are not nodes of the chain.
         pendulums: Pendulums, which are not nodes of the chain.
         excitation: Torques by order; None: no excitation.
+        torques: Torques of [[torsion.excitation]]; those with a known phase are part of the
+            excitation, too.
+        means: Mean torques of shafts; None: they are not known.
         limit_pa: Stress above which a speed is barred.
         unknown_stress: Indices of shafts with a stress limit, but without a diameter.
         limits: Limits of stress and torque, in the order of the shafts, stress first.
@@ -132,6 +218,8 @@ class TorsionalSystem:
     rings: tuple[ViscousRing, ...] = ()
     pendulums: tuple[Pendulums, ...] = ()
     excitation: Excitation | None = None
+    torques: tuple[NodeTorque, ...] = ()
+    means: MeanTorques | None = None
     limit_pa: float | None = None
     angle_limit: float | None = None
     unknown_stress: tuple[int, ...] = ()
@@ -146,6 +234,21 @@ class TorsionalSystem:
     assumed: tuple[Assumed, ...] = ()
     file: str = ""
 
+    @cached_property
+    def unphased(self) -> tuple[Excitation, ...]:
+        """Torques whose phase to the cylinders is not known, each by itself."""
+        return tuple(torque.alone for torque in self.torques if torque.turn is None)
+
+    @property
+    def every_order(self) -> Real:
+        """All orders, rising, shape (orders,): those of the excitation and of torques without a
+        known phase.
+        """
+        orders = self.require_excitation().orders
+        if not self.unphased:
+            return orders
+        return np.union1d(orders, np.concatenate([own.orders for own in self.unphased]))
+
     def require_excitation(self) -> Excitation:
         """Return the excitation.
 
@@ -155,7 +258,7 @@ class TorsionalSystem:
         if self.excitation is None:
             wanted = "give an [[excitation]] with node, order and cos"
             raise BalcliError(f"has no excitation; {wanted}").within(self.file)
-        if not len(self.excitation.orders):
+        if not len(self.excitation.orders) and not self.unphased:
             raise BalcliError("has no excitation at the requested orders").within(self.file)
         return self.excitation
 
