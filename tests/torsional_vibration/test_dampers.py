@@ -324,7 +324,7 @@ def test_pictures_show_a_resonance_between_the_speeds():
     result = torsion(write_diesel("limit = 60"), [4030, 4230, 4430, 4630])
     closely = np.arange(4200, 4500, 0.5)
     fine = torsion(write_diesel("limit = 60"), closely).response
-    by_order = np.abs(compute_curves(result.system, closely)[0]).max(axis=(0, 1))
+    by_order = np.abs(compute_curves(result.system, closely).phasors).max(axis=(0, 1))
     highest_fine, highest_coarse = (
         max(max(shaft.stress_Pa) for shaft in each.shafts if shaft.stress_Pa is not None)
         for each in (fine, result.response)

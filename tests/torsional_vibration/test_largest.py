@@ -37,7 +37,7 @@ def search_finely(text, shaft):
     system = build_engine_system(model, engine, excite_engine(model, engine, None))
 
     def look(speeds):
-        torques = compute_curves(system, speeds)[0][:, :, : len(system.shafts)]
+        torques = compute_curves(system, speeds).phasors[:, :, : len(system.shafts)]
         return find_swing(system.excitation.orders, torques[:, :, shaft]).half
 
     speeds = np.linspace(1000, 3000, 4001)

@@ -36,7 +36,7 @@ def system_of(chain, damping, seed=0, **others) -> TorsionalSystem:
 
 def compare_sums(system) -> None:
     """Every curve alone, all at different speeds, and the sums of amplitudes."""
-    curves = compute_curves(system, RPM)[0]
+    curves = compute_curves(system, RPM).phasors
     summed = expand_in_poles(system)
     which = np.flatnonzero(summed.spanned)
     assert len(which) == 1 + np.count_nonzero(np.isfinite(system.chain.stiffness))
