@@ -241,6 +241,16 @@ def test_card_and_masses_have_the_throw_with_its_cheeks(tmp_path):
     assert "Bobweight of pin 1\n" in table
 
 
+def test_rods_on_one_pin_share_the_throw():
+    """A vee: half of the throw counts for each of its cylinders."""
+    tables = {key: table for key, table in FOUR.items() if key != "layout"}
+    vee = load(tables | {"layout": {"bank_angle": 90}, "web": [WEB]})
+    result = analyze(vee, only=["masses", "parts"])
+    whole = result.parts.throws[0].throw_mass_kg
+    assert_allclose(whole, 1.023066926)
+    assert_allclose([own.throw_kg for own in result.masses], whole / 2)
+
+
 def test_csv_has_the_figures_of_every_web(tmp_path):
     """For the foundry: one line a figure, with x and y of the centre of mass."""
     rows = ask_csv("analyze", write_four(tmp_path, WEB | {"angle": 186}), "--only", "parts")
