@@ -37,7 +37,7 @@ const Kernel = (() => {
   const dot = (a, b) => a[0] * b[0] + a[1] * b[1];
   const cross = (a, b) => a[0] * b[1] - a[1] * b[0];
   const conjugate = ([x, y]) => [x, -y];
-  const size = (a) => Math.hypot(a[0], a[1]);
+  const size = ([x, y]) => Math.sqrt(x * x + y * y);          // Math.hypot is ten times slower
   const angleOf = ([x, y]) => Math.atan2(y, x);
   const addAll = (vectors) => vectors.reduce(add, [0, 0]);
   const wrapDeg = (angle) => (angle % 360 + 360) % 360;       // to 0 … 360
@@ -270,11 +270,21 @@ const Kernel = (() => {
     };
   }
 
-  // Loads of each cylinder at all sampled crank angles.
+  // Loads of each cylinder: for each part of a load, its values at all sampled crank angles.
   function sample({ omega, cylinders }) {
-    const angles = Array.from({ length: SAMPLES }, (_, k) => TURN * k / SAMPLES);
-    return cylinders.map((cylinder) => angles.map((theta) => loadOf(omega, cylinder, theta)));
+    return cylinders.map((cylinder) => {
+      const parts = { x: makeSeries(), y: makeSeries(), rod: makeSeries(), offset: makeSeries(), torque: makeSeries() };
+      for (let k = 0; k < SAMPLES; k++) {
+        const load = loadOf(omega, cylinder, TURN * k / SAMPLES);
+        [parts.x[k], parts.y[k]] = load.force;
+        parts.rod[k] = load.rod;
+        parts.offset[k] = load.offset;
+        parts.torque[k] = load.torque;
+      }
+      return parts;
+    });
   }
+  const makeSeries = () => new Float64Array(SAMPLES);
   const armOf = (engine, [x, y]) => [x - engine.reference[0], y - engine.reference[1]];
 
   // Moment M_x + i M_y = i (z - z_ref) F of a force at z.
@@ -284,6 +294,7 @@ const Kernel = (() => {
   }
 
   // ------------------------------------------------------------------ Fourier transform
+  const NOTHING = makeSeries();
   const COSINES = Float64Array.from({ length: SAMPLES }, (_, k) => Math.cos(TURN * k / SAMPLES));
   const SINES = Float64Array.from({ length: SAMPLES }, (_, k) => Math.sin(TURN * k / SAMPLES));
   const BITS = Math.log2(SAMPLES);
@@ -292,15 +303,15 @@ const Kernel = (() => {
     return parseInt([...digits].reverse().join(""), 2);
   });
 
-  // Coefficients c[n] of Σ c[n] e^(inθ) of values x + iy at even angles; order -n stands at SAMPLES - n.
+  // Coefficients c[n] of Σ c[n] e^(inθ) of values along + i across at even angles; order -n stands at SAMPLES - n.
   // Radix 2 (Cooley and Tukey 1965): transforms of half the length are joined,
   //   c[n] = even[n] + e^(-2πin/N) odd[n],  c[n + N/2] = even[n] - e^(-2πin/N) odd[n]
-  function findCoefficients(values) {
-    const x = new Float64Array(SAMPLES);
-    const y = new Float64Array(SAMPLES);
+  function findCoefficients(along, across) {
+    const x = makeSeries();
+    const y = makeSeries();
     for (let k = 0; k < SAMPLES; k++) {
-      x[k] = values[REVERSED[k]][0] / SAMPLES;
-      y[k] = values[REVERSED[k]][1] / SAMPLES;
+      x[k] = along[REVERSED[k]] / SAMPLES;
+      y[k] = across[REVERSED[k]] / SAMPLES;
     }
     for (let half = 1; half < SAMPLES; half *= 2) {
       const stride = SAMPLES / (2 * half);
@@ -322,9 +333,9 @@ const Kernel = (() => {
     return { x, y };
   }
 
-  // Forward and backward phasors of all orders of values [x, y] at the sampled crank angles.
-  function transform(values) {
-    const { x, y } = findCoefficients(values);
+  // Forward and backward phasors of all orders of a vector at the sampled crank angles, given by its components.
+  function transform(along, across = NOTHING) {
+    const { x, y } = findCoefficients(along, across);
     const phasors = [[[x[0], y[0]], [0, 0]]];
     for (let n = 1; n <= MOST; n++) {
       const m = SAMPLES - n;
@@ -350,40 +361,45 @@ const Kernel = (() => {
   }
   const drop = (vector, bound) => size(vector) <= ROUNDING * bound ? [0, 0] : vector;
 
-  // Sums over the cylinders at each sampled crank angle. `read` picks a vector of a load; `weights`: a factor for
-  // each cylinder, 1 if left out.
-  function addUp(samples, read, weights = null) {
-    return samples[0].map((_, k) => {
-      let x = 0;
-      let y = 0;
-      for (let row = 0; row < samples.length; row++) {
-        const weight = weights ? weights[row] : 1;
-        if (!weight) continue;
-        const [u, v] = read(samples[row][k]);
-        x += weight * u;
-        y += weight * v;
-      }
-      return [x, y];
+  // Sum over the cylinders of a part of their loads at each sampled crank angle; `weights`: a factor for each cylinder.
+  function addUp(samples, part, weights = null) {
+    const total = makeSeries();
+    samples.forEach((loads, row) => {
+      const values = loads[part];
+      const weight = weights ? weights[row] : 1;
+      if (!weight) return;
+      for (let k = 0; k < SAMPLES; k++) total[k] += weight * values[k];
     });
+    return total;
   }
 
   // Phasors by kind and order, and peaks; cylinders are sampled, devices are computed in closed form.
   function compute(engine) {
     const samples = sample(engine);
     const bounds = findBounds(engine);
-    const arm = armOf(engine, [0, 0]);
-    const series = (values, bound) => transform(values).map(([forward, backward]) => [drop(forward, bound), drop(backward, bound)]);
-    const about = (read) => series(addUp(samples, (load) => [read(load), 0]), bounds.about);
-    const coupleOf = ({ rod, offset, force }) => rod + offset + cross(arm, force);
+    const x = addUp(samples, "x");
+    const y = addUp(samples, "y");
+    const torque = addUp(samples, "torque");
+    const couple = addCouples(samples, armOf(engine, [0, 0]), x, y);
     const arms = engine.cylinders.map(({ z }) => z - engine.reference[2]);
+    const opposite = arms.map((arm) => -arm);
+    const series = (bound, along, across) =>
+      transform(along, across).map(([forward, backward]) => [drop(forward, bound), drop(backward, bound)]);
     const kinds = {
-      force: series(addUp(samples, ({ force }) => force), bounds.force),
-      moment: series(addUp(samples, ({ force: [x, y] }) => [-y, x], arms), bounds.moment),
-      couple: about(coupleOf),
-      torque: about(({ torque }) => torque),
-      roll: about((load) => coupleOf(load) - load.torque),
+      force: series(bounds.force, x, y),
+      moment: series(bounds.moment, addUp(samples, "y", opposite), addUp(samples, "x", arms)),
+      couple: series(bounds.about, couple),
+      torque: series(bounds.about, torque),
+      roll: series(bounds.about, couple.map((value, k) => value - torque[k])),
     };
-    return { ...addDevices(engine, kinds, engine.devices), samples };
+    const ofCylinders = samples.map((loads) => transform(loads.x, loads.y));   // phasors of each cylinder's force
+    return { ...addDevices(engine, kinds, engine.devices), samples, ofCylinders };
+  }
+  // Couple about the reference point, of rods, offset pistons and forces at an arm.
+  function addCouples(samples, arm, x, y) {
+    const ofRods = addUp(samples, "rod");
+    const ofPistons = addUp(samples, "offset");
+    return ofRods.map((value, k) => value + ofPistons[k] + cross(arm, [x[k], y[k]]));
   }
 
   // Phasors and peaks with devices: each device adds n² ω² U to the order n of its speed.
@@ -470,7 +486,7 @@ const Kernel = (() => {
         x += (a[0] + b[0]) * cosines[at] + (b[1] - a[1]) * sines[at];
         y += (a[1] + b[1]) * cosines[at] + (a[0] - b[0]) * sines[at];
       }
-      sizes[k] = Math.hypot(x, y);
+      sizes[k] = Math.sqrt(x * x + y * y);
     }
     return sizes;
   }
@@ -514,7 +530,7 @@ const Kernel = (() => {
     return all.map((_, bearing) => {
       const carry = (z) => shareLoad(all, z)[bearing];
       const own = shares.map((ofCylinder) => ofCylinder[bearing]);
-      const phasors = transform(addUp(samples, ({ force }) => force, own));
+      const phasors = transform(addUp(samples, "x", own), addUp(samples, "y", own));
       return { carry, phasors: addWeights({ carry, phasors }, engine, engine.devices) };
     });
   }
@@ -691,7 +707,7 @@ const Kernel = (() => {
     const square = engine.omega ** 2;
     const reference = engine.reference[2];
     const places = engine.throws.map(({ z }) => z);
-    const weights = opposeThrows(engine, drawn.samples);
+    const weights = opposeThrows(engine, drawn.ofCylinders);
     const { force, moment } = findPart(engine, drawn.kinds, 1, 1);
     const f = add(addAll(weights), scaled(force, 1 / square));
     const moments = weights.map((weight, k) => scaled(weight, places[k] - reference));
@@ -711,11 +727,11 @@ const Kernel = (() => {
   }
 
   // The unbalance (kg m) that each throw needs beside the counterweights of the file.
-  function opposeThrows(engine, samples) {
+  function opposeThrows(engine, ofCylinders) {
     const square = engine.omega ** 2;
     const weights = engine.throws.map(() => [0, 0]);
     engine.cylinders.forEach((cylinder, row) => {
-      const [forward] = transform(samples[row].map(({ force }) => force))[1];
+      const [forward] = ofCylinders[row][1];
       const at = engine.throws.findIndex(({ files }) => files.includes(cylinder.throw));
       weights[at] = add(weights[at], scaled(forward, -1 / square));
     });
@@ -912,10 +928,12 @@ const Kernel = (() => {
   // Which causes change the couple in these orders: rods, then offset pistons, then lines of force that miss the
   // reference point.
   function findCauses(engine, { kinds, samples }, orders, least) {
-    const series = (read) => transform(addUp(samples, (load) => [read(load), 0])).map(([forward]) => forward);
+    const list = (values) => transform(values).map(([forward]) => forward);
     const balanced = kinds.couple.map(() => [0, 0]);
-    const ofRods = series(({ rod }) => rod);
-    const withOffsets = series(({ rod, offset }) => rod + offset);
+    const rods = addUp(samples, "rod");
+    const pistons = addUp(samples, "offset");
+    const ofRods = list(rods);
+    const withOffsets = list(rods.map((value, k) => value + pistons[k]));
     const whole = kinds.couple.map(([forward]) => forward);
     const differ = (from, to) => orders.some((n) => 2 * size(add(to[n], scaled(from[n], -1))) > least);
     const causes = [];
@@ -1076,7 +1094,7 @@ const Kernel = (() => {
     const banks = [...new Set(engine.cylinders.map(({ bank }) => bank))];
     const isRadial = banks.length > 2 && banks.length === engine.cylinders.length;
     const bounds = findBounds(engine);
-    const phasors = drawn.samples.map((loads) => transform(loads.map(({ force }) => force)));
+    const phasors = drawn.ofCylinders;
     const stars = [];
     for (const order of orders.filter((n) => n > 0)) {
       for (const [way, turns] of ["forward", "backward"].entries()) {
@@ -1128,7 +1146,7 @@ const Kernel = (() => {
 
   // Orders, verdict, peaks, ladder and stars as in the output of `balcli analyze --why -f json`; under "page" what only
   // the page needs.
-  function describe(engine, ladder, limits, orders = listShown(engine, ladder, limits)) {
+  function describe(engine, ladder, limits, orders = null) {
     const { kinds, peak } = ladder.drawn;
     const { known } = engine;
     const shown = listShown(engine, ladder, limits);
@@ -1138,7 +1156,7 @@ const Kernel = (() => {
       format: "balcli.analysis/1",
       speed_rpm: engine.omega * 60 / TURN,
       reference_mm: engine.reference.map((metres) => 1e3 * metres),
-      orders: orders.map((order) => describeOrder(engine, kinds, order)),
+      orders: (orders || shown).map((order) => describeOrder(engine, kinds, order)),
       verdict: { matter: judge(engine, ladder, limits, shown), ...(couple ? { couple } : {}) },
       peak: describePeak(peak),
       ladder: {

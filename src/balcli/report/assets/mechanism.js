@@ -269,8 +269,9 @@ function draw(scene, devices, axes) {
   const turning = scene.rotary ? "cylinders turn clockwise" : "crank turns clockwise";
   const dashed = placed.some((d) => d.beside) ? "; dashed: on or near the crank axis" : "";
   byId("end-caption").textContent = `Free end, ${axes[0]} up; ${turning}${dashed}`;
-  return (theta, shake) => {
-    end(theta, placed, shake);
+  // `present` are the same devices with their present vectors.
+  return (theta, shake, present) => {
+    end(theta, placed.map(({ at, beside }, k) => ({ ...present[k], at, beside })), shake);
     side(theta, shake);
   };
 }
