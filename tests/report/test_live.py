@@ -304,6 +304,23 @@ def test_keyboard_undo_and_fit(show):
 
 
 @live
+def test_devices_of_steps_that_are_no_row_are_fitted(show):
+    """Shafts of order 2 are worth fitting here, the one of order 1 is not."""
+    page = show(
+        changed(("throws = [0, 180, 180, 0]", "throws = [0, 188, 180, 0]"), ("firing_order = [1, 3, 4, 2]", ""))
+    )
+    usual = figures(page)["page"]["extra"][0]
+    assert usual["step"].startswith("default: steps")
+    page.run("document.getElementById('fit').click()")
+    sizes = page.run(
+        "Object.entries(Live.numbers).filter(([name]) => name.endsWith('.unbalance')).map(([, value]) => value)"
+    )
+    assert sizes == pytest.approx([1e6 * device["unbalance_kg_m"] for device in usual["devices"]])
+    left = figures(page)["peak"]["force_N"]
+    assert left == pytest.approx(usual["peak_force_N"], rel=1e-6)
+
+
+@live
 @pytest.mark.parametrize("width", [360, 1280, *slow(800, 1600)])
 def test_the_page_fits_its_window(show, width):
     page = show(width=width, dark=width == 360)

@@ -55,6 +55,49 @@ def test_the_audit_finds_what_is_wrong(browser, pages, harm, found):
     assert any(line.startswith(found) for line in browser.run(AUDIT))
 
 
+@live
+def test_every_chart_is_saved(browser, pages):
+    """As two pictures and a table: bars, paths, curves of every kind and stars."""
+    browser.open(pages["i6_diesel"])
+    charts = "[...document.querySelectorAll('main figure')].filter(each => each.querySelector('svg[data-title], #stars-charts svg'))"
+    assert (
+        browser.run(
+            f"new Set({charts}.map(each => each.querySelectorAll('.tools button').length)).values().next().value"
+        )
+        == 3
+    )
+    names = browser.run(f"{charts}.map(each => each.querySelector('svg').dataset.title || 'star')")
+    assert {"Path of the free force", "Torque on the crank", "Pressure", "star"} <= {*names}
+    assert len(names) > 10
+    heads = "window.heads = [], URL.createObjectURL = (blob) => blob.text().then(text => heads.push(text.split('\\n')[0])), 0"
+    browser.run(f"HTMLAnchorElement.prototype.click = function () {{}}; URL.revokeObjectURL = () => {{}}; {heads}")
+    browser.run(f"{charts}.forEach(each => each.querySelector('.tools button:last-child').click()), {WAIT}")
+    assert '"crank angle, deg","total, N·m","gas, N·m","mean, N·m"' in browser.run("heads")
+
+
+@live
+def test_on_paper_nothing_is_cut(browser, pages):
+    """A sheet is narrower than the window from which the layout for phones begins."""
+    browser.open(pages["i4_mounts"], width=718)
+    browser.call("Emulation.setEmulatedMedia", media="print")
+    cut = "['facts', 'key-with', 'bars', 'path'].filter(id => { const at = document.getElementById(id); return at.scrollWidth > at.clientWidth + 1; })"
+    assert browser.run(cut) == []
+    assert browser.run("getComputedStyle(document.getElementById('facts')).whiteSpace") == "normal"
+    assert browser.run(
+        "document.getElementById('side').getBoundingClientRect().right < document.getElementById('bars').getBoundingClientRect().left"
+    )
+    browser.call("Emulation.setEmulatedMedia", media="")
+
+
+@live
+def test_the_first_screen_has_force_and_moment_where_both_matter(browser, tmp_path):
+    ask("-q", "report", "twin180", "-o", tmp_path / "page.html")
+    browser.open(tmp_path / "page.html", width=1400, height=900)
+    assert browser.run("document.querySelectorAll('#bars-charts svg').length") == 2
+    assert browser.run("document.getElementById('toc').getBoundingClientRect().bottom") <= 900
+    assert browser.run("document.documentElement.scrollWidth <= document.documentElement.clientWidth")
+
+
 SHIFTS = """
 new Promise(async (done) => {
   let total = 0;

@@ -19,7 +19,7 @@ from support.pictures import without_pictures
 from balcli.analysis.answer import analyze
 from balcli.balancing.answer import balance
 from balcli.forces.kinds import KINDS
-from balcli.report.page import Answers, page
+from balcli.report.page import Answers, mark_code, page
 from balcli.show.sheet import number
 from balcli.show.units import IMPERIAL, SI
 
@@ -76,6 +76,17 @@ def test_a_page_without_torsion_needs_no_library_of_pictures(tmp_path):
     done = run_python("-c", code, str(file), str(tmp_path / "page.html"))
     assert done.returncode == 0, done.stderr
     assert (tmp_path / "page.html").stat().st_size <= 220_000
+
+
+@pytest.mark.slow
+def test_the_largest_page_of_the_examples_is_small():
+    """With gas, a moving piston and pictures of torsion."""
+    assert len(ask("report", ENGINES / "i6_diesel.toml", "--cylinder", "1", "-o", "-").encode()) <= 220_000
+
+
+def test_what_stands_between_backticks_is_code():
+    assert mark_code("fits `a<b` & c") == "fits <code>a&lt;b</code> &amp; c"
+    assert "<code>balcli balance</code> fits step" in report(GOOD)
 
 
 @pytest.mark.parametrize("pictures", [False, *slow(True)])

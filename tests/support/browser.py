@@ -58,6 +58,7 @@ class Browser:
         self._unread = b""
         self._count = 0
         self._session = ""
+        self._loaded = 0  # pages so far
         self.complaints: list[str] = []
         self.requests: list[str] = []
         self._shown: tuple[Path, View] | None = None
@@ -91,9 +92,10 @@ class Browser:
         self.requests = []
         self._shown = page, view
         for url in ("about:blank", page.as_uri() + address):  # another address alone loads no page
-            self.call("Page.navigate", url=url)
-            while self._next().get("method") != "Page.loadEventFired":
-                pass
+            loaded = self._loaded
+            self.call("Page.navigate", url=url)  # the page may be loaded before this is answered
+            while self._loaded == loaded:
+                self._next()
 
     def keep(self, page: Path, **how: Any) -> bool:
         """Show a file, but leave it as it is if it is shown already; return whether it was. Loading a page takes
@@ -143,6 +145,8 @@ class Browser:
         message: dict[str, Any] = json.loads(data)
         params = message.get("params", {})
         match message.get("method"):
+            case "Page.loadEventFired":
+                self._loaded += 1
             case "Runtime.consoleAPICalled":
                 self.complaints.append(str([arg.get("value") for arg in params["args"]]))
             case "Runtime.exceptionThrown":

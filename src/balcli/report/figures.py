@@ -22,7 +22,7 @@ from ..engine.placed import build_fitted
 from ..file.fields import order_number
 from ..file.model import Counterweight, Shaft
 from ..forces.kinds import FORCE, MOMENT
-from ..forces.spectrum import Spectra, compute_spectra
+from ..forces.spectrum import Spectra, compute_spectra, find_relevant_orders
 from ..forces.stars import find_stars
 from ..sizing.ladder import Ladder, Step, find_ladder, is_judged_by_power
 from ..sizing.planes import DeviceTable, find_free, find_unbalance, name_kind
@@ -98,7 +98,7 @@ def _describe_choice(
         after: Analysis with these devices; None: it is computed.
     """
     engine = fit_devices(result.engine, remedy) if after is None else after.engine
-    spectra = compute_spectra(engine, result.orders, _KINDS)
+    spectra = compute_spectra(engine, find_relevant_orders(engine), _KINDS)
     shafts = {(shaft.ratio, shaft.at) for shaft in remedy.shafts}
     row = result.engine.cranks[0].engine
     radius = float(row.cylinders.radius_of_each[row.numbers.index(1)])

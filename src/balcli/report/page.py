@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import base64
 import json
+import re
 import zlib
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -336,6 +337,11 @@ def read_asset(name: str) -> str:
     return slim_style(text) if name.endswith(".css") else slim_script(text)
 
 
+def mark_code(text: str) -> str:
+    """Return a sentence of the command as HTML; what stands between backticks is code."""
+    return re.sub("`([^`]+)`", r"<code>\1</code>", escape(text))
+
+
 def load_template() -> Template:
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
     from markupsafe import Markup
@@ -348,6 +354,7 @@ def load_template() -> Template:
         lstrip_blocks=True,
     )
     environment.globals["read_asset"] = lambda name: Markup(read_asset(name))
+    environment.filters["code"] = lambda text: Markup(mark_code(text))
     environment.policies["json.dumps_kwargs"] = {"allow_nan": False, "separators": (",", ":")}
     return environment.get_template("report.html")
 

@@ -535,29 +535,30 @@ const Page = (() => {
     turn();
     showRarely(facts, atOnce);
   }
-  // Tables and the charts below follow a few times in a second, and at last.
-  let last = 0;
+  // Tables and the charts below follow at once, but while a slider moves only a few times in a second, in a task of
+  // their own, and at last.
+  let lastShow = -RARE;
+  let lastRest = -RARE;
   let due = null;
+  let newFacts = null;
   function showRarely(facts, atOnce) {
+    const now = performance.now();
+    const isAlone = now - lastShow >= RARE;
+    lastShow = now;
+    newFacts = facts || newFacts;
+    if (atOnce || isAlone) showRest();
+    else due ??= setTimeout(showRest, Math.max(0, RARE - (now - lastRest)));
+  }
+  function showRest() {
     clearTimeout(due);
-    const wait = RARE - (performance.now() - last);
-    if (atOnce || wait <= 0) showRest(facts);
-    else due = setTimeout(() => showRest(facts), wait);
-  }
-  function showRest(facts) {
-    last = performance.now();
-    showTables(facts);
-    clearTimeout(nextChart);
-    drawNext(LOWER);
-  }
-  // Charts below the first screen: each is drawn in a task of its own, so that none delays the next move of a slider.
-  const LOWER = [drawTurns, drawAbout, drawLadderPaths, drawStars];
-  let nextChart = null;
-  function drawNext([draw, ...others]) {
-    nextChart = setTimeout(() => {
-      draw();
-      if (others.length) drawNext(others);
-    });
+    due = null;
+    lastRest = performance.now();
+    showTables(newFacts);
+    newFacts = null;
+    drawTurns();
+    drawAbout();
+    drawLadderPaths();
+    drawStars();
   }
 
   // ------------------------------------------------------------------ start
@@ -660,7 +661,7 @@ const Page = (() => {
     startTheme();
     drawFileCurves();
     showTorsion();
-    show(ofFile, { scene, changed: false });
+    show(ofFile, { scene, changed: false, atOnce: true });
     if (!byId("live")) {
       followAddress();
       addEventListener("hashchange", followAddress);
@@ -672,7 +673,7 @@ const Page = (() => {
 
   return {
     show, start, choose, turn, tellSteps, ofFile,
-    get chosen() { return chosen; },
+    get devices() { return listChoices()[chosen].devices; },
     get steps() { return listValues(); },
     set asked(value) { asked = value; },
   };
