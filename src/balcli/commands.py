@@ -24,8 +24,8 @@ from .shell.values import argument, optional
 Force = Annotated[bool, typer.Option("--force", help="Overwrite FILE if it exists.")]
 KIND = (
     "single, inline, vee, boxer, radial, radial14 or w; mounts: an engine on its mounts; "
-    "locomotive: balance of its wheels; field: balancing runs of a rotor; torsion: a chain of "
-    "inertias and shafts."
+    "compressor: two throws, gas in both ends; locomotive: balance of its wheels; field: balancing "
+    "runs of a rotor; four-runs: the same without phase; torsion: a chain of inertias and shafts."
 )
 WHERE = "File to write; default: standard output."
 
@@ -35,8 +35,8 @@ def new(
     path: Annotated[Path | None, argument("FILE", WHERE, callback=parse_output)] = None,
     force: Force = False,
 ) -> None:
-    """Write a commented, valid engine file to start from; for `field` a file of runs, for `torsion`
-    a chain file.
+    """Write a commented, valid engine file to start from; for `field` and `four-runs` a file of
+    runs, for `torsion` a chain file.
 
     \b
     Example:

@@ -79,7 +79,7 @@ def test_loads_along_the_rod(pump):
     assert rod["reversal"]["longest_deg"] == pytest.approx(163.15515160630395, rel=1e-8)
     assert rod["reversal"]["reverses"] is True
     text = " ".join(ask("torque", pump, "--loads", "rod").split())
-    for words in ("absorbed", "Rod load", "reversal,", "it reverses", "Valves are ideal"):
+    for words in ("absorbed", "Rod load", "it reverses", "Valves are ideal", "cycle compressor, 360 deg", "guide: "):
         assert words in text
 
 
@@ -121,9 +121,31 @@ def test_what_is_refused(pump):
         ("clearance = 0.12", "clearance = 0.12\nimep = 5", "gas: has imep"),
         ("rod_diameter = 70", "rod_diameter = 300", "piston.rod_diameter: 300 mm is not below the bore"),
         ("strokes = 2", "strokes = 4", "layout.strokes: is 4, but all cylinders compress"),
+        ("clearance = 0.12", "clearance = 12", "up to 2; it is a share of the swept volume: 0.12 for 12 %"),
+        ("clearance = 0.12", "clearance = 0", "gas.clearance: 0 is not above 0; a plain number is wanted"),
+        (PUMP.partition("[gas]")[2], '\nharmonics = "h.csv"\ncrank_end = {}', "gas.harmonics: is the torque of whole"),
     ):
         pump.write_text(PUMP.replace(old, new, 1))
         assert told in refusal("torque", pump)
+
+
+IDLE = "has no meaning without an indicator diagram in the same table; leave it out"
+
+
+def test_keys_of_a_diagram_belong_to_the_table_with_the_diagram(pump):
+    """A crank end or a [[gas.of]] with a diagram stands for itself, so it takes no such key from [gas]."""
+    (pump.parent / "c.csv").write_text("stroke,pressure_bar\n0,1\n1,3\n1,3\n0,1\n")
+    own_diagram = PUMP.partition("[gas.crank_end]")[0] + '[gas.crank_end]\nindicator = "c.csv"\n'
+    of_crank_end = '[[gas.of]]\ncylinders = [1]\ncrank_end = { indicator = "c.csv" }\n'
+    for text, told in (
+        (own_diagram.replace("[gas]\n", '[gas]\npressure = "gauge"\n'), f"gas.pressure: {IDLE}"),
+        (PUMP + of_crank_end.replace("1]\n", "1]\nphase = 1\n"), f"gas.of.1.phase: {IDLE}"),
+        (PUMP + 'pressure = "gauge"\n', f"gas.crank_end.pressure: {IDLE}"),
+    ):
+        pump.write_text(text)
+        assert told in refusal("torque", pump)
+    pump.write_text(own_diagram + 'pressure = "gauge"\n')
+    assert ask_json("torque", pump)["ends"][1]["end"] == "crank"
 
 
 def test_torque_is_virtual_work_of_the_gas_and_the_moment_of_the_pin(pump):
@@ -186,6 +208,7 @@ def test_a_sheet_names_the_orders_as_packagers_do(pump):
     assert "Unbalanced forces and couples" in sheet
     assert "1 (primary)" in sheet
     assert "2 (secondary)" in sheet
+    assert "Moments are about x, y, z = 0, 0, 0 mm." in sheet
 
 
 def test_a_compressor_is_balanced_as_machines_with_frames_are_and_not_as_ships_engines(pump):

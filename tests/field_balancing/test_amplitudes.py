@@ -169,6 +169,59 @@ def test_a_centre_has_no_image():
     assert result.corrections[0].weight == pytest.approx(4 + 4j, rel=1e-6)
 
 
+# ------------------------------------------------------------------ corrections on
+def test_a_correction_run_is_told_what_to_add(tmp_path):
+    """The planted unbalance of 12 g at 57.3 deg is opposed by 11 g: 1 g is missing. JSON `before` and `present_g_mm`
+    stay those of the rotor as found."""
+    unbalance = 12 * np.exp(1j)
+    text = graded(one_plane(0.37, unbalance, [*THREE, -11 * np.exp(1j)], "places = [4]"))
+    result = balance(text)
+    (correction,) = result.corrections
+    assert correction.weight == pytest.approx(-unbalance, rel=RELATIVE)
+    assert correction.add == pytest.approx(-np.exp(1j), rel=1e-7)
+    assert sum(piece.weight * np.exp(1j * np.radians(piece.angle_deg)) for piece in correction.pieces) == (
+        pytest.approx(correction.add, rel=1e-7)
+    )
+    assert result.before == pytest.approx([0.37 * 12], rel=RELATIVE)
+    assert result.runs.latest == pytest.approx([0.37], rel=1e-7)
+    (plane,) = result.permitted.planes
+    assert plane.present_g_mm == pytest.approx(12 * 180, rel=RELATIVE)
+    assert plane.trimmed_g_mm == pytest.approx(180, rel=1e-7)
+    assert plane.reached is (plane.permitted_g_mm >= 180)
+    out = " ".join(ask("field", write(tmp_path / "runs.toml", text)).split())
+    assert "in addition to the weights of 'run 5'" in out
+    assert "sensor 1 4.44 0.37 0" in out
+
+
+@pytest.mark.parametrize(
+    ("extra", "trimmed"), [([], None), ([THREE[1]], None), ([0], None), ([3j], "run 5"), ([3j, 0], "run 5")]
+)
+def test_only_new_weights_after_the_runs_that_suffice_are_corrections(extra, trimmed):
+    assert balance(one_plane(0.37, 12 * np.exp(1j), [*THREE, *extra])).trimmed == trimmed
+
+
+def test_two_planes_have_correction_runs():
+    """Both planes at once after the seven runs."""
+    alpha = np.array([[0.3, 0.1j], [0.05, 0.2 - 0.1j]])
+    unbalance = np.array([10, -6j])
+    trials = [(w, 0) for w in THREE] + [(0, w) for w in THREE]
+    text = head(2)
+    for on in [(0, 0), *trials, (-9, 5j)]:
+        weights = [(name, w) for name, w in zip(("p1", "p2"), on, strict=True) if w]
+        text += run(alpha @ (unbalance + np.array(on)), weights)
+    corrections = balance(text).corrections
+    assert [each.add for each in corrections] == pytest.approx([-1, 1j], rel=1e-6)
+
+
+def test_as_found_is_what_was_measured(tmp_path):
+    """The mean of both runs without weights, where the fit has another value."""
+    text = one_plane(0.37, 12 * np.exp(1j), THREE) + run([4.0])
+    result = balance(text)
+    assert result.fit.measured == pytest.approx([(4.0 + 0.37 * 12) / 2])
+    assert abs(result.before[0] - result.fit.measured[0]) > 0.01
+    assert "sensor 1 4.22 0" in " ".join(ask("field", write(tmp_path / "runs.toml", text)).split())
+
+
 # ------------------------------------------------------------------ text
 def test_the_sheet_speaks_of_amplitudes(tmp_path):
     path = write(tmp_path / "runs.toml", graded(one_plane(0.37, 12 * np.exp(1j), THREE, 'unit = "um"')))

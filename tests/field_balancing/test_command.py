@@ -10,6 +10,7 @@ from support.commands import ask, ask_csv, ask_json, refusal, run_here
 from support.paths import write
 from support.rotors import run, three_runs
 
+from balcli.field_balancing.answer import field
 from balcli.field_balancing.runs_file import parse_runs
 from balcli.file.examples import template
 
@@ -200,6 +201,16 @@ def test_the_starting_file_balances_and_all_its_options_can_be_switched_on(tmp_p
     everything = OPTION.sub(r"\1", text).replace("speed  = 2900", "").replace("keep_trial = true", "")
     assert parse_runs(everything).run[3].name == "correction in"
     assert max(map(len, text.splitlines())) <= 130
+
+
+def test_the_starting_file_without_phase_has_four_runs_and_one_with_the_correction_on():
+    text = template("four-runs")
+    assert max(map(len, text.splitlines())) <= 130
+    assert len(parse_runs(text).run) == 4
+    everything = OPTION.sub(r"\1", text)
+    result = field(everything)
+    assert (result.method, result.trimmed) == ("amplitudes", "correction on")
+    assert result.file.places == (tuple(45.0 * k for k in range(8)),)
 
 
 def test_the_schema_names_every_key():

@@ -75,9 +75,22 @@ def test_every_key_is_explained_and_lines_are_short(kind):
         assert key in explained, line
 
 
+def test_the_compressor_is_complete_and_its_options_can_be_switched_on():
+    text = template("compressor")
+    lines = text.splitlines()
+    assert max(map(len, lines)) <= 130
+    assert lines[3].startswith("# ")
+    engine = parse("\n".join(OPTION.sub(r"\1", line) for line in lines), "compressor")
+    assert engine.source.endswith("replace every figure by your own")
+    assert engine.gas.crank_end.clearance == 0.14
+    assert engine.cylinder[2].crosshead_mass == 24
+    for line in lines[9:]:
+        assert " # " in line or not re.match(r"(?:# )?[a-z_]+ += ", line), line
+
+
 def test_unknown_kinds():
     with pytest.raises(BalcliError) as caught:
         template("boxxer")
     assert str(caught.value) == '"boxxer" is not a kind of file; did you mean boxer?'
-    with pytest.raises(BalcliError, match=r"w, mounts, locomotive, field, torsion$"):
+    with pytest.raises(BalcliError, match=r"w, mounts, compressor, locomotive, field, four-runs, torsion$"):
         template("q" * 10_000)

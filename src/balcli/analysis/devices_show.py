@@ -187,7 +187,7 @@ def _tell_misfits(misfits: Sequence[Misfit], unit: ShownUnit) -> Iterator[str]:
     """
     if unknown := [misfit for misfit in misfits if misfit.room.radius_m is None]:
         names = _name_misfits(unknown)
-        yield f"The room for {names} is not known; --disc gives half discs a radius."
+        yield f"The room for {names} is not known, so no half disc is stated."
     if without := [misfit for misfit in misfits if misfit.room.radius_m == 0]:
         yield (
             f"No half disc of steel fits for {_name_misfits(without)}: the pistons reach the crank "
@@ -225,7 +225,7 @@ def holes_grid(
     """
     unit = system.length
     drill = f"{number(unit.of(tools.drill or 0.0))} {unit.name}"
-    why = "--radius" if tools.radius else "the crank radius; --radius changes it"
+    why = "as given" if tools.radius else "the crank radius"
     rim = f"from a rim at {list_radii(practical, unit)} ({why})"
     rows = []
     for k, (device, figures) in enumerate(zip(remedy.devices, practical, strict=True), 1):

@@ -23,7 +23,7 @@ from ..engine.engine import Engine
 from ..file.assumed import Assumed
 from ..file.fields import order_number
 from ..forces.kinds import FORCE, MOMENT, ROLL, ROLL_TOTAL, TORQUE, TORQUE_TOTAL, Kind
-from ..show.engine_facts import engine_facts
+from ..show.engine_facts import engine_facts, tell_place
 from ..show.figures import clean, name_engine
 from ..show.formats import Renderer, Rows, name_cell, write_named
 from ..show.sheet import (
@@ -389,8 +389,11 @@ def lay_out_marine(named: NamedResult[MarineSheet], system: System) -> Sheet:
         parts.append(Text("", (f"Guide-force moments and torque are {of_what}.",)))
     if result.related is not None and not result.engine.is_pump:
         parts.append(lay_out_related(result.related, system))
-    notes = (_AXES, define_guide_moments(result.height_m, system))
-    return Sheet(result.engine.name or NAMELESS, (*parts, Text("", notes)))
+    notes = [_AXES]
+    if result.engine.is_pump:  # a packager's foundation needs the point, and no other line has it
+        notes.append(f"Moments are about {tell_place(result.engine.reference_m, system)}.")
+    notes.append(define_guide_moments(result.height_m, system))
+    return Sheet(result.engine.name or NAMELESS, (*parts, Text("", tuple(notes))))
 
 
 def _name_unbalanced(external: Grid) -> Grid:

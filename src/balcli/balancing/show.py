@@ -152,8 +152,9 @@ def _list_notes(result: Balance, system: System) -> Iterator[str]:
         size = size_text(left.moment_Nm, system.moment)
         yield (
             f"The one eccentric of the shaft at {left.ratio:+d} leaves a moment of {size}; two "
-            "places of --position cancel it."
+            "eccentrics in different planes cancel it."
         )
+    yield _tell_kept(result)
     yield _tell_couple(result, system)
     yield _tell_bearings(result, system)
     yield tell_best_factors(result, system)
@@ -209,6 +210,19 @@ def _changes_couple(result: Balance) -> bool:
     return bool(np.any(np.abs(after - before) > _ROUNDING * largest))
 
 
+def _tell_kept(result: Balance) -> str:
+    """Return that counterweights of the file stay, if steps of the ladder add others; else an empty
+    text.
+    """
+    remedy = result.remedy
+    of_ladder = bool(remedy.step) or remedy.steps is not None
+    devices = result.before.engine.devices
+    own = [device for device in devices if device.is_counterweight]
+    if not (of_ladder and own and remedy.counterweights):
+        return ""
+    return "The counterweights of the file stay; those in the table are in addition."
+
+
 def _tell_bearings(result: Balance, system: System) -> str:
     """Return in words by how much counterweights at every throw lower the largest main bearing
     load, if the scheme is counterweights and fits no counterweight; else return an empty text.
@@ -222,7 +236,7 @@ def _tell_bearings(result: Balance, system: System) -> str:
         return ""
     unit = system.unit(FORCE).fit(before)
     return (
-        "Counterweights at every throw (--planes throws) lower the largest main bearing load from "
+        "Counterweights at every throw lower the largest main bearing load from "
         f"{number(unit.of(before))} to {number(unit.of(after))} {unit.name}."
     )
 

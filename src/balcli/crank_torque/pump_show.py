@@ -13,6 +13,13 @@ _VALVES = (
     "Valves are ideal. Rod loads of API 618 count valve losses: give the pressures in the "
     "cylinder, not those in the line."
 )
+_COLUMNS = (
+    "c: largest load in compression, t: in tension. gas: force on the piston; inertia: of piston "
+    "and crosshead; rod: piston rod, gas and inertia of the piston; pin: crosshead pin (or piston "
+    "pin), gas and inertia of piston and crosshead. reversal: longest span of the pin's load with "
+    "the sign that lasts shorter in all; share: smaller of its two peaks over the larger. guide: "
+    "largest force on the guide."
+)
 
 
 def show_ends(ends: Sequence[End], system: System) -> Grid:
@@ -91,7 +98,7 @@ def _judge(loads: Sequence[RodLoad]) -> str:
     reversal = worst.reversal
     word = "reverses" if reversal.reverses else "does not reverse"
     return (
-        f"c: compression, t: tension. The pin of cylinder {worst.cylinder} has the least reversal: "
+        f"The pin of cylinder {worst.cylinder} has the least reversal: "
         f"{reversal.longest_deg:.1f} deg and a share of {number(reversal.ratio, 3)}; it {word} "
-        "(API 618, 5th edition: at least 15 deg and 0.03)."
+        f"(API 618, 5th edition: at least 15 deg and 0.03). {_COLUMNS}"
     )

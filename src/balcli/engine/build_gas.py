@@ -415,6 +415,11 @@ def _list_pump_mistakes(
 ) -> Iterator[Problem]:
     """Yield the mistakes in [[gas.of]], crank ends, compressor cycles and diameters of rods."""
     yield from _check_numbers_of(parts, gas)
+    if gas.harmonics is not None and gas.crank_end is not None:
+        message = (
+            "is the torque of whole cylinders; with crank_end, give each end a diagram or a cycle"
+        )
+        yield Problem("gas.harmonics", message)
     sources = [_find_source(parts, gas, number) for number in parts.numbers]
     for source in {source.table: source for source in sources}.values():
         yield from _check_ends(source)
@@ -447,6 +452,41 @@ def _check_ends(source: _Source) -> Iterator[Problem]:
     for key, fault in of_end:
         if (key, fault) not in faults:  # a key of the head end, which it takes
             yield Problem(f"{source.place}.crank_end.{key}".removesuffix("."), fault)
+
+
+def _check_diagram_keys(parts: Parts, gas: Gas) -> Iterator[Problem]:
+    """Check that every table with a key of a diagram has the diagram to which it applies."""
+    own = any(table.indicator is not None for table in parts.model.cylinder.values())
+    yield from _list_idle_diagram_keys("gas", gas, has_diagram=own or gas.has("indicator"))
+    yield from _check_keys_of_crank_end("gas", gas, gas.crank_end)
+    for k, table in enumerate(gas.of, 1):
+        path = f"gas.of.{k}"
+        merged = take_of(gas, table)
+        has_diagram = merged.indicator is not None
+        yield from _list_idle_diagram_keys(path, table, has_diagram=has_diagram)
+        yield from _check_keys_of_crank_end(path, merged, table.crank_end)
+
+
+def _check_keys_of_crank_end(path: str, head: Gas, own: CrankEnd | None) -> Iterator[Problem]:
+    """Check the keys of a diagram in a crank end.
+
+    Args:
+        path: Path of the table with the crank end.
+        head: Gas of the head end, with the crank end.
+        own: Crank end as the table gives it; None without one.
+    """
+    merged = take_crank_end(head)
+    if own is not None and merged is not None:
+        has_diagram = merged.indicator is not None
+        yield from _list_idle_diagram_keys(f"{path}.crank_end", own, has_diagram=has_diagram)
+
+
+def _list_idle_diagram_keys(path: str, table: FileTable, *, has_diagram: bool) -> Iterator[Problem]:
+    """Yield a problem for each key of a diagram in a table that has none."""
+    for key in () if has_diagram else DIAGRAM_KEYS:
+        if table.has(key):
+            message = "has no meaning without an indicator diagram in the same table; leave it out"
+            yield Problem(f"{path}.{key}", message)
 
 
 def _check_rod_diameters(
@@ -511,12 +551,7 @@ def _list_contradictions(
                 f"[[gas.at]] gives {key} of all cylinders at each speed; leave one of the two out"
             )
             yield Problem(f"cylinder.{number}.{key}", message)
-    own = any(table.indicator is not None for table in parts.model.cylinder.values())
-    own = own or any(table.indicator is not None for table in gas.of)
-    own = own or (gas.crank_end is not None and gas.crank_end.has("indicator"))
-    for key in () if own or gas.has("indicator") else DIAGRAM_KEYS:
-        if gas.has(key):
-            yield Problem(f"gas.{key}", "has no meaning without an indicator diagram; leave it out")
+    yield from _check_diagram_keys(parts, gas)
     if two_stroke and gas.intake_closes is not None:
         message = "has no meaning in a two-stroke cycle, whose ports close where they opened"
         yield Problem("gas.intake_closes", f"{message}: leave it out")

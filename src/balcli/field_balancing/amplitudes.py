@@ -13,10 +13,14 @@ Machinery Vibration: Balancing, McGraw-Hill 1995). Gauss-Newton steps refine the
 circle, u and its image in this circle have the same ratio of distances. If the points -w of all
 runs, with 0 for the rotor as found, lie on one circle (or on one line), amplitudes cannot tell u
 from its image.
+
+The first runs that determine everything are the trial runs. A *correction run* comes later and has
+weights that differ from those of all trial runs, as for readings with phase (`influence`).
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -24,7 +28,7 @@ import numpy as np
 from ..core.phasors import Array, Complex
 from ..errors import InputError, Problem
 from ..file.fields import counted
-from .influence import Influence, Series, collect_series
+from .influence import Influence, Series, collect_series, find_last_correction
 from .runs_file import RunsFile
 
 _ON_CIRCLE = 1e-6  # least singular value, as a share of the largest, of points not on one circle
@@ -53,7 +57,9 @@ class AmplitudeFit(NamedTuple):
     """Influence coefficients fitted to amplitudes.
 
     Attributes:
-        influence: Readings as found, with phase 0, and influence coefficients.
+        influence: Readings and influence coefficients. `found` are the fitted readings as found,
+            with phase 0; `latest` has measured amplitudes, with the phases of the fit.
+        measured: Mean reading of each sensor in the runs without weights, shape (sensors,).
         misfit: Reading minus fitted amplitude, shape (runs, sensors).
         rms: Root mean square of the misfit over all sensors and runs; 0 for rounding errors.
         share: `rms` as a share of the largest reading.
@@ -61,6 +67,7 @@ class AmplitudeFit(NamedTuple):
     """
 
     influence: Influence
+    measured: Array
     misfit: Array
     rms: float
     share: float
@@ -129,40 +136,80 @@ def fit_amplitudes(file: RunsFile, used: list[int], name: str = "") -> Amplitude
             alpha = answers.firsts.reshape(-1, 1)
     coefficients = np.zeros((len(as_found), len(file.planes)), dtype=complex)
     coefficients[:, planes] = alpha
+    trials = _count_trials(file, series, planes)
+    last = find_last_correction(series, trials)
+    influence = _describe_state(file, series, as_found, coefficients, last)
+    used_planes = np.isin(np.arange(len(file.planes)), used)
+    influence = influence._replace(coefficients=coefficients * used_planes)
     misfit = series.readings.real - np.abs(as_found + weights @ alpha.T)
-    return _collect(file, series, used, as_found, coefficients, misfit, answers)
-
-
-def _collect(
-    file: RunsFile,
-    series: Series,
-    used: list[int],
-    as_found: Array,
-    coefficients: Complex,
-    misfit: Array,
-    answers: Answers | None,
-) -> AmplitudeFit:
-    """Return the fit as a record; see `AmplitudeFit` for the arguments."""
-    readings = as_found.astype(complex)
-    influence = Influence(
-        speeds_rpm=(series.speed_rpm,) * len(as_found),
-        coefficients=coefficients * np.isin(np.arange(len(file.planes)), used),
-        found=readings,
-        latest=readings,
-        start=readings,
-        factors=np.resize(file.reading_weights or 1.0, len(as_found)),
-        trimmed="",
-        weights_on=np.zeros(len(file.planes), dtype=complex),
-    )
-    largest = float(series.readings.real.max())
     rms = float(np.sqrt(np.mean(misfit**2)))
+    largest = float(series.readings.real.max())
     if rms <= _ROUNDING * largest:
         rms = 0.0
-    return AmplitudeFit(influence, misfit, rms, rms / largest, answers)
+    return AmplitudeFit(influence, _average_as_found(series), misfit, rms, rms / largest, answers)
 
 
-def _find_missing_runs(file: RunsFile, series: Series, planes: list[int]) -> list[Problem]:
-    """Return a problem for each run that the fit lacks.
+def _average_as_found(series: Series) -> Array:
+    """Return the mean reading of each sensor in the runs without weights, shape (sensors,)."""
+    bare = ~series.weights.any(axis=1)
+    return np.asarray(series.readings[bare].real.mean(axis=0))
+
+
+def _describe_state(
+    file: RunsFile, series: Series, as_found: Array, coefficients: Complex, last: int | None
+) -> Influence:
+    """Return the fitted readings as found and those to be corrected, with all coefficients.
+
+    Args:
+        file: File of runs.
+        series: Its runs.
+        as_found: Fitted readings as found, shape (sensors,).
+        coefficients: Influence coefficients, shape (sensors, planes).
+        last: Index of the last correction run; None without such a run.
+    """
+    weights_on = np.zeros(len(file.planes), dtype=complex)
+    trimmed = ""
+    measured = _average_as_found(series)
+    if last is not None:
+        weights_on = series.weights[last]
+        trimmed = file.name_run(series.numbers[last])
+        measured = series.readings[last].real
+    start = as_found + coefficients @ weights_on
+    return Influence(
+        speeds_rpm=(series.speed_rpm,) * len(as_found),
+        coefficients=coefficients,
+        found=as_found.astype(complex),
+        latest=measured * np.exp(1j * np.angle(start)),
+        start=start,
+        factors=np.resize(file.reading_weights or 1.0, len(as_found)),
+        trimmed=trimmed,
+        weights_on=weights_on,
+    )
+
+
+def _count_trials(file: RunsFile, series: Series, planes: list[int]) -> int:
+    """Return how many runs, from the first on, determine everything; all runs if two answers fit.
+
+    Args:
+        file: File of runs.
+        series: Its runs, none of them missing.
+        planes: Indices of the planes with unknown coefficients.
+    """
+    for count in range(1, len(series.numbers)):
+        first = series._replace(
+            numbers=series.numbers[:count],
+            readings=series.readings[:count],
+            weights=series.weights[:count],
+        )
+        if next(_find_missing_runs(file, first, planes), None) is not None:
+            continue
+        if len(planes) > 1 or _find_circle(first.weights[:, planes[0]]) is None:
+            return count
+    return len(series.numbers)
+
+
+def _find_missing_runs(file: RunsFile, series: Series, planes: list[int]) -> Iterator[Problem]:
+    """Yield a problem for each run that the fit lacks.
 
     Args:
         file: File of runs.
@@ -172,13 +219,13 @@ def _find_missing_runs(file: RunsFile, series: Series, planes: list[int]) -> lis
     bare = ~series.weights.any(axis=1)
     if not bare.any():
         text = "add a run of the rotor as found, without weights; amplitudes are compared with it"
-        return [Problem("run", text)]
-    problems = []
+        yield Problem("run", text)
+        return
     for row in np.flatnonzero(bare):
         for j in np.flatnonzero(series.readings[row] == 0):
             place = f"run.{series.numbers[row] + 1}.readings.{j + 1}"
             text = "is 0 in a run as found: without phase, a reading that is 0 shows no unbalance"
-            problems.append(Problem(place, text))
+            yield Problem(place, text)
     needed = 2 if len(planes) == 1 else 3
     for k in planes:
         alone = _select_alone(series.weights, k)
@@ -189,14 +236,13 @@ def _find_missing_runs(file: RunsFile, series: Series, planes: list[int]) -> lis
                 f"has {counted(count, 'trial run')} with different weights in {plane} alone; "
                 f"without phase, give three on no common circle with 0, {_THREE}"
             )
-            problems.append(Problem("run", text))
+            yield Problem("run", text)
         elif needed == 3 and _find_circle(np.append(series.weights[alone, k], 0)) is not None:
             text = (
                 f"has trial weights in {plane} that lie on one circle with 0, so two answers fit; "
                 f"give three trial runs on no common circle with 0, {_THREE}"
             )
-            problems.append(Problem("run", text))
-    return problems
+            yield Problem("run", text)
 
 
 def _select_alone(weights: Complex, k: int) -> Array:

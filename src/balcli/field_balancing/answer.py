@@ -238,27 +238,36 @@ class PlanePermitted:
     Attributes:
         plane: Name of the plane.
         permitted_g_mm: Permitted residual unbalance.
-        present_g_mm: Present unbalance, estimated from the last readings by least squares.
+        present_g_mm: Present unbalance, estimated from the last readings by least squares; without
+            phase, unbalance of the rotor as found.
+        trimmed_g_mm: Without phase, unbalance in the last correction run; left out without such a
+            run, and if readings have phases.
         scatter_g_mm: Distance from the estimate within which the true unbalance lies with 95 %
             probability, judged by the residuals of the fit; left out if there are only as many
             readings as unknowns.
-        reached: Whether present unbalance plus scatter is at most the permitted unbalance.
+        reached: Whether the unbalance there now plus scatter is at most the permitted unbalance.
         after_g_mm: Residual unbalance after the corrections.
     """
 
     plane: str
     permitted_g_mm: float
     present_g_mm: float
+    trimmed_g_mm: float | None = None
     scatter_g_mm: float | None = None
     reached: bool
     after_g_mm: float
+
+    @property
+    def now_g_mm(self) -> float:
+        """Unbalance in the last correction run; without one, of the rotor as found."""
+        return self.present_g_mm if self.trimmed_g_mm is None else self.trimmed_g_mm
 
     @property
     def verdict(self) -> str:
         """Verdict on the plane's grade: reached, uncertain or not reached."""
         if self.reached:
             return "reached"
-        near = self.present_g_mm - (self.scatter_g_mm or 0.0) <= self.permitted_g_mm
+        near = self.now_g_mm - (self.scatter_g_mm or 0.0) <= self.permitted_g_mm
         return "uncertain" if near else "not reached"
 
 
@@ -303,7 +312,8 @@ class FieldBalance(Result):
         readings: Sensor and speed of every reading.
         influence: Influence coefficients: change of a reading by one unit of weight in a plane.
         corrections: Correction weights of the planes that are not left out.
-        before: Readings of the last correction run; without one, the readings as found.
+        before: Readings of the last correction run; without one, the readings as found. Without
+            phase, the fitted readings as found.
         residual: Predicted readings after the corrections.
         largest: Largest reading after the corrections, weighted by the file's `reading_weights`.
         rms: Root mean square of the readings after the corrections, weighted in the same way.
@@ -442,7 +452,7 @@ def find_corrections(
         readings=_list_sensors(file, runs),
         influence=runs.coefficients,
         corrections=tuple(corrections),
-        before=runs.latest,
+        before=runs.latest if fit is None else runs.found,
         residual=residual,
         largest=float(left.max()),
         rms=float(np.sqrt(np.mean(left**2))),
@@ -486,8 +496,8 @@ def _leave_open(
         readings=_list_sensors(file, runs),
         influence=runs.coefficients,
         corrections=(),
-        before=runs.latest,
-        residual=runs.latest,
+        before=runs.found,
+        residual=runs.found,
         largest=float(left.max()),
         rms=float(np.sqrt(np.mean(left**2))),
         condition=1.0,
@@ -578,22 +588,27 @@ def _find_permitted(
     """
     if file.grade is None or file.mass is None or file.speed is None or list_missing(file):
         return None
-    best = make_small(runs.coefficients[:, used], -runs.start, runs.factors).x
+    matrix = runs.coefficients[:, used]
+    best = make_small(matrix, -runs.start, runs.factors).x
+    at_first = make_small(matrix, -runs.found, runs.factors).x  # of the rotor as found
+    splits = file.has_only_amplitudes and bool(runs.trimmed)
     scatter = None if file.has_only_amplitudes else find_scatter(file, runs, used, best)
     whole = find_permitted_unbalance(file.grade, file.mass, file.speed)
     shares = np.array(file.shares or np.ones(len(file.planes)))
     planes = []
     for j, (k, installed, added) in enumerate(zip(used, best, step, strict=True)):
         permitted = whole * float(shares[k] / shares.sum())
-        present = _find_unbalance(file, k, installed) or 0.0
+        now = _find_unbalance(file, k, installed) or 0.0
+        as_found = _find_unbalance(file, k, at_first[j]) or 0.0
         within = None if scatter is None else _find_unbalance(file, k, scatter[j])
         planes.append(
             PlanePermitted(
                 plane=file.planes[k],
                 permitted_g_mm=permitted,
-                present_g_mm=present,
+                present_g_mm=as_found if splits else now,
+                trimmed_g_mm=now if splits else None,
                 scatter_g_mm=within,
-                reached=present + (within or 0.0) <= permitted,
+                reached=now + (within or 0.0) <= permitted,
                 after_g_mm=_find_unbalance(file, k, installed - added) or 0.0,
             )
         )

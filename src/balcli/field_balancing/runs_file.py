@@ -43,6 +43,7 @@ if TYPE_CHECKING:
 
 _GRADE = re.compile(rf"\s*[Gg]\s*({BARE_FIGURE})\s*", re.ASCII)
 _POLAR = re.compile(rf"\s*({BARE_FIGURE})\s*@\s*({BARE_FIGURE})\s*(?:deg|°)?\s*", re.ASCII)
+_LONE_FIGURE = re.compile(rf"\s*{BARE_FIGURE}\s*", re.ASCII)
 _AT_RADIUS = re.compile(rf"\bat\s+({BARE_FIGURE})\s*([a-z]*)", re.ASCII)  # "10 g at 150 mm @ 0"
 _FARTHEST_DEG = 1e6
 _MOST_PLANES_WITHOUT_PHASE = 2
@@ -111,8 +112,15 @@ class Amplitude(Number):
         self.polar = Polar("170 @ 112", zero=True)
 
     def read(self, value: object) -> complex | float:  # type: ignore[override]
-        bare = isinstance(value, (int, float)) and not isinstance(value, bool)
-        return super().read(value) if bare else self.polar.read(value)
+        if isinstance(value, (int, float)) and not isinstance(value, bool):
+            return super().read(value)
+        if isinstance(value, str) and _LONE_FIGURE.fullmatch(value[:LONGEST_FIGURE]):
+            figure = value.strip()
+            raise ValueError(
+                f'{shorten(value)} is a text without phase; write "{figure} @ 112" with its phase, '
+                f"or the bare number {figure} if the instrument shows none"
+            )
+        return self.polar.read(value)
 
     def json(self) -> Node:
         return {"anyOf": [self.polar.json(), {"type": "number", "minimum": 0, "maximum": 1e12}]}
@@ -355,6 +363,10 @@ def _describe(path: str, finding: ErrorDetails, table: type[FileTable]) -> Probl
         value = shorten(finding["input"])
         text = f"{value} is one value; give one for each plane, such as {last} = [{value}, {value}]"
         return Problem(last, text)
+    if finding["type"] == "tuple_type" and last == "readings":
+        value = shorten(finding["input"])
+        text = f"{value} is one value; write it as a list: readings = [{value}]"
+        return Problem(f"{path}.{last}", text)
     problem = describe_finding(path, finding, table)
     radius = _find_radius(finding["input"]) if finding["loc"][0] == "weights" else ""
     if not radius:

@@ -171,7 +171,7 @@ def _show_open_readings(result: FieldBalance, fit: AmplitudeFit, answers: Answer
     as_found = np.abs(fit.influence.found)
     unit = f", {result.unit}" if result.unit else ""
     columns = [Column("reading", _name_readings(result), words=True)]
-    columns.append(Column(f"as found{unit}", _write_amplitudes(as_found, as_found)))
+    columns.append(Column(f"as found{unit}", _write_amplitudes(fit.measured, fit.measured)))
     for head, alpha in (
         ("if it is right", answers.firsts),
         ("if the other is right", answers.others),
@@ -268,7 +268,7 @@ def _show_permitted(result: FieldBalance, permitted: Permitted, system: System) 
     columns = [
         Column("plane", [each.plane for each in every], words=True),
         Column(f"permitted, {unit}", write(each.permitted_g_mm for each in every)),
-        Column(f"there now, {unit}", write(each.present_g_mm for each in every)),
+        Column(f"there now, {unit}", write(each.now_g_mm for each in every)),
         Column("", [each.verdict for each in every], words=True, marked=not_reached),
         Column(f"after, {unit}", write(each.after_g_mm for each in every)),
     ]
@@ -303,9 +303,10 @@ def _name_readings(result: FieldBalance) -> list[str]:
 def _show_readings(result: FieldBalance) -> Grid:
     unit = f", {result.unit}" if result.unit else ""
     columns = [Column("reading", _name_readings(result), words=True)]
-    columns += _list_readings(result, f"as found{unit}", result.runs.found)
+    as_found = result.runs.found if result.fit is None else result.fit.measured.astype(complex)
+    columns += _list_readings(result, f"as found{unit}", as_found)
     if result.trimmed:
-        columns += _list_readings(result, f"{result.runs.state}{unit}", result.before)
+        columns += _list_readings(result, f"{result.runs.state}{unit}", result.runs.latest)
     columns += _list_readings(result, f"after{unit}", result.residual)
     what = f"Largest{' weighted' * bool(result.file.reading_weights)} reading after the corrections"
     note = f"{what}: {number(result.largest)}, rms {number(result.rms)}. "
@@ -374,7 +375,7 @@ def make_field(result: FieldBalance) -> Figure:
 def _draw_readings(ax: PolarAxes, result: FieldBalance) -> None:
     """Draw each reading as a hollow dot (latest run) joined to a full dot (after corrections)."""
     hollow: Look = {"color": SOFT, "markerfacecolor": PAPER}
-    ends = [*zip(result.before, result.residual, strict=True)]
+    ends = [*zip(result.runs.latest, result.residual, strict=True)]
     for name, (start, end) in zip(_name_readings(result), ends, strict=True):
         angles = [np.angle(start or end), np.angle(end or start)]
         sizes = [abs(start), abs(end)]

@@ -159,7 +159,7 @@ def _read(path: Path) -> Example:
 
 
 ENGINE_KINDS = ("single", "inline", "vee", "boxer", "radial", "radial14", "w", "mounts")
-KINDS = (*ENGINE_KINDS, "locomotive", "field", "torsion")
+KINDS = (*ENGINE_KINDS, "compressor", "locomotive", "field", "four-runs", "torsion")
 SCHEMA = (
     "#:schema balcli.schema.json\n"
     "# TOML editors use that schema to check and complete what you type: "
@@ -179,7 +179,8 @@ def template(kind: str) -> str:
         raise BalcliError(f'"{kind[:60]}" is not a kind of file; {hint}')
     if kind in ENGINE_KINDS:
         return SCHEMA + _read_template(kind) + _read_template("optional")
-    return SCHEMA * (kind == "locomotive") + _read_template(kind)
+    schema = SCHEMA if kind in ("compressor", "locomotive") else ""
+    return schema + _read_template(kind)
 
 
 def _read_template(name: str) -> str:

@@ -27,13 +27,29 @@ from .table import (
 )
 from .units import ANGLE, PLAIN, PRESSURE
 
+
+class ClearanceShare(Number):
+    """A clearance volume, divided by the swept volume of its end."""
+
+    def __init__(self) -> None:
+        super().__init__(PLAIN, above=0, most=2)
+
+    def _fault(self, number: float) -> tuple[str, str] | None:
+        fault = super()._fault(number)
+        if fault is None or number <= self.most:
+            return fault
+        too_large, bound = fault
+        share = f"it is a share of the swept volume: {number / 100:g} for {number:g} %"
+        return too_large, f"{bound}; {share}"
+
+
 Pressure = Annotated[float, Number(PRESSURE, least=0, most=1e6)]
 PressureAbove0 = Annotated[float, Number(PRESSURE, above=0, most=1e6)]
 MeanPressure = Annotated[float, Number(PRESSURE, most=1e6)]
 CutOff = Annotated[float, Number(PLAIN, least=1, most=1000)]
 Duration = Annotated[float, Number(ANGLE, above=0, most=720)]
 Index = Annotated[float, Number(PLAIN, above=0, most=5)]
-Clearance = Annotated[float, Number(PLAIN, above=0, most=2)]
+Clearance = Annotated[float, ClearanceShare()]
 NamedFile = Annotated[str, FileName()]
 Zero = Annotated[str, OneOf("firing", "gas-exchange")]
 Reference = Annotated[str, OneOf("absolute", "gauge")]
@@ -345,17 +361,13 @@ class Gas(GasKeys):
             yield "discharge", f"{lower}; give the higher of the two absolute pressures"
 
     def _check_alone(self) -> Iterator[str]:
-        """Check that [[gas.at]], law and harmonics are not combined with ends or cylinders of their
-        own.
-        """
+        """Check that [[gas.at]] and law are not combined with ends or cylinders of their own."""
         others = ["of"] * bool(self.of)
         others += ["crank_end"] * (self.crank_end is not None)
         others += ['cycle = "compressor"'] * (self.cycle == COMPRESSOR)
         if others and (self.at or self.law is not None):
             what = "[[gas.at]]" if self.at else "law"
             yield f"has {what} with {join_words(others)}; give the gas of one speed"
-        if self.harmonics is not None and self.crank_end is not None:
-            yield "has harmonics with crank_end; give each end a diagram or a cycle"
 
     def _check_misplaced(self) -> Iterator[str]:
         """Check that keys of a computed cycle are given only with `cycle`."""

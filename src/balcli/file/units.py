@@ -56,8 +56,8 @@ AMBIGUOUS = {
     "NM": "N m, or nanometre?",
     "ton": "t (1000 kg), or 2000 lb, or 2240 lb?",
     "cwt": "100 lb, or 112 lb?",
-    "barg": "bar above the atmosphere? The absolute pressure is 1.01325 bar higher,",
-    "psig": "psi above the atmosphere? The absolute pressure is 14.696 psi higher,",
+    "barg": "bar above the atmosphere? The absolute pressure is 1.01325 bar higher;",
+    "psig": "psi above the atmosphere? The absolute pressure is 14.696 psi higher;",
     "grad": "deg, or gon (0.9 deg)?",
     "grade": "deg, or gon (0.9 deg)?",
     "Grad": "deg, or gon (0.9 deg)?",
@@ -389,6 +389,7 @@ _RESPELT: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
 # Patterns are compiled when the first figure with a unit is read
 BARE_FIGURE = r"[+-]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d{1,3})?"  # a number without a unit
 _NUMBER = r"(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d{1,4})?"
+_PERCENTAGE = rf"\s*([+-]?{_NUMBER})\s*%\s*"
 _FACTOR = r"[A-Za-zµμ°_]+(?:(?:\^|\*\*)-?[1-9]|[23])?"
 _JOINT = r"\s*[*·⋅/]\s*|[.-]|\s+"
 _UNIT = rf"{_FACTOR}(?:(?:{_JOINT}){_FACTOR})*"
@@ -499,7 +500,7 @@ def _measure(figure: str, dimension: Dimension) -> Fraction:
             raise ValueError(f'has "{small}" after "{large}"; it must be less than "{least_text}"')
         return -(whole + rest) if sign == "-" else whole + rest
     if figures is None:
-        raise ValueError(f"{_explain(figure)} {wanted(dimension)}")
+        raise ValueError(_explain(figure, dimension))
     number, names = figures
     if not names:
         plain = f": {float(number):.6g}" if dimension is PLAIN else ""
@@ -523,7 +524,16 @@ def _measure(figure: str, dimension: Dimension) -> Fraction:
     return number * unit.scale
 
 
-def _explain(figure: str) -> str:
+def _explain(figure: str, dimension: Dimension) -> str:
+    """Return why a figure cannot be read, and what is wanted."""
+    percentage = re.fullmatch(_PERCENTAGE, figure)
+    if dimension is PLAIN and percentage is not None:
+        share = float(percentage[1]) / 100
+        return f"is a percentage; write the plain number {share:.6g}, without quotes"
+    return f"{_name_fault(figure)} {wanted(dimension)}"
+
+
+def _name_fault(figure: str) -> str:
     """Return why a figure cannot be read; `wanted` supplies the rest of the message."""
     if strange := re.search(r"[а-яёА-ЯЁ]+", figure):
         return f'has "{strange[0]}" in Cyrillic letters, which is no unit; use Latin letters;'

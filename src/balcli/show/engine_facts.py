@@ -337,7 +337,9 @@ def _firing(engine: Engine) -> str:
 
 
 def tell_strokes(engine: Engine) -> str:
-    """Return `four-stroke` or `two-stroke`."""
+    """Return `four-stroke`, `two-stroke`, or `compressor` if all cylinders compress."""
+    if engine.gas is not None and len(engine.compressing) == len(engine.numbers):
+        return "compressor"
     return "two-stroke" if engine.strokes == 2 else "four-stroke"
 
 

@@ -636,7 +636,7 @@ def _describe_edges(result: TorsionAnalysis, response: TorsionResponse) -> str:
                 names[_MOST_LISTED:] = ["..."]
             sentences += (
                 f" {', '.join(names)}: the largest value is at {speed} rpm, the {place} speed; it "
-                f"may be larger {side}. Widen --speeds."
+                f"may be larger {side}. Widen the range of speeds."
             )
     return sentences
 
