@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from .analysis.two_engines import Combined, sum  # noqa: A004
     from .api import Engine, load, load_example
     from .balancing.all_schemes import SchemeComparison, compare_schemes
-    from .balancing.answer import Balance, balance
+    from .balancing.answer import Balance, balance, fit_webs
     from .books.answer import tables
     from .books.recomputed import Table
     from .crank_torque.answer import torque
@@ -73,6 +73,7 @@ __all__ = [
     "compare_schemes",
     "curves",
     "field",
+    "fit_webs",
     "load",
     "load_example",
     "locomotive",

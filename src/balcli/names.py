@@ -23,7 +23,7 @@ _EXPORTS = {
     "analysis.two_engines": ("Combined", "sum"),
     "api": ("Engine", "load", "load_example"),
     "balancing.all_schemes": ("SchemeComparison", "compare_schemes"),
-    "balancing.answer": ("Balance", "balance"),
+    "balancing.answer": ("Balance", "balance", "fit_webs"),
     "books.answer": ("tables",),
     "books.recomputed": ("Table",),
     "errors": ("BalcliError", "InputError", "NotComputedError"),

@@ -175,7 +175,7 @@ def replace_keys(**keys):
         (replace_keys(), {"crank": {"splay": 10}}, "crank.splay"),
         (replace_keys(), {"crank": {"spacing": None}}, "crank.spacing"),
         (replace_keys(), {"crank": {"stroke": [88, 88, 88, 90]}}, "crank.stroke: web 7 has a stroke of 90"),
-        (replace_keys(opening="fit"), {}, 'web.1.opening is "fit", but balancing sizes no webs yet'),
+        (replace_keys(opening="fit"), {}, 'web.1.opening is "fit": run balcli balance FILE write OUT'),
     ],
 )
 def test_contradictions_are_named(webs, more, told):

@@ -25,7 +25,7 @@ from ..show.figures import (
     list_vectors,
 )
 from ..sizing.planes import DeviceTable, find_free, find_unbalance
-from ..sizing.remedy import Remedy
+from ..sizing.remedy import Remedy, WebCure
 
 
 class CylinderShare(NamedTuple):
@@ -564,6 +564,11 @@ class WebPart(NamedTuple):
         crankcase_m: Gap to the crankcase.
         worst_kg_m: Largest deviation of the unbalance within the tolerances.
         rss_kg_m: Root of the sum of squares of the deviations by each dimension.
+        wanted_kg_m: Unbalance that a fitted web is to have.
+        wanted_own_deg: Direction of this unbalance.
+        room_kg_m: Unbalance of the largest counterweight that fits, if the wanted one does not.
+        missing_kg_m: Unbalance of the counterweight that does not fit.
+        remedies: Ways to make what does not fit, each alone.
         asked_clearance_m: Clearance that the file asks for.
     """
 
@@ -587,6 +592,11 @@ class WebPart(NamedTuple):
     crankcase_m: float | None = None
     worst_kg_m: float | None = None
     rss_kg_m: float | None = None
+    wanted_kg_m: float | None = None
+    wanted_own_deg: float | None = None
+    room_kg_m: float | None = None
+    missing_kg_m: float | None = None
+    remedies: tuple[WebCure, ...] | None = None
     asked_clearance_m: Annotated[float, HIDDEN] = 0.0
 
     @property

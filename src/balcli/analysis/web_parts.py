@@ -11,19 +11,16 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, NamedTuple
 
-import numpy as np
-
-from ..core.phasors import unit
 from ..engine.engine import Engine
 from ..show.figures import FigureRow, record_rows
 from ..show.sheet import UNKNOWN, Column, Facts, Grid, number, size_text
+from ..sizing.throws import Throw, list_throws, sum_counterweights
 from .records import BalanceParts, CrankPart, ThrowPart, WebPart
 
 if TYPE_CHECKING:
     from ..engine.webs.build import CrankWeb
     from ..show.units import System
-
-_SAME_DEG = 1e-9
+    from ..sizing.remedy import FittedWeb
 
 
 # ------------------------------------------------------------------ webs
@@ -78,6 +75,37 @@ def describe_web(engine: Engine, web: CrankWeb) -> WebPart:
     return part
 
 
+def add_fitted(
+    webs: Iterable[WebPart] | None, fitted: Iterable[FittedWeb]
+) -> tuple[WebPart, ...] | None:
+    """Return webs with what was wanted of those that were fitted, and what did not fit.
+
+    Args:
+        webs: Webs of the engine with what was fitted.
+        fitted: Fitted webs.
+    """
+    if webs is None:
+        return None
+    from ..engine.webs.tolerance import measure_own_deg
+
+    by_number = {web.web: web for web in fitted}
+    parts = []
+    for part in webs:
+        own = by_number.get(part.web)
+        if own is None:
+            parts.append(part)
+            continue
+        fit = part._replace(
+            wanted_kg_m=abs(own.wanted),
+            wanted_own_deg=measure_own_deg(own.wanted),
+            room_kg_m=own.room,
+            missing_kg_m=own.missing,
+            remedies=own.cures or None,
+        )
+        parts.append(fit)
+    return tuple(parts)
+
+
 def describe_crank(engine: Engine) -> CrankPart | None:
     """Return mass and inertia of webs and pins together; None for a file without [[web]]."""
     if engine.webs is None:
@@ -86,81 +114,23 @@ def describe_crank(engine: Engine) -> CrankPart | None:
 
 
 # ------------------------------------------------------------------ throws
-class _Throw(NamedTuple):
-    """A throw of a crankshaft, SI units.
-
-    Attributes:
-        pin: Direction of its crank pin at crank angle 0, a unit vector.
-        z: Position along the crank.
-        radius: Crank radius.
-        rotating: Rotating mass of its rods.
-        reciprocating: Reciprocating mass of its cylinders.
-        mass: Unbalanced mass at the crank radius that turns with the pin: the pin alone if the file
-            has [[web]].
-    """
-
-    pin: complex
-    z: float
-    radius: float
-    rotating: float
-    reciprocating: float
-    mass: float
-
-
 def describe_throws(engine: Engine) -> tuple[ThrowPart, ...] | None:
     """Return the throws of an engine; None where counterweights do not turn with crank pins, or for
     split pins.
     """
     if engine.rotary or engine.of_locomotive or engine.placed:
         return None
-    throws = _list_throws(engine)
+    throws = list_throws(engine)
     if throws is None:
         return None
-    added = _sum_counterweights(engine, throws)
+    added = sum_counterweights(engine, throws)
     return tuple(
         _describe_throw(engine, index, throw, weights)
         for index, (throw, weights) in enumerate(zip(throws, added, strict=True))
     )
 
 
-def _list_throws(engine: Engine) -> list[_Throw] | None:
-    """Return the throws of an engine, from the free end; None if a throw has several pins."""
-    c = engine.cylinders
-    throws = []
-    for index in range(len(engine.throws_m)):
-        rows = [row for row, own in enumerate(engine.weighed) if own.throw == index]
-        pins = [float(c.pin_deg[row]) for row in rows]
-        radii = [float(c.radius_of_each[row]) for row in rows]
-        apart = np.abs((np.array(pins) - pins[0] + 180) % 360 - 180)
-        if np.any(apart > _SAME_DEG) or np.ptp(radii) > 0:
-            return None
-        weighed = [engine.weighed[row] for row in rows]
-        throws.append(
-            _Throw(
-                pin=complex(unit(float(engine.first_axis_deg) + pins[0])),
-                z=float(np.ravel(engine.pins_m)[index]),
-                radius=radii[0],
-                rotating=sum(float(own.rotating) for own in weighed),
-                reciprocating=sum(float(own.reciprocating) for own in weighed),
-                mass=sum(float(own.share) for own in weighed),
-            )
-        )
-    return throws
-
-
-def _sum_counterweights(engine: Engine, throws: list[_Throw]) -> list[complex]:
-    """Return the counterweights nearest to each throw, kg m, without webs; of equally near throws,
-    the first has the counterweight.
-    """
-    sums = [0j] * len(throws)
-    for device in engine.devices:
-        if device.is_counterweight and not device.web:
-            distances = [round(abs(throw.z - float(device.z)), 9) for throw in throws]
-            sums[distances.index(min(distances))] += complex(device.forward)
-    return sums
-
-
-def _describe_throw(engine: Engine, index: int, throw: _Throw, weights: complex) -> ThrowPart:
+def _describe_throw(engine: Engine, index: int, throw: Throw, weights: complex) -> ThrowPart:
     """Return a throw and what balances it.
 
     Args:
@@ -207,7 +177,7 @@ _THROWS_NOTE = (
 )
 
 
-class _Row(NamedTuple):
+class WebRow(NamedTuple):
     """Webs that are alike: their numbers, those of their throws, and one of them."""
 
     webs: list[int]
@@ -234,16 +204,16 @@ def lay_out_webs(parts: BalanceParts, system: System) -> Iterator[Grid | Facts]:
         yield Facts(tuple(pairs), "Webs and crank pins")
 
 
-def _group_webs(parts: Iterable[WebPart]) -> list[_Row]:
+def group_webs(parts: Iterable[WebPart]) -> list[WebRow]:
     """Return webs with equal figures as one row."""
-    rows: dict[tuple[object, ...], _Row] = {}
+    rows: dict[tuple[object, ...], WebRow] = {}
     for part in parts:
         alike = tuple(
             round(value, 9) if isinstance(value, float) else None
             for key, value in part._asdict().items()
             if key not in ("position_mm", "clearance_deg")
         )
-        row = rows.setdefault((part.table, *alike), _Row([], [], part))
+        row = rows.setdefault((part.table, *alike), WebRow([], [], part))
         row.webs.append(part.web)
         row.throws.append(part.throw)
     return list(rows.values())
@@ -261,7 +231,7 @@ def write_ranges(numbers: Iterable[int]) -> str:
 
 
 def _lay_out_webs(webs: Iterable[WebPart], system: System) -> Grid:
-    rows = _group_webs(webs)
+    rows = group_webs(webs)
     length = system.length
     unbalance = system.unbalance.fit(max(row.part.unbalance_kg_m for row in rows))
     columns = [

@@ -7,8 +7,9 @@ from __future__ import annotations
 
 import math
 import tomllib
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from pathlib import Path
 from types import NoneType
 from typing import Annotated, Literal
 
@@ -19,6 +20,7 @@ from ..analysis.answer import Analysis, analyze, shorten
 from ..analysis.comparison import analyze_alike
 from ..analysis.parts import find_parts
 from ..analysis.records import BalanceParts, Devices, PeaksAndOrders, describe_devices
+from ..analysis.web_parts import add_fitted
 from ..core.cylinders import find_travel
 from ..core.mechanisms.linkage import Articulated
 from ..core.phasors import Array, unit
@@ -27,22 +29,31 @@ from ..core.unbalance import find_permitted_unbalance
 from ..engine.build import build
 from ..engine.engine import CylinderNumber, Engine, check_engine, refuse_geared
 from ..engine.layout import plan_cylinders
-from ..engine.parse import parse
+from ..engine.parse import parse, parse_dict
 from ..engine.parts import Parts
-from ..errors import ArgumentError, BalcliError, InputError, check_type, list_values
+from ..errors import (
+    ArgumentError,
+    BalcliError,
+    InputError,
+    check_type,
+    list_values,
+    naming_file,
+)
 from ..file.assumed import Assumed
-from ..file.edit import format_value, remove_tables, rewrite, set_keys
-from ..file.fields import counted, limit_digits
+from ..file.edit import format_value, remove_tables, repeat_table, rewrite, set_keys
+from ..file.fields import counted, join_words, limit_digits
 from ..file.model import EngineFile, Sector
+from ..file.plain_tables import take_tables
+from ..file.toml import name_file
 from ..forces.crankshaft import find_crank_loads
 from ..limits import SMALL
 from ..show.result import Result
-from ..sizing.fit import list_to_fit, size_fit
+from ..sizing.fit import list_open_webs, list_to_fit, remove_to_fit, size_fit
 from ..sizing.ladder import Ladder, find_ladder
 from ..sizing.options import FIT, KNUCKLES, LADDER, SCHEMES, SchemeOptions
 from ..sizing.placed_steps import fit_steps
 from ..sizing.planes import FIELDS, DeviceTable, find_free, name_kind, take_webs
-from ..sizing.remedy import Remedy, fit_devices
+from ..sizing.remedy import FittedTable, Remedy, fit_devices
 from ..sizing.room import assume_skirt
 from ..sizing.sizing import size
 from ..sizing.workshop import (
@@ -90,7 +101,7 @@ class FittedRemedy:
             several steps).
         order: Order that the scheme balances; null if the scheme is not for a single order.
         devices: New devices.
-        reasons: Reasons for the devices.
+        reasons: Reasons for the devices; that for fitted webs comes first.
     """
 
     scheme: str
@@ -109,7 +120,7 @@ def describe_remedy(remedy: Remedy) -> FittedRemedy:
         steps=remedy.steps,
         order=remedy.order,
         devices=describe_devices(remedy),
-        reasons=remedy.reasons,
+        reasons=remedy.every_reason,
     )
 
 
@@ -168,10 +179,18 @@ class Balance(Result):
     every_order: Annotated[bool, HIDDEN] = False
 
     @property
+    def webs_fit(self) -> bool:
+        """Whether all fitted webs have room for their counterweights."""
+        return all(web.missing is None for web in self.remedy.webs)
+
+    @property
     def summary(self) -> str:
         """Name of the scheme, its devices and the engine, in words."""
         count = len(self.remedy.devices) + len(self.remedy.beyond)
-        return f"{self.remedy.scheme}: {counted(count, 'device')} for {self.before.engine.summary}"
+        fitted = [counted(len(self.remedy.webs), "web")] if self.remedy.webs else []
+        if count or not fitted:
+            fitted.append(counted(count, "device"))
+        return f"{self.remedy.scheme}: {join_words(fitted)} for {self.before.engine.summary}"
 
 
 def balance(
@@ -255,6 +274,84 @@ def balance_fit(
     return _answer(engine, size_fit(engine, model, targets), orders, tools, ladder)
 
 
+def balance_webs(
+    engine: Engine,
+    model: EngineFile,
+    scheme: str = "factor",
+    options: SchemeOptions | None = None,
+    orders: Iterable[float] | None = None,
+    tools: Tools | None = None,
+    shapes: Shapes | None = None,
+) -> Balance:
+    """Fit the dimensions of webs that are "fit" in an engine file. `before` is the engine whose
+    fitted webs have no counterweight. What does not fit is in `parts.webs`.
+
+    Args:
+        engine: Engine without what is to be fitted (`sizing.fit.remove_to_fit`).
+        model: Engine file with "fit".
+        scheme: "factor", "step" or "counterweights": what the webs are to balance.
+        options: Options of the scheme; with "factor", `planes` are the correction planes.
+        orders: Orders to show, as in `balance`.
+        tools: Tools of the workshop, as in `balance`.
+        shapes: Shapes of new shafts, as in `balance`.
+
+    Raises:
+        BalcliError: The scheme or an option is not for such webs, or no dimension makes what is
+            wanted.
+    """
+    from ..sizing.web_fit import size_webs  # loaded only for files with [[web]]
+
+    small = (options or SchemeOptions()).read_small()
+    remedy, before, fitted = size_webs(engine, model, scheme, options)
+    remedy = remedy.add_details(speed=_UNEVEN) if engine.ripple else remedy
+    after = fit_devices(fitted, remedy)
+    ladder = find_ladder(before, small)
+    return _answer(before, remedy, orders, tools, ladder, shapes, after, options)
+
+
+def fit_webs(
+    source: str | Path | Mapping[str, object],
+    scheme: str = "factor",
+    options: SchemeOptions | None = None,
+    orders: Iterable[float] | None = None,
+) -> Balance:
+    """Return the balance of an engine file whose webs have a dimension "fit": the figures in its
+    place, and the analyses of the engine whose fitted webs have no counterweight, and with them.
+    The engine with the fitted webs is `after.engine`; what does not fit, and what helps, is in
+    `parts.webs`.
+
+    Args:
+        source: Path, text or tables of an engine file, as for `load`.
+        scheme: What the webs are to balance: "factor" (all rotating mass and a share of the
+            reciprocating mass), "step" (counterweights of a row of the ladder) or "counterweights"
+            (the part of order 1 that turns with the crank).
+        options: Options of the scheme, such as SchemeOptions(factor=(0.5,)).
+        orders: Orders to show, as in `balance`.
+
+    Raises:
+        BalcliError: The file cannot be read, the scheme or an option is not for such webs, or no
+            dimension makes what is wanted.
+        InputError: The file has mistakes; the error lists all of them.
+        TypeError: An argument has the wrong type.
+
+    Example:
+        >>> tables = load_example("i4_webs").to_dict()
+        >>> tables["web"][0]["opening"] = "fit"
+        >>> fit_webs(tables).parts.webs[0].opening_deg
+    """
+    check_type("fit_webs", scheme, str, 'give "factor", "step" or "counterweights"')
+    check_type("fit_webs", options, (SchemeOptions, NoneType), "give SchemeOptions(factor=(0.5,))")
+    wanted = "give the path of an engine file, the text of one, or a dict of its tables"
+    tables, name = take_tables("fit_webs", source, wanted)
+    model = parse_dict(tables, Path(name).parent, name)
+    with naming_file(name_file(name)):
+        engine = build(remove_to_fit(model))
+        if not list_open_webs(model):
+            raise BalcliError('no [[web]] has a dimension that is "fit"; use balance(load(file))')
+        listed = None if orders is None else tuple(list_values("orders", orders))
+        return balance_webs(engine, model, scheme, options, listed)
+
+
 def _answer(
     engine: Engine,
     remedy: Remedy,
@@ -289,11 +386,13 @@ def _answer(
     has_webs = engine.webs is not None
     if shafts or has_webs or any(weight.sector for weight in remedy.counterweights):
         parts = find_parts(changed, shafts, remedy.counterweights, throws=has_webs)
+        parts = parts._replace(webs=add_fitted(parts.webs, remedy.webs))
     before, after = analyze_alike((engine, changed), orders, analyze)
     initial = None
     if has_webs:
-        planes = choose_correction_planes(engine, options)
-        initial = find_initial(engine, remedy, planes, tools)
+        crank = changed if remedy.webs else engine
+        planes = choose_correction_planes(crank, options)
+        initial = find_initial(crank, remedy, planes, tools)
     return Balance(
         remedy=remedy,
         practical=find_practical(engine, remedy, tools),
@@ -379,7 +478,7 @@ def judge_unbalance(
     Raises:
         BalcliError: Only one of grade and mass is given, or one of them is not positive.
     """
-    engine = result.before.engine
+    engine = (result.after if result.remedy.webs else result.before).engine
     planes = choose_correction_planes(engine, options)
     speed = float(engine.speed_rpm)
     permitted = permit_unbalance(result.remedy, grade, mass, speed, planes)
@@ -549,7 +648,9 @@ def insert_remedy(text: bytes, remedy: Remedy, file: str = "") -> str:
         raise BalcliError(f"scheme {remedy.scheme}: no engine file can describe its devices")
     if remedy.scheme == FIT:
         return _fill_in(old, remedy, file)
-    model = parse(text, file)
+    if remedy.web_tables:
+        old = _fill_webs(old, remedy.web_tables, file)
+    model = parse(old, file)
     cranked = sum(axle.has_cranks for axle in model.axle)
     if cranked > 1 and any(weight.axle is None for weight in remedy.counterweights):
         raise BalcliError(
@@ -573,6 +674,24 @@ def _fill_in(text: str, remedy: Remedy, file: str) -> str:
         keys = {"unbalance": device.unbalance, "angle": device.angle}
         text = set_keys(text, name, keys, "fitted by balcli")
     build(parse(text, file))
+    return text
+
+
+def _fill_webs(text: str, fitted: Iterable[FittedTable], file: str) -> str:
+    """Return the text with figures in place of each "fit" of a web, one table for each result."""
+    for own in sorted(fitted, reverse=True):  # from the last, so that earlier ones keep their place
+        if len(own.tables) > 1:
+            text = repeat_table(text, "web", own.number, len(own.tables))
+        for row, table in enumerate(own.tables):
+            name = f"web.{own.number + row}"
+            given = parse(text, file).web[own.number + row - 1]
+            keys: Node = {}
+            for key in ("webs", "thickness", "outer_radius", "opening", "angle"):
+                before = getattr(given, key) if given.has(key) else None
+                figure = getattr(table, key) if table.has(key) else None
+                if figure != before:
+                    keys[key] = [*figure] if isinstance(figure, tuple) else figure
+            text = set_keys(text, name, keys, "fitted by balcli")
     return text
 
 

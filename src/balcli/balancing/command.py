@@ -8,12 +8,12 @@ from collections.abc import Sequence
 from dataclasses import replace
 from math import isinf
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, NamedTuple
 
 import typer
 
 from ..core.unbalance import SLUGS
-from ..errors import BalcliError, name_option, note, warn
+from ..errors import BalcliError, name_option, naming_file, note, warn
 from ..file.edit import set_speed
 from ..file.fields import join_words
 from ..file.toml import name_file
@@ -46,6 +46,7 @@ from ..sizing.options import ALL, FIT, KNUCKLES, MEANINGS, OPTIONS, SchemeOption
 
 if TYPE_CHECKING:
     from ..engine.engine import Engine
+    from ..file.model import EngineFile
     from ..sizing.workshop import Misfit, Shapes, Tools
     from .answer import Balance
 
@@ -61,7 +62,8 @@ Scheme = Annotated[
     str | None,
     optional(
         "NAME",
-        "Scheme to fit (--schemes lists them); default: auto, or factor with --factor.",
+        "Scheme to fit (--schemes lists them); default: auto; factor with --factor, and for webs "
+        'that are "fit".',
         "--scheme",
         "--with",
         autocompletion=complete_schemes,
@@ -129,12 +131,14 @@ Criterion = Annotated[str | None, optional("largest|mean", "Force to minimise; d
 Even = Annotated[str | None, optional("dead-centres|strokes", "knuckles: what to make equal.")]
 Grade = Annotated[str | None, optional("G", "Balance grade of ISO 21940-11, such as G16.")]
 Mass = Annotated[str | None, optional("KG", "Mass of the crankshaft, for --grade.")]
-Write = Annotated[Path | None, optional("OUT.toml", "Write the engine with the new devices.")]
+Write = Annotated[
+    Path | None, optional("OUT.toml", "Write the engine with the new devices or webs.")
+]
 
 
 def show_balance(result: Balance, form: Format, output: Path | None, units: Units) -> None:
     """Print or write a balance, or its bobweight card (format card)."""
-    for reason in dict.fromkeys(result.remedy.reasons):
+    for reason in dict.fromkeys(result.remedy.every_reason):
         note(f"scheme {result.remedy.scheme}: {reason}")
     from . import show as renderer
 
@@ -215,6 +219,81 @@ def parse_grade(text: str | None) -> float | None:
         return None
     wanted = "a grade of ISO 21940-11 such as G16 or 6.3"
     return read_number("grade", text.strip().removeprefix("G"), wanted)
+
+
+class _Question(NamedTuple):
+    """What a call asks.
+
+    Attributes:
+        name: Name of the file.
+        engine: Its engine, without what is "fit".
+        model: The file.
+        scheme: Scheme to fit.
+        options: Options of the scheme.
+        orders: Orders to show; None: those that are not negligible.
+        shapes: Shapes of new devices.
+        targets: Quantities that devices with "fit" are to cancel; None: not given.
+        even: What scheme knuckles makes equal; None: not given.
+        open_devices: Devices whose unbalance is "fit".
+        open_webs: Dimensions of webs that are "fit".
+    """
+
+    name: str
+    engine: Engine
+    model: EngineFile
+    scheme: str
+    options: SchemeOptions
+    orders: Sequence[float] | None
+    shapes: Shapes
+    targets: list[str] | None
+    even: str | None
+    open_devices: list[str]
+    open_webs: list[str]
+
+    @property
+    def fits_devices(self) -> bool:
+        """Whether devices with "fit" are fitted."""
+        if self.open_webs:
+            return self.targets is not None
+        return bool(self.open_devices) or self.targets is not None or self.scheme == FIT
+
+    def check(self) -> None:
+        """Raise BalcliError if file, scheme and options do not go together."""
+        if self.fits_devices:
+            _check_fit(self.name, self.scheme, self.options, self.open_devices)
+        _check_scheme(self.scheme, self.options, self.even, self.shapes)
+
+    def answer(self, tools: Tools) -> Balance:
+        """Return the balance; `tools`: tools of the workshop."""
+        from . import answer
+
+        if self.open_webs:
+            with naming_file(self.name):
+                return answer.balance_webs(
+                    self.engine,
+                    self.model,
+                    self.scheme,
+                    self.options,
+                    self.orders,
+                    tools,
+                    self.shapes,
+                )
+        if self.fits_devices:
+            return answer.balance_fit(
+                self.engine,
+                self.model,
+                self.targets,
+                self.orders,
+                tools,
+                self.options.read_small(),
+            )
+        if self.scheme == KNUCKLES:
+            goal = self.even or "dead-centres"
+            speed = float(self.engine.speed_rpm)
+            return answer.balance_knuckles(self.model, goal, self.orders, speed)
+        return answer.balance(
+            self.engine, self.scheme, self.options, self.orders, tools, self.shapes
+        )
 
 
 def _check_fit(name: str, scheme: str, options: SchemeOptions, open_devices: Sequence[str]) -> None:
@@ -347,7 +426,7 @@ def balance(
     endings = {**TEXTS, ".txt": Format.CARD} if form is Format.CARD else TEXTS
     form = format_of(output, form, endings, Format.TABLE)
     require_ending(write, ".toml", "--write")
-    from ..sizing.fit import list_to_fit, remove_to_fit
+    from ..sizing.fit import list_open_webs, list_to_fit, remove_to_fit
     from ..sizing.workshop import HolesDoNotFitError, Shapes
     from . import answer
 
@@ -370,9 +449,9 @@ def balance(
     rpm = parse_speed(speed)
     text, model, engine = read_engine(path, rpm, prepare=remove_to_fit)
     open_devices = [name for name, _ in list_to_fit(model)]
-    scheme = choose_scheme(scheme, options, _choose_usual(step, form, open_devices))
-    fits = open_devices or target is not None or scheme == FIT
-    if scheme == ALL and not open_devices:
+    open_webs = list_open_webs(model)
+    scheme = choose_scheme(scheme, options, _choose_usual(step, form, open_devices, open_webs))
+    if scheme == ALL and not open_devices and not open_webs:
         _refuse_beside_all(
             options,
             tools,
@@ -387,47 +466,65 @@ def balance(
         )
         _show_all(engine, form, output, units)
         return
-    if fits:
-        _check_fit(name_file(path), scheme, options, open_devices)
-    _check_scheme(scheme, options, even, shapes)
-    wanted = None if target is None else [name.strip() for name in target.split(",")]
-
-    def find(tools: Tools) -> Balance:
-        if fits:
-            return answer.balance_fit(engine, model, wanted, asked, tools, options.read_small())
-        if scheme == KNUCKLES:
-            goal = even or "dead-centres"
-            return answer.balance_knuckles(model, goal, asked, float(engine.speed_rpm))
-        return answer.balance(engine, scheme, options, asked, tools, shapes)
-
+    question = _Question(
+        name=name_file(path),
+        engine=engine,
+        model=model,
+        scheme=scheme,
+        options=options,
+        orders=asked,
+        shapes=shapes,
+        targets=None if target is None else [name.strip() for name in target.split(",")],
+        even=even,
+        open_devices=open_devices,
+        open_webs=open_webs,
+    )
+    question.check()
     misfit = None
     try:
-        result = find(tools)
+        result = question.answer(tools)
     except HolesDoNotFitError as error:
         misfit = error
         holes = ("drill", "max_depth", "slug", "width")
-        result = find(tools._replace(**dict.fromkeys(holes)))
+        result = question.answer(tools._replace(**dict.fromkeys(holes)))
     result = answer.judge_unbalance(result, options, tools, grade_mm_s, mass_kg)
     if hasattr(result, "parts"):
         warn_each(result.parts.doubts, name_file(path))
     _warn_of_discs(name_file(path), tools, result.misfits)
-    if write is not None and misfit is None:
+    if write is not None and misfit is None and result.webs_fit:
         _write_balanced(text, path, write, result, rpm)
     show_balance(result, form, output, units)
     if misfit is not None:
         raise misfit
+    _refuse_misfits(name_file(path), result)
 
 
-def _choose_usual(step: str | None, form: Format, open_devices: list[str]) -> str:
+def _refuse_misfits(name: str, result: Balance) -> None:
+    """Raise BalcliError if webs have no room for their counterweights.
+
+    Args:
+        name: Name of the file.
+        result: Balance.
+    """
+    if not result.webs_fit:
+        from .web_show import tell_misfits
+
+        raise BalcliError(f"{name}: {tell_misfits(result)}")
+
+
+def _choose_usual(
+    step: str | None, form: Format, open_devices: list[str], open_webs: list[str]
+) -> str:
     """Return the scheme of a call that names none.
 
     Args:
         step: Step of the ladder that the call names; None: no step.
         form: Format of the output.
         open_devices: Devices of the file whose figures are to be fitted.
+        open_webs: Dimensions of webs that are to be fitted.
     """
     if step is not None:
         return "step"
-    if form is Format.CARD:
+    if form is Format.CARD or open_webs:
         return "factor"
     return FIT if open_devices else "auto"

@@ -64,6 +64,7 @@ from .scheme_show import (
     tell_distances,
     tell_growing_rolls,
 )
+from .web_show import lay_out_fitted
 
 _TURNING_WEIGHTS = (
     "The pin stands still; the cylinders turn and carry the counterweights. Angles count from the "
@@ -121,6 +122,11 @@ def _lay_out_devices(
 ) -> Iterator[Grid | Facts | Text]:
     """Yield the devices with their reasons, and their figures for the workshop."""
     remedy = result.remedy
+    if remedy.webs:
+        yield Text("Webs and reason", (remedy.web_reason,))
+        yield from lay_out_fitted(result, system)
+        if not remedy.devices:
+            yield from lay_out_parts(result.parts, system)
     if remedy.reasons and not remedy.devices and not remedy.beyond:
         yield Text("Changes and reasons", remedy.reasons)
     elif remedy.reasons:
@@ -135,7 +141,7 @@ def _lay_out_devices(
     elif remedy.beyond:
         beyond = "No engine file can describe these devices: see Details."
         yield Text("Fitted devices", (beyond,))
-    else:
+    elif not remedy.webs:
         yield Text("Nothing is fitted", ())
 
 

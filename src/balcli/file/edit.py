@@ -75,6 +75,37 @@ def remove_tables(text: str, name: str) -> str:
     return tomlkit.dumps(document)
 
 
+def repeat_table(text: str, name: str, number: int, times: int) -> str:
+    """Return the text with a table of a list several times, one after the other, with its comments
+    and the tables within it.
+
+    Args:
+        text: Text of the file.
+        name: Name of the list, such as `web`.
+        number: Number of the table, from 1.
+        times: How often the table shall stand.
+    """
+    wanted = tomllib.loads(text)
+    tables: list[object] = wanted[name]
+    tables[number - 1 : number] = times * [tables[number - 1]]
+    line_end = "\r\n" if "\r\n" in text else "\n"
+    old = text.replace("\r\n", "\n")
+    headers = list(HEADER.finditer(old))
+    own = [row for row, header in enumerate(headers) if header[1] == name]
+    if len(own) >= number:
+        start = headers[own[number - 1]].start()
+        later = headers[own[number - 1] + 1 :]
+        outside = (h.start() for h in later if not h[1].startswith(f"{name}."))
+        end = next(outside, len(old))
+        section = old[start:end]
+        gap = "" if section.endswith("\n") else "\n"
+        new = old[:start] + (times - 1) * (section + gap) + old[start:]
+        with suppress(ValueError):
+            if tomllib.loads(new) == wanted:
+                return new.replace("\n", line_end)
+    return rewrite(wanted, f"its [[{name}]] is written in an unusual way")
+
+
 def rewrite(data: Mapping[str, object], reason: str) -> str:
     """Return a whole file from its tables, headed by the reason why its comments are lost.
 

@@ -30,6 +30,7 @@ SizeOrFit = Annotated[float, Number(LENGTH, above=0, most=1e9, word=FIT)]
 OpeningOrFit = Annotated[float, Number(ANGLE, above=0, most=360, word=FIT)]
 Deviation = Annotated[float, Number(LENGTH, least=0, most=1e9)]
 
+_OPPOSITE_DEG = 180.0  # from the crank pin
 FITTED_KEYS = ("opening", "outer_radius", "thickness")
 _FORMS = "hub and boss, or profile, or mass and cg"
 _SHAPE = ("hub", "boss", "outer_radius", "opening", "angle")
@@ -87,7 +88,8 @@ class Web(FileTable):
     webs: Numbers | None = None
     """Numbers of these webs; left out: all webs that no other table lists. Example: [1, 4, 5, 8]"""
     thickness: SizeOrFit
-    """Axial thickness. Example: 20.5"""
+    """Axial thickness; "fit": balance finds it, with given outer_radius and opening.
+    Example: 20.5"""
     hub: Size | None = None
     """Diameter of the web around the main journal; the convex hull of both diameters is the cheek.
     Example: 65"""
@@ -95,11 +97,12 @@ class Web(FileTable):
     """Diameter of the web around the crank pin. Example: 53"""
     outer_radius: SizeOrFit | None = None
     """Outer radius of the counterweight, a sector from the hub outwards; left out with opening: no
-    counterweight. Example: 78"""
+    counterweight; "fit": balance finds it. Example: 78"""
     opening: OpeningOrFit | None = None
-    """Full angle of the counterweight. Example: 115"""
-    angle: Angle = 180.0
-    """Angle of the middle of the counterweight from the web's own crank pin. Example: 180"""
+    """Full angle of the counterweight; "fit": balance finds it. Example: 115"""
+    angle: Angle = _OPPOSITE_DEG
+    """Angle of the middle of the counterweight from the web's own crank pin; with an opening or
+    outer radius that is "fit", a left out angle is found as well. Example: 180"""
     profile: Annotated[str, FileName()] | None = None
     """DXF file with the outline, instead of hub, boss and counterweight. Example: 'web.dxf'"""
     mass: Mass | None = None
@@ -115,7 +118,8 @@ class Web(FileTable):
     holes: tuple[Hole, ...] = ()
     """Holes through the web. Example: [{ x = 44, diameter = 22 }]"""
     clearance: Distance = 0.0
-    """Gap to pistons and crankcase; a smaller one gets a warning. Example: 1"""
+    """Gap to pistons and crankcase; a smaller one gets a warning, and an outer radius that is "fit"
+    keeps it. Example: 1"""
     tolerance: WebTolerance | None = None
     """Largest deviations of the dimensions."""
 
@@ -138,6 +142,23 @@ class Web(FileTable):
         """Return whether the value of a key is "fit"."""
         value = getattr(self, key)
         return value is not None and math.isnan(value)
+
+    def take_open_away(self) -> Web:
+        """Return the table without what is to be fitted: a web with a dimension "fit" has no
+        counterweight, and no thickness (0) if this is the dimension. A table with contradictions
+        stays as it is.
+        """
+        if not self.to_fit or any(self.find_faults()):
+            return self
+        bare = self.remove_counterweight()
+        return bare.model_copy(update={"thickness": 0.0}) if self.is_open("thickness") else bare
+
+    def remove_counterweight(self) -> Web:
+        """Return the table without its counterweight."""
+        nothing = {"outer_radius": None, "opening": None, "angle": _OPPOSITE_DEG}
+        bare = self.model_copy(update=nothing)
+        bare.model_fields_set.difference_update(nothing)
+        return bare
 
     def find_faults(self) -> Iterator[Fault]:
         """Yield the contradictions between the keys of this table."""

@@ -98,11 +98,11 @@ def size_by_factor(engine: Engine, options: SchemeOptions) -> Remedy:
     if options.measured is not None and options.factor is not None:
         return _change_measured(engine, options)
     planes = _choose_planes(engine, options)
-    factors = _choose_factors(engine, options)
+    factors = choose_factors(engine, options)
     sweep = tuple(find_factor_peaks(engine, factor, planes) for factor in factors)
     best = min(sweep, key=lambda peaks: peaks.cost).factor
     fitting, fitted = _fit_factor(engine, best, planes)
-    fitting = fitting.add_details(**_describe(engine, options, best))
+    fitting = fitting.add_details(**describe_factor(engine, options, best))
     several = len(sweep) > 1
     span = (min(factors), max(factors)) if several else (0.0, 1.0)
     if bests := _find_best_factors(engine, planes, *span):
@@ -323,7 +323,7 @@ def _find_largest_component(curve: Phasors, direction: complex) -> float:
 
 
 # ------------------------------------------------------------------ which factor, which planes
-def _choose_factors(engine: Engine, options: SchemeOptions) -> tuple[float, ...]:
+def choose_factors(engine: Engine, options: SchemeOptions) -> tuple[float, ...]:
     """Return the given factors, or the factor of the measured mass."""
     if options.measured is not None:
         return (find_measured_factor(engine, options.measured),)
@@ -385,7 +385,7 @@ def _change_measured(engine: Engine, options: SchemeOptions) -> Remedy:
     measured = options.measured or 0.0
     has = find_measured_factor(engine, measured)
     wanted = options._replace(measured=None)
-    card = fill_card(engine, _choose_factors(engine, wanted)[0])
+    card = fill_card(engine, choose_factors(engine, wanted)[0])
     masses = np.array([float(w.rotating + w.reciprocating) for w in engine.weighed])
     slots = []
     unbalances = []
@@ -454,7 +454,7 @@ def _choose_planes(engine: Engine, options: SchemeOptions) -> tuple[float, ...] 
     return tuple(sorted(set(read_planes(engine, options))))
 
 
-def _describe(engine: Engine, options: SchemeOptions, factor: float) -> Node:
+def describe_factor(engine: Engine, options: SchemeOptions, factor: float) -> Node:
     """Return the factor as a share of all reciprocating mass on the pin and as a share of one
     cylinder's reciprocating mass, and the measured mass if given.
     """

@@ -58,11 +58,20 @@ def list_to_fit(model: EngineFile) -> list[tuple[str, DeviceTable]]:
     return to_fit
 
 
+def list_open_webs(model: EngineFile) -> list[str]:
+    """Return the names of the dimensions of webs that are "fit" (`web.1.opening`)."""
+    return [f"web.{n}.{table.to_fit}" for n, table in enumerate(model.web, 1) if table.to_fit]
+
+
 def remove_to_fit(model: EngineFile) -> EngineFile:
-    """Return the file without the devices whose unbalance is "fit"."""
-    rest = {}
+    """Return the file without the devices whose unbalance is "fit". Webs with a dimension "fit"
+    have no counterweight; if this is their thickness, they have no thickness either.
+    """
+    rest: dict[str, tuple[object, ...]] = {}
     for key in TABLES:
         rest[key] = tuple(table for table in getattr(model, key) if not table.to_fit)
+    if list_open_webs(model):
+        rest["web"] = tuple(table.take_open_away() for table in model.web)
     return model.model_copy(update=rest)
 
 

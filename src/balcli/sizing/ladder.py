@@ -744,8 +744,15 @@ def _list_arms(engine: Engine) -> Array:
 
 
 def _list_counterweights(engine: Engine) -> list[Device]:
-    """Return the counterweights of all cranks."""
-    return [device for device in engine.every_device if device.is_counterweight]
+    """Return the counterweights of all cranks, and those of webs without their cheeks."""
+    weights = []
+    for device in engine.every_device:
+        if device.web and engine.webs is not None:
+            own = engine.webs.webs[device.web - 1].own_weight
+            weights += [own] if own.forward else []
+        elif device.is_counterweight:
+            weights.append(device)
+    return weights
 
 
 def _measure_unbalance(device: Device) -> float:
@@ -833,15 +840,19 @@ def _describe_scale(engine: Engine, scales: Scales) -> Scale:
 
 def _weigh_file_counterweights(engine: Engine, drawn: Step) -> FileCounterweights | None:
     """Return the largest main bearing load without and with the counterweights of the file; None
-    without such counterweights, or if the load is not known.
+    without such counterweights, or if the load is not known. Cheeks of webs are no counterweights.
 
     Args:
         engine: Engine as drawn.
         drawn: First step of the ladder.
     """
-    if not _list_counterweights(engine) or drawn.main_bearing_N is None:
+    weights = _list_counterweights(engine)
+    if not weights or drawn.main_bearing_N is None:
         return None
-    loads = find_crank_loads(remove_counterweights(engine))
+    cheeks = [device for device in engine.devices if device.web]
+    cheeks += [weight._replace(forward=-weight.forward) for weight in weights if weight.web]
+    bare = remove_counterweights(engine)
+    loads = find_crank_loads(replace(bare, devices=(*cheeks, *bare.devices)))
     if loads is None or loads.main_N is None:
         return None
     return FileCounterweights(without_N=loads.main_N, with_N=drawn.main_bearing_N)

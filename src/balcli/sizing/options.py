@@ -16,6 +16,7 @@ from ..limits import FARTHEST_DEVICE_M, HIGHEST_SHAFT_ORDER, MOST_SMALL, SMALL
 DESIGNS = ("a", "b")  # a: pin on the shaft, slot in the disc; b: pin on the disc, slot on the shaft
 CRITERIA = ("largest", "mean")  # eccentric-slider minimises this value of the remaining force
 LADDER = ("auto", "step")  # schemes that fit steps of the ladder
+WEB_SCHEMES = ("factor", "step", "counterweights")  # fit webs that the file leaves open
 KNUCKLES = "knuckles"  # fits no device, but changes the engine file (balcli.balancing.answer)
 FIT = "fit"  # fits the devices that the file leaves open (balcli.sizing.fit)
 ALL = "all"  # compares the other schemes (balcli.balancing.all_schemes)

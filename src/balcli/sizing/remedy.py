@@ -13,6 +13,7 @@ from ..file.model import Counterweight, EngineFile, Shaft, Slider
 from .planes import KINDS, DeviceTable, name_kind, round_figures
 
 if TYPE_CHECKING:
+    from ..file.web_tables import Web
     from .bobweights import Bobweight, FactorPeaks, PlaneNeed
 
 
@@ -40,6 +41,64 @@ class PartsBeyond(NamedTuple):
     mass_kg: float
 
 
+class WebCure(NamedTuple):
+    """A way to make the unbalance for which a counterweight of a web has no room. What does not
+    apply is left out.
+
+    Attributes:
+        remedy: "pin bore": a bore through the pin and both webs of the throw. "lightening": mass to
+            take from the web at the crank radius. "outer radius": that of the counterweight. "heavy
+            metal": a tungsten slug through the counterweight, 3 mm inside its rim.
+        diameter_m: Diameter of the bore or slug; left out if no slug is large enough.
+        mass_kg: Mass to take away, or mass of the slug.
+        radius_m: Outer radius.
+        enough: Whether pin, room or counterweight have room for it; left out if that is not known.
+    """
+
+    remedy: str
+    diameter_m: float | None = None
+    mass_kg: float | None = None
+    radius_m: float | None = None
+    enough: bool | None = None
+
+
+class FittedWeb(NamedTuple):
+    """A web whose counterweight is fitted, SI units.
+
+    Attributes:
+        web: Number of the web, from the free end.
+        key: Key of its table that is fitted: "opening", "outer_radius" or "thickness".
+        wanted: Unbalance that the web is to have, in its own axes.
+        of_counterweight: Unbalance that its counterweight alone is to have.
+        room: Unbalance of the largest counterweight that fits; None if the wanted one fits.
+        cures: Ways to make what does not fit.
+    """
+
+    web: int
+    key: str
+    wanted: complex
+    of_counterweight: float
+    room: float | None = None
+    cures: tuple[WebCure, ...] = ()
+
+    @property
+    def missing(self) -> float | None:
+        """Unbalance that does not fit; None if the counterweight fits."""
+        return None if self.room is None else self.of_counterweight - self.room
+
+
+class FittedTable(NamedTuple):
+    """A table [[web]] with figures in place of "fit".
+
+    Attributes:
+        number: Number of the table in the file, from 1.
+        tables: Tables in its place: several if its webs come out unequal.
+    """
+
+    number: int
+    tables: tuple[Web, ...]
+
+
 class Remedy(NamedTuple):
     """New devices as tables of the engine file, with reasons and notes.
 
@@ -65,6 +124,9 @@ class Remedy(NamedTuple):
             step with several steps); None for other schemes.
         moments_left: Moments that shafts with one eccentric leave (schemes auto, step and
             complete with a position).
+        webs: Webs whose counterweights are fitted, from the free end.
+        web_tables: Their tables with the fitted figures.
+        web_reason: Reason for their counterweights; empty without such webs.
     """
 
     scheme: str
@@ -83,6 +145,14 @@ class Remedy(NamedTuple):
     step: str = ""
     steps: tuple[str, ...] | None = None
     moments_left: tuple[MomentLeft, ...] = ()
+    webs: tuple[FittedWeb, ...] = ()
+    web_tables: tuple[FittedTable, ...] = ()
+    web_reason: str = ""
+
+    @property
+    def every_reason(self) -> tuple[str, ...]:
+        """Reasons for fitted webs and for the devices."""
+        return (self.web_reason, *self.reasons) if self.web_reason else self.reasons
 
     @property
     def counterweights(self) -> tuple[Counterweight, ...]:

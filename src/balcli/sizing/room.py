@@ -115,7 +115,7 @@ def _find_room(whole: Engine, engine: Engine) -> Room:
     limits = (_find_piston_limit(engine), _find_crankcase(whole, engine))
     known = [limit for limit in limits if limit is not None]
     radius = max(min(known), 0.0) if known else None
-    return Room(radius, _find_thickness(engine))
+    return Room(radius, find_half_distance(engine))
 
 
 def find_lowest_edge(engine: Engine) -> float | None:
@@ -127,6 +127,14 @@ def find_lowest_edge(engine: Engine) -> float | None:
     if skirt is None or distance is None:
         return None
     return distance - skirt / 1e3
+
+
+def find_known_radius(engine: Engine) -> float | None:
+    """Return the radius of the room around the crank of an engine, m, by its pistons and its
+    crankcase as far as the file gives them; None if it gives neither.
+    """
+    limits = (find_lowest_edge(engine), _find_crankcase(engine, engine))
+    return min((limit for limit in limits if limit is not None), default=None)
 
 
 def assume_skirt(engine: Engine, remedies: Iterable[Remedy]) -> tuple[Assumed, ...]:
@@ -186,7 +194,7 @@ def _find_crankcase(whole: Engine, engine: Engine) -> float | None:
     return None
 
 
-def _find_thickness(engine: Engine) -> float:
+def find_half_distance(engine: Engine) -> float:
     """Return half the smallest distance of throws, m; infinite if they are in one plane."""
     gaps = np.diff(np.sort(engine.joined_throws_m))
     apart = gaps[gaps > _ONE_PLACE]

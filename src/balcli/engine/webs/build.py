@@ -47,6 +47,17 @@ class CrankWeb(NamedTuple):
         turning = self.body.unbalance * unit(self.pin_deg)
         return Device(1, turning, 0j, 0j, self.z, DeviceKind.COUNTERWEIGHT, web=self.number)
 
+    @property
+    def own_weight(self) -> Device:
+        """The counterweight of the web without its cheek. Where the cheek is not known, this is the
+        whole web if its centre of mass is opposite the crank pin, else nothing.
+        """
+        body = self.body
+        at_pin = body.at_pin
+        if at_pin is None:
+            at_pin = 0j if body.unbalance.real < 0 else body.unbalance
+        return self.device._replace(forward=(body.unbalance - at_pin) * unit(self.pin_deg))
+
 
 class Webs(NamedTuple):
     """All webs of a crankshaft, and the pin of each throw."""
@@ -226,8 +237,8 @@ def _read_profile(model: EngineFile, number: int) -> Drawing | None:
 def _refuse_fit(table: Web, number: int) -> None:
     if key := table.to_fit:
         message = Message(
-            '{path} is "fit", but balancing sizes no webs yet; give a figure, and read the '
-            "unbalance in the parts of analyze",
+            '{path} is "fit": run balcli balance FILE {write} OUT, which puts a figure in its '
+            "place (fit_webs in Python)",
             path=f"web.{number}.{key}",
         )
         raise InputError([Problem("", message)])
