@@ -139,6 +139,17 @@ def test_the_picture_shows_the_nearest_piston_at_its_crank_angle(tmp_path):
     assert f"gap {1e3 * web.clearance_m:.4g} mm" in [text.get_text() for text in axes.texts]
 
 
+def test_without_a_skirt_the_crank_pin_is_upwards(tmp_path):
+    (tmp_path / "e.toml").write_text(TWIN.replace("skirt = 30\n", "") + WEB)
+    figure = plot(load(tmp_path / "e.toml"), "webs")
+    assert "give piston.bore and piston.skirt" in figure.get_supxlabel()
+    (axes,) = figure.axes
+    assert not any(line.get_label().startswith("piston") for line in axes.lines)
+    outline = axes.patches[0].get_xy()
+    assert_allclose(max(y for _, y in outline), 41 + 27, rtol=1e-4)  # boss, drawn in steps of a degree
+    assert not any("gap" in text.get_text() for text in axes.texts)
+
+
 def test_a_picture_needs_webs():
     with pytest.raises(ArgumentError, match=r"webs: the file has no \[\[web\]\]"):
         plot(

@@ -4,11 +4,12 @@ import math
 
 import numpy as np
 import pytest
-from balcli import load, torque, torsion
-from balcli.torsional_vibration.means import Link, share_out
 from support.commands import ask, ask_csv, ask_json, refusal, run_here
 from support.diesel import write_diesel
 from support.paths import write
+
+from balcli import load, torque, torsion
+from balcli.torsional_vibration.means import Link, share_out
 
 GAS = '[gas]\ncycle = "wiebe"\ncompression_ratio = 16\nimep = 15\n'
 GEARED = """

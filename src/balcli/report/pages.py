@@ -35,6 +35,7 @@ from ..balancing.scheme_show import percent
 from ..core.peaks import find_largest
 from ..core.phasors import Array, Complex, Phasors
 from ..crank_torque.plot import draw_gas
+from ..engine.engine import take_model
 from ..forces.crankshaft import AlongCrank
 from ..forces.kinds import (
     COUPLE,
@@ -88,6 +89,10 @@ _STEPS_BESIDE = 3  # largest number of steps of a ladder side by side
 _STEP_LETTERS = 28  # largest number of letters in a line of a step's title
 _OWN_SCALES = "Each step has its own scale; its title tells the largest value. Dot: crank angle 0°."
 _WEBS = "Seen from the free end (clockwise), with the cylinder of the nearest piston upwards."
+_WEBS_ALONE = (
+    "Seen from the free end (clockwise), with the crank pin upwards.\n"
+    "The file does not tell where pistons are: give piston.bore and piston.skirt."
+)
 _STARS = (
     "Left: forces of the cylinders (numbers) at crank angle 0, without devices. Then: polygons of\n"
     "force and moment, with a colour for each bank. Dashed: the sum; a dot: the sum is 0."
@@ -615,7 +620,10 @@ def _lay_out_webs(fig: Figure, subject: PageSubject) -> str:
         for place, webs in enumerate(drawn, 1):
             draw_web(fig.add_subplot(rows, columns, place), engine, webs, subject.system)
     weighed = [f"web.{table}" for table, webs in kinds.items() if webs[0].body.shape is None]
-    words = [_WEBS] if drawn else []
+    words = []
+    if drawn:
+        piston = take_model(engine).piston
+        words.append(_WEBS if piston.skirt is not None and piston.bore else _WEBS_ALONE)
     if weighed:
         words.append(f"Not drawn: {', '.join(weighed)}, which the file gives by mass.")
     return "\n".join(words)
