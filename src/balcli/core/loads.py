@@ -14,7 +14,7 @@ cylinder's axis. A prime is a derivative by the crank angle.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property, reduce
 from operator import add
@@ -177,6 +177,22 @@ def find_device_force(device: Device, n: Array, square: Figure) -> Phasors:
     backward = size * device.backward
     noise = _WRITTEN * (np.abs(forward) + np.abs(backward))
     return Phasors.of(n.reshape(-1), forward, backward, noise)
+
+
+def find_device_forces(devices: Sequence[Device], n: Array, square: Figure) -> Phasors:
+    """Return the forces of devices of one engine, N, phasors of shape (orders, devices).
+
+    Args:
+        devices: Counterweights, shafts and sliders.
+        n: Orders, shape (orders,).
+        square: Square of the crank speed, rad2/s2.
+    """
+    order = np.array([device.order for device in devices], float)
+    forward = np.array([device.forward for device in devices], complex)
+    backward = np.array([device.backward for device in devices], complex)
+    size = (n[:, None] == order) * (order**2 * square)
+    noise = _WRITTEN * size * (np.abs(forward) + np.abs(backward))
+    return Phasors.of(n, size * forward, size * backward, noise)
 
 
 # ------------------------------------------------------------------ one cylinder in its own frame

@@ -541,7 +541,10 @@ class Engine:
     def joined_throws_m(self) -> Array:
         """Position of each of the `joined_throws` (the middle of its rods), m, shape (throws,)."""
         places = np.ravel(self.throws_m)
-        return np.array([places[[*throws]].mean() for throws in self.joined_throws])
+        joined = self.joined_throws
+        of_throw = np.repeat(np.arange(len(joined)), [len(throws) for throws in joined])
+        throws = [throw for throws in joined for throw in throws]
+        return np.asarray(np.bincount(of_throw, places[throws]) / np.bincount(of_throw))
 
     @property
     def joined_throw_of_rows(self) -> list[int]:

@@ -27,7 +27,7 @@ import numpy as np
 
 from ..core.cylinders import DeviceKind
 from ..core.loads import find_ahead, find_arms, share_by_lever, sum_to_sections, sum_weighted
-from ..core.peaks import Peak, find_peaks
+from ..core.peaks import Peak, find_largest, find_peaks
 from ..core.phasors import Array, Complex, Phasors, join_places, unit
 from ..core.piecewise import Vectors, cut, find_panels, merged_breaks, quadrature
 from ..engine.engine import Engine
@@ -37,7 +37,7 @@ from ..limits import MOST_FORCES_OVER_CYCLE, MOST_RESULTS_ALONG_CRANK
 from .curves import as_rows, compute_device_forces, compute_piecemeal, find_crank_speed
 from .rod_forces import compute_rod_forces, list_hung_rows
 from .spectrum import (
-    compute_device_force,
+    compute_forces_of_devices,
     compute_spectra,
     find_relevant_orders,
     list_gas_orders,
@@ -123,18 +123,36 @@ class CrankLoads:
     inner_mm: float
 
 
-def compute_inner_loads(engine: Engine, orders: Array | None = None) -> InnerLoads:
-    """Return forces and moments in the crankshaft by inertia, and the peaks of the sum of all
-    orders.
+class _Sums(NamedTuple):
+    """Sums of the loads along the crank.
 
-    Args:
-        engine: One engine, not an array of variants.
-        orders: Orders that are returned, ascending, shape (orders,); default: 1, 2 and those in
-            which the bending moment is worth showing.
-
-    Raises:
-        BalcliError: Orders x loads exceed a limit; the error states this limit.
+    Attributes:
+        orders: Orders that are returned, shape (orders,).
+        loads: Forces of cylinders and counterweights, N, shape (every order, loads).
+        z: Positions of the loads, m, shape (loads,).
+        sections: Different positions of the loads, m, ascending, shape (sections,).
+        shear: Shear force just behind each section, N, shape (every order, sections).
+        bending: Bending moment there, N m, of the same shape.
+        span: Positions of the main bearings, m, shape (bearings,); None: not known.
     """
+
+    orders: Array
+    loads: Phasors
+    z: Array
+    sections: Array
+    shear: Phasors
+    bending: Phasors
+    span: Array | None
+
+    def find_bearing_forces(self, span: Array) -> Phasors:
+        """Return the forces on main bearings at these positions, N, shape (every order,
+        bearings).
+        """
+        return compute_bearing_forces(self.loads, self.z, span)
+
+
+def _sum_along(engine: Engine, orders: Array | None) -> _Sums:
+    """Return the sums of the loads along the crank; see `compute_inner_loads` for the arguments."""
     every = merge_orders(find_relevant_orders(engine), [1, 2] if orders is None else orders)
     loads, z = compute_loads(engine, every)
     sections = list_places(z)
@@ -148,12 +166,28 @@ def compute_inner_loads(engine: Engine, orders: Array | None = None) -> InnerLoa
             f"are {len(orders) * len(z)} results, and at most {MOST_RESULTS_ALONG_CRANK} are "
             "listed; give fewer orders"
         )
+    return _Sums(orders, loads, z, sections, shear, bending, place_bearings(engine))
+
+
+def compute_inner_loads(engine: Engine, orders: Array | None = None) -> InnerLoads:
+    """Return forces and moments in the crankshaft by inertia, and the peaks of the sum of all
+    orders.
+
+    Args:
+        engine: One engine, not an array of variants.
+        orders: Orders that are returned, ascending, shape (orders,); default: 1, 2 and those in
+            which the bending moment is worth showing.
+
+    Raises:
+        BalcliError: Orders x loads exceed a limit; the error states this limit.
+    """
+    along = _sum_along(engine, orders)
     bearings = None
-    if (span := place_bearings(engine)) is not None:
-        bearings = _with_peaks(span, compute_bearing_forces(loads, z, span), orders)
+    if along.span is not None:
+        bearings = _with_peaks(along.span, along.find_bearing_forces(along.span), along.orders)
     return InnerLoads(
-        shear=_with_peaks(sections, shear, orders),
-        bending=_with_peaks(sections, bending, orders),
+        shear=_with_peaks(along.sections, along.shear, along.orders),
+        bending=_with_peaks(along.sections, along.bending, along.orders),
         bearings=bearings,
         has_given_bearings=engine.has_given_bearings,
     )
@@ -167,12 +201,24 @@ def find_crank_loads(engine: Engine) -> CrankLoads | None:
     if not engine.places_known or engine.rotary or engine.placed:
         return None
     try:
-        loads = compute_inner_loads(engine)
+        along = _sum_along(engine, None)
     except BalcliError:
         return None
-    main_N, main_mm = (None, None) if loads.bearings is None else loads.bearings.highest
-    moment, inner_mm = loads.bending.highest
+    main_N = None
+    main_mm = None
+    if along.span is not None:
+        main_N, main_mm = _find_highest(along.span, along.find_bearing_forces(along.span))
+    moment, inner_mm = _find_highest(along.sections, along.bending)
     return CrankLoads(main_N=main_N, main_mm=main_mm, inner_moment_Nm=moment, inner_mm=inner_mm)
+
+
+def _find_highest(places: Array, phasors: Phasors) -> tuple[float, float]:
+    """Return the highest peak of phasors of shape (orders, places), and its position, mm, for
+    places in m.
+    """
+    values = find_largest(phasors).tolist()
+    largest = int(find_first_largest(values))
+    return values[largest], 1e3 * float(places[largest])
 
 
 def place_bearings(engine: Engine) -> Array | None:
@@ -207,9 +253,9 @@ def compute_loads(engine: Engine, orders: Array) -> tuple[Phasors, Array]:
     counterweights = [d for d in engine.devices if d.kind is DeviceKind.COUNTERWEIGHT]
     refuse_too_many_loads(engine, len(orders), engine.cylinders.count + len(counterweights))
     by_cylinder = compute_spectra(engine, orders, ["force"], by_cylinder=True)["force"]
-    more = [compute_device_force(engine, device, orders) for device in counterweights]
+    more = compute_forces_of_devices(engine, counterweights, orders)
     places = [*np.ravel(engine.cylinders.z), *(device.z for device in counterweights)]
-    return join_places([by_cylinder, *more]), np.array(places, float)
+    return join_places([by_cylinder, more]), np.array(places, float)
 
 
 def list_places(z: Array) -> Array:

@@ -17,7 +17,7 @@ angle theta, which is of order n = h/2.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Collection, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import reduce
 from operator import add, sub
@@ -28,7 +28,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..core import speed_ripple as ripple
 from ..core.cylinders import Device
-from ..core.loads import LOADS, Loads, Turning, find_device_force, find_needed_series
+from ..core.loads import LOADS, Loads, Turning, find_device_forces, find_needed_series
 from ..core.mechanisms.closed_form import select_cylinders
 from ..core.phases import ANGLE, SUM, Phases, SeparatePhases
 from ..core.phasors import EPS, Array, Complex, Phasors, join_orders, join_places, unit
@@ -296,19 +296,19 @@ def count_engine_samples(engine: Engine) -> int:
     return c.count_all_samples()[1] if sampled else 0
 
 
-def compute_device_force(engine: Engine, device: Device, orders: Array) -> Phasors:
-    """Return the force of one device by order, N, shape (orders,).
+def compute_forces_of_devices(engine: Engine, devices: Sequence[Device], orders: Array) -> Phasors:
+    """Return the force of each device by order, N, shape (orders, devices).
 
     Args:
         engine: One engine, not an array of variants.
-        device: A device.
+        devices: Devices.
         orders: Orders, shape (orders,).
     """
     speed, dense = _mix_orders(engine, orders)
-    force = find_device_force(device, dense, engine.omega**2).drop_noise()
+    forces = find_device_forces(devices, dense, engine.omega**2).drop_noise()
     if not engine.ripple:
-        return force
-    return ripple.apply_speed(force, speed).select_orders(orders).drop_noise()
+        return forces
+    return ripple.apply_speed(forces, speed).select_orders(orders).drop_noise()
 
 
 def add_parts(kind: Kind, parts: Mapping[str, Phasors]) -> Phasors:

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..core.vibration import Indices, Real
+from ..core.vibration import Complex, Indices, Real
 from .motion import compute_curves, compute_in_parts, find_half_swing
 from .poles import PoleSum, expand_in_poles
 from .system import TorsionalSystem
@@ -32,6 +32,11 @@ class Columns:
         if self._sum is not None:
             self._spanned[: len(self._sum.spanned)] = self._sum.spanned
             self._unphased = [self._sum.drive(own) for own in system.unphased]
+
+    @property
+    def poles(self) -> Complex | None:
+        """Poles of the system, rad/s; None if they were not needed."""
+        return None if self._sum is None else self._sum.poles
 
     def bound(self, rpm: Real, which: Indices) -> Real:
         """Return upper bounds at speeds (speeds,), shape (speeds, len(which))."""

@@ -17,7 +17,7 @@ import numpy as np
 
 from ..core.peaks import find_highest
 from ..core.phases import RPM
-from ..core.vibration import ROUNDING, Indices, Real
+from ..core.vibration import ROUNDING, Complex, Indices, Real
 from ..file.fields import order_number
 from ..process import Tell, tell_nobody
 from .columns import Columns
@@ -65,7 +65,7 @@ def find_largest(
     if weights is not None:
         factors[: len(weights)] = weights
     wanted = np.flatnonzero(factors)
-    speeds = add_resonances(system, rpm)
+    speeds = add_resonances(system, rpm, columns.poles)
 
     def judge(at: Real, which: Indices) -> Real:
         """Return the values at speeds `at`, each for the wanted column in `which`."""
@@ -94,9 +94,14 @@ def find_largest(
     return best, highest
 
 
-def add_resonances(system: TorsionalSystem, rpm: Real) -> Real:
+def add_resonances(system: TorsionalSystem, rpm: Real, poles: Complex | None = None) -> Real:
     """Return the speeds (rpm) and additional speeds about the damped resonances that orders meet
     between them. Resonances that are wide compared with the steps need no additional speeds.
+
+    Args:
+        system: System with an excitation.
+        rpm: Rising speeds, shape (speeds,).
+        poles: Poles that do not depend on the order, if they are known.
     """
     if len(rpm) == 1:
         return rpm
@@ -104,7 +109,7 @@ def add_resonances(system: TorsionalSystem, rpm: Real) -> Real:
     if system.pendulums:
         of_orders = [find_poles(system, order) for order in orders.tolist()]
     else:
-        of_orders = [find_poles(system)] * len(orders)
+        of_orders = [find_poles(system) if poles is None else poles] * len(orders)
     poles = np.array(of_orders)
     met = (poles.imag > 0) & (-poles.real > ROUNDING * np.abs(poles))
     by_order = RPM * np.broadcast_to(orders[:, None], poles.shape)[met]
