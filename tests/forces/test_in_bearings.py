@@ -23,7 +23,7 @@ from balcli.forces.crankshaft import (
     compute_loads_with_gas,
     place_bearings,
 )
-from balcli.forces.spectrum import compute_device_force
+from balcli.forces.spectrum import compute_forces_of_devices
 
 DEVICES = """
 [[counterweight]]
@@ -138,7 +138,7 @@ def test_shaft_and_block_together_bear_what_inertia_makes(seed):
         bending = inertia.bending.at(row)
         for device in others:
             if device.z <= z:
-                force = compute_device_force(found, device, orders)
+                force = compute_forces_of_devices(found, [device], orders).select_place(0)
                 shear = shear + force
                 bending = bending + 1j * (device.z - z) * force
         pairs = (loads.shear, loads.block_shear, shear), (loads.bending, loads.block_bending, bending)
