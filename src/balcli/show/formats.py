@@ -95,7 +95,7 @@ def stamp(document: object) -> Any:
 
 
 class Format(StrEnum):
-    """Format of a written result; each of the last five belongs to one command."""
+    """Format of a written result; each of the last six belongs to one command."""
 
     TABLE = "table"
     JSON = "json"
@@ -106,6 +106,7 @@ class Format(StrEnum):
     GITHUB = "github"
     CARD = "card"
     MARINE = "marine"
+    HTML = "html"
 
 
 class Units(StrEnum):

@@ -48,14 +48,15 @@ def html_text(sheet: Sheet, doubts: Iterable[Doubt] = ()) -> str:
         sheet: Sheet to write.
         doubts: Doubts about the result.
     """
-    blocks = [_block(part) for part in sheet.parts]
+    blocks = [write_block(part) for part in sheet.parts]
     lines = tuple(str(doubt) for doubt in doubts)
     if lines:
-        blocks.append(_block(Text("Doubtful", lines)))
+        blocks.append(write_block(Text("Doubtful", lines)))
     return f"<div>\n<h4>{escape(sheet.title)}</h4>\n{''.join(blocks)}</div>"
 
 
-def _block(part: Grid | Facts | Text) -> str:
+def write_block(part: Grid | Facts | Text) -> str:
+    """Return a table, facts or paragraphs as HTML, under their title."""
     text = f"<p><b>{escape(part.title)}</b></p>\n" if part.title else ""
     match part:
         case Text():

@@ -351,7 +351,8 @@ def _answer_worst_misfire(source: Source, question: TorsionQuestion, tell: Tell)
     if question.speeds_rpm is None or source.without is None:
         raise ArgumentError("{misfire} worst: give the speeds over which to compare, with {speeds}")
     misfire = find_worst_misfire(source, question.speeds_rpm, tell)
-    silent = source.without(misfire.worst)._replace(misfire=ALL_FIRE)
+    silent = source.without(misfire.worst, source.misfire.compressing)
+    silent = silent._replace(misfire=ALL_FIRE)
     return change_attributes(answer_question(silent, question), misfire=misfire)
 
 
@@ -383,7 +384,7 @@ def _analyze_system(
         orders=None if excitation is None else tuple(map(order_number, excitation.orders.tolist())),
         criticals=None if excitation is None else find_criticals(system, modes, span),
         criticals_outside=outside,
-        holzer=tuple(_tabulate(system, modes, asked) for asked in question.holzer) or None,
+        holzer=tuple(tabulate_chain(system, modes, asked) for asked in question.holzer) or None,
         response=response,
         limits=judgment.verdicts,
         barred_rpm=judgment.barred_rpm,
@@ -419,7 +420,7 @@ def _find_first_mode(system: TorsionalSystem, shafts: Indices, stiffness: float)
     return float(modes.omega[modes.rigid]) / (2 * np.pi)
 
 
-def _tabulate(
+def tabulate_chain(
     system: TorsionalSystem, modes: tuple[NaturalMode, ...], asked: HolzerAsked
 ) -> HolzerTable:
     """Return Holzer's table at a frequency."""

@@ -163,6 +163,7 @@ def assemble_system(
             np.array([node.damping for node in nodes]),
         ),
         stress_by_torque=stress_by_torque,
+        sections=tuple(map(_find_section, tables)),
         limits=limits,
         unknown_stress=tuple(
             k
@@ -197,9 +198,13 @@ def _place_dampers(
 
 def _find_stress(table: ShaftKeys) -> float:
     """Return the shear stress at the surface of a shaft for 1 N m, Pa; 0 without a diameter."""
-    outer = (table.diameter or 0.0) / 1e3
-    inner = (table.bore or 0.0) / 1e3
+    outer, inner = _find_section(table)
     return find_shear_stress(outer, inner) if outer else 0.0
+
+
+def _find_section(table: ShaftKeys) -> tuple[float, float]:
+    """Return the outer and inner diameter of a shaft, m; 0 where they are not given."""
+    return (table.diameter or 0.0) / 1e3, (table.bore or 0.0) / 1e3
 
 
 def _doubt_light_shafts(chain: Chain, shafts: Sequence[PlannedShaft]) -> Iterator[Doubt]:

@@ -53,8 +53,8 @@ class Source(NamedTuple):
         measured: Measured curve of the free end; None: the file names none.
         misfire: Request for cylinders that do not fire; those with a number do not fire in
             `system`.
-        without: Function that returns the source with one more cylinder that does not fire; None:
-            the file describes a chain.
+        without: Function that returns the source with one more cylinder that does not fire, given
+            its number and whether it compresses; None: the file describes a chain.
     """
 
     text: bytes
@@ -65,7 +65,7 @@ class Source(NamedTuple):
     throws: tuple[str, ...] = ()
     measured: MeasuredPoints | None = None
     misfire: MisfireAsked = ALL_FIRE
-    without: Callable[[CylinderNumber], Source] | None = None
+    without: Callable[[CylinderNumber, bool], Source] | None = None
 
 
 def make_chain_source(
@@ -144,9 +144,9 @@ def _make_source(
 ) -> Source:
     """Return the source for an engine in which the requested cylinders do not fire already."""
 
-    def without(number: CylinderNumber) -> Source:
+    def without(number: CylinderNumber, compressing: bool) -> Source:
         """Return the source with one more cylinder that does not fire."""
-        silent = stop_firing(engine, number, misfire.compressing)
+        silent = stop_firing(engine, number, compressing)
         return _make_source(model, silent, name, orders, text, misfire)
 
     torsion = require_torsion(model, name)

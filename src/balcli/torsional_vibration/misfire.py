@@ -96,6 +96,12 @@ def computes_cycle(model: EngineFile, number: CylinderNumber) -> bool:
     return own is None or own.indicator is None
 
 
+def compute_all_cycles(engine: Engine) -> bool:
+    """Return whether the gas of every cylinder that may misfire follows from a computed cycle."""
+    model = take_model(engine)
+    return all(computes_cycle(model, number) for number in list_firing(engine))
+
+
 def list_firing(engine: Engine) -> tuple[CylinderNumber, ...]:
     """Return the numbers of the cylinders that may misfire, rising: all but dummies."""
     fires = engine.fires_deg or {*engine.numbers}

@@ -305,6 +305,24 @@ def _add_drive(drive: _Drive, own: _Drive) -> _Drive:
     return drive._replace(work=drive.work + added, most=drive.most + added, largest=largest)
 
 
+def sum_phases(excitation: Excitation, modes: tuple[NaturalMode, ...], omega: float) -> Real:
+    """Return the phase sum of every mode and order at one speed, shape (modes, orders): the
+    magnitude of the sum over all torques of an order, each times the angle of its node in the mode,
+    divided by the largest torque of this order; nan where there is no torque.
+
+    Args:
+        excitation: Orders and torques.
+        modes: Natural modes.
+        omega: Speed of the reference node, rad/s.
+    """
+    torque = excitation.at(np.array([omega]))[:, 0, :]
+    moved = np.array([mode.shape[excitation.nodes] for mode in modes])
+    phasors = np.abs(moved.reshape(len(modes), len(excitation.nodes)) @ torque.T)
+    largest = np.abs(torque).max(axis=1)
+    unknown = np.full_like(phasors, np.nan)
+    return np.divide(phasors, largest, out=unknown, where=largest > 0)
+
+
 _OUTSIDE = 0.2  # share of the first and last speed up to which criticals outside are listed
 
 

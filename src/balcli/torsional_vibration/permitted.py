@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from typing import Literal, NamedTuple
+from typing import Literal, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -130,6 +130,9 @@ class MeanLimit(NamedTuple):
         yield from ()
 
 
+Limit: TypeAlias = LimitTable | M68 | MeanLimit
+
+
 class ShaftLimit(NamedTuple):
     """Limit of one curve: the torque or stress of a shaft, or the swing of the free end.
 
@@ -143,7 +146,7 @@ class ShaftLimit(NamedTuple):
     column: int
     kind: Literal["stress", "torque", "angle"]
     by_torque: float
-    limit: LimitTable | M68 | MeanLimit
+    limit: Limit
 
 
 def list_limits(

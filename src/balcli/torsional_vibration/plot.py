@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from itertools import cycle
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
 
@@ -29,7 +29,7 @@ from ..show.plot_style import (
     put_title,
 )
 from ..show.sheet import number, order_name
-from ..show.units import SI, SYSTEMS, System
+from ..show.units import SI, SYSTEMS, ShownUnit, System
 from .answer import (
     TorsionAnalysis,
     answer_question,
@@ -40,8 +40,9 @@ from .answer import (
 from .load import load_source
 from .modes import Critical
 from .motion import compute_curves
+from .permitted import Limit, ShaftLimit
 from .quantity import choose_torsion_speeds
-from .response import TorsionResponse
+from .response import TorsionResponse, add_resonances
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -55,6 +56,10 @@ _MOST_ORDERS = 15  # largest number of orders in a Campbell diagram or waterfall
 _LEAST_ORDER = 0.01  # orders below this share of the largest order's work or torque are left out
 _APART = 0.042  # distance of two texts along an axis, as a share of the axis
 _ON_PAPER: Look = {"facecolor": PAPER, "edgecolor": "none", "pad": 0.5}
+_LIMIT_POINTS = 241  # number of speeds at which a limit is drawn
+_LIMITS_ON_PAGE = 6
+_OF_CASES = (("-", BLUE), ("--", RED))  # looks of the cases in a picture of limits
+Kind = Literal["stress", "torque"]
 _WORTH = 1e-3  # criticals with a smaller share of the work on their mode are not drawn
 
 
@@ -71,9 +76,14 @@ class _Curves(NamedTuple):
 
 
 def _compute_curves(result: TorsionAnalysis, response: TorsionResponse) -> _Curves:
+    """Return the curves at the given speeds and at those of the peaks."""
     peaks = [shaft.worst.speed_rpm for shaft in response.shafts]
     peaks += [response.free_end_worst.speed_rpm]
-    rpm = np.union1d(response.speeds_rpm, peaks)
+    return _compute_at(result, np.union1d(response.speeds_rpm, peaks))
+
+
+def _compute_at(result: TorsionAnalysis, rpm: Real) -> _Curves:
+    """Return the curves at these speeds."""
     orders = result.system.require_excitation().orders
     curves = compute_curves(result.system, rpm)
     return _Curves(rpm, orders, curves.phasors, curves.swings)
@@ -250,24 +260,100 @@ def _shade_barred(ax: Axes, result: TorsionAnalysis) -> None:
 
 
 def _draw_torque(ax: Axes, result: TorsionAnalysis, curves: _Curves, system: System) -> None:
-    """Draw half of peak to peak of the largest torques of shafts, or of their stresses if the file
-    limits the stress and a shaft has a diameter.
+    """Draw half of peak to peak of the largest torques of shafts with their limits, or of their
+    stresses if the file limits the stress and a shaft has a diameter.
     """
     stress = result.system.stress_by_torque
-    limit = result.system.limit_pa if any(stress) else None
-    by_torque = np.ones(len(stress)) if limit is None else stress
+    limits = result.system.limits
+    kind: Kind = "stress" if any(limit.kind == "stress" for limit in limits) else "torque"
+    by_torque = stress if kind == "stress" else np.ones(len(stress))
     values = curves.swings[:, : len(by_torque)] * by_torque
     peaks = values.max(axis=0)
-    unit = (system.moment if limit is None else system.stress).fit(peaks.max())
+    unit = (system.stress if kind == "stress" else system.moment).fit(peaks.max())
     largest = np.argsort(-peaks, kind="stable")[:_MOST_SHAFTS]
     shown = np.sort(largest[by_torque[largest] > 0]).tolist()
+    permitted = {limit.column: limit.limit for limit in limits if limit.kind == kind}
+    common = len({permitted.get(k) for k in shown}) == 1
     for k, (line, colour) in zip(shown, cycle(MANY_LOOKS), strict=False):
         name = fit_name(result.shafts[k].name, 22)
         ax.plot(curves.rpm, values[:, k] / unit.size, line, color=colour, label=name)
-    if limit is not None:
-        ax.axhline(unit.of(limit), color=INK, linewidth=0.9, linestyle=(0, (1, 2)))
-    title = f"Vibratory {'torque' if limit is None else 'stress'}"
+        if k in permitted and not common:
+            _draw_limit(ax, permitted[k], curves.rpm, unit, colour)
+    if common and shown[0] in permitted:
+        _draw_limit(ax, permitted[shown[0]], curves.rpm, unit, INK)
+    title = f"Vibratory {kind}"
+    if permitted:
+        title += ", limits thin"
     _finish(ax, result, curves, title, unit.name)
+
+
+def _draw_limit(ax: Axes, limit: Limit, rpm: Real, unit: ShownUnit, colour: str) -> None:
+    """Draw a limit as a thin line, and the transient limit of a rule as a dashed one."""
+    corners = [corner for corner in limit.corners if rpm[0] < corner < rpm[-1]]
+    speeds = np.union1d(np.linspace(rpm[0], rpm[-1], _LIMIT_POINTS), corners)
+    heights = limit.at(speeds) / unit.size
+    ax.plot(speeds, heights, color=colour, linewidth=0.8)
+    transient = getattr(limit, "transient", None)
+    if transient is not None:
+        ax.plot(speeds, heights * transient, color=colour, linewidth=0.8, linestyle=(0, (4, 3)))
+
+
+class DrawnCase(NamedTuple):
+    """A case whose curves a picture of limits shows: its name and its result."""
+
+    name: str
+    result: TorsionAnalysis
+
+
+def make_limits(cases: Sequence[DrawnCase], system: System = SI) -> Iterator[Figure]:
+    """Yield pages with a picture for each limit of a shaft: stress or torque over speed in every
+    case, with the limit (solid) and the transient limit of a rule (dashed).
+
+    Args:
+        cases: Results of the same system and speeds, with a response.
+        system: System of units.
+    """
+    curves = [_refine_curves(case.result) for case in cases]
+    limits = [limit for limit in cases[0].result.system.limits if limit.kind != "angle"]
+    for start in range(0, len(limits), _LIMITS_ON_PAGE):
+        own = limits[start : start + _LIMITS_ON_PAGE]
+        rows = -(-len(own) // 2)
+        with open_figure(8.6, 2.7 * rows + 0.2) as fig:
+            for place, limit in enumerate(own, 1):
+                _draw_judged(fig.add_subplot(rows, 2, place), limit, cases, curves, system)
+            yield fig
+
+
+def _refine_curves(result: TorsionAnalysis) -> _Curves:
+    """Return the curves at so many speeds that a picture shows every resonance."""
+    given = result.response.speeds_rpm
+    speeds = np.union1d(given, np.linspace(given[0], given[-1], _LIMIT_POINTS))
+    peaks = [shaft.worst.speed_rpm for shaft in result.response.shafts]
+    rpm = np.union1d(add_resonances(result.system, speeds), peaks)
+    return _compute_at(result, rpm)
+
+
+def _draw_judged(
+    ax: Axes,
+    limit: ShaftLimit,
+    cases: Sequence[DrawnCase],
+    curves: Sequence[_Curves],
+    system: System,
+) -> None:
+    """Draw the curve of one limit in every case, and the limit."""
+    rpm = curves[0].rpm
+    values = [of_case.swings[:, limit.column] * limit.by_torque for of_case in curves]
+    largest = max(float(each.max()) for each in values)
+    unit = (system.stress if limit.kind == "stress" else system.moment).fit(largest)
+    for case, of_case, heights, look in zip(cases, curves, values, _OF_CASES, strict=False):
+        line, colour = look
+        ax.plot(of_case.rpm, heights / unit.size, line, color=colour, label=case.name)
+    _draw_limit(ax, limit.limit, rpm, unit, INK)
+    name = fit_name(cases[0].result.shafts[limit.column].name, 24)
+    ax.set(xlim=(float(rpm[0]), float(rpm[-1]) + 1e-9), ylim=(0, None))
+    ax.set(xlabel="rpm", ylabel=f"± {unit.name}")
+    ax.set_title(f"{name}: {limit.kind}", pad=20)
+    put_legend_above(ax, 2)
 
 
 def _draw_swing(ax: Axes, result: TorsionAnalysis, curves: _Curves) -> None:

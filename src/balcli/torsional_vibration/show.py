@@ -239,23 +239,23 @@ def sheet(result: TorsionAnalysis, system: System) -> Sheet:
     if hasattr(result, "damper"):
         parts.append(_show_damper(result.damper, system))
     if hasattr(result, "misfire"):
-        parts.append(_show_misfires(result.misfire, system))
+        parts.append(show_misfires(result.misfire, system))
     if result.throw is not None:
-        parts.append(_show_throw(result, result.throw, system))
-    parts += [_show_modes(result), _show_shapes(result, system)]
+        parts.append(show_throw(result, result.throw, system))
+    parts += [show_modes(result), show_shapes(result, system)]
     if result.modes and hasattr(result, "criticals"):
-        parts.append(_show_criticals(result))
-    parts += [_show_holzer(result, table, system) for table in result.holzer or ()]
+        parts.append(show_criticals(result))
+    parts += [show_holzer(result, table, system) for table in result.holzer or ()]
     if hasattr(result, "response"):
-        parts.append(_show_response(result, result.response, system))
-        parts += _show_excitations(result, result.response, system)
-        parts += _show_limits(result, system)
+        parts.append(show_response(result, result.response, system))
+        parts += show_excitations(result, result.response, system)
+        parts += show_limits(result, system)
     if result.measured is not None:
-        parts.append(_show_measured(result, result.measured))
+        parts.append(show_measured(result, result.measured))
     return Sheet(f"{result.name or 'shafts without a name'}: torsion", tuple(parts))
 
 
-def _show_measured(result: TorsionAnalysis, curve: MeasuredCurve) -> Grid:
+def show_measured(result: TorsionAnalysis, curve: MeasuredCurve) -> Grid:
     """Return the points of a measured curve that differ most from the computed one."""
     farthest = sorted(curve.rows, key=_measure_miss, reverse=True)[:_MOST_MEASURED]
     heads = [Column("rpm", words=True), Column("order")]
@@ -310,7 +310,7 @@ def _tell_largest(size: float, unit: ShownUnit) -> str:
     return f"±{number(unit.of(size))} {unit.name}"
 
 
-def _show_misfires(misfire: WorstMisfire, system: System) -> Grid:
+def show_misfires(misfire: WorstMisfire, system: System) -> Grid:
     """Return the largest load of a shaft with each misfire."""
     torque = system.moment.fit(max(case.torque_Nm or 0.0 for case in misfire.cases))
     stress = system.stress.fit(0.0)
@@ -347,7 +347,7 @@ def _size_case(case: MisfireCase, stress: ShownUnit, torque: ShownUnit) -> str:
     return number(torque.of(case.torque_Nm or 0.0))
 
 
-def _show_throw(result: TorsionAnalysis, throw: ThrowFormulas, system: System) -> Grid:
+def show_throw(result: TorsionAnalysis, throw: ThrowFormulas, system: System) -> Grid:
     """Return the stiffness of the throws by each formula, and what is used."""
     stiffness = system.torsional_stiffness
     first = result.modes[0].frequency_Hz if result.modes else math.nan
@@ -372,7 +372,7 @@ def _show_throw(result: TorsionAnalysis, throw: ThrowFormulas, system: System) -
     return Grid.of_rows("Throw stiffness from dimensions", heads, rows, note)
 
 
-def _show_modes(result: TorsionAnalysis) -> Grid | Text:
+def show_modes(result: TorsionAnalysis) -> Grid | Text:
     if not result.modes:
         return Text("Natural modes", ("None: no inertia can swing on a shaft.",))
     heads = [
@@ -398,7 +398,7 @@ def _show_modes(result: TorsionAnalysis) -> Grid | Text:
     return Grid.of_rows("Natural modes", heads, rows, note)
 
 
-def _show_shapes(result: TorsionAnalysis, system: System) -> Grid:
+def show_shapes(result: TorsionAnalysis, system: System) -> Grid:
     nodes = result.nodes
     inertias = [node.inertia_kg_m2 or math.nan for node in nodes]
     columns = [
@@ -420,7 +420,7 @@ def _count_in_json(left: int, what: str) -> str:
     return f" JSON has {counted(left, f'more {what}')}." if left > 0 else ""
 
 
-def _show_criticals(result: TorsionAnalysis) -> Grid | Text:
+def show_criticals(result: TorsionAnalysis) -> Grid | Text:
     title = "Critical speeds"
     if hasattr(result, "response"):
         title += f", {_name_span(result.response.speeds_rpm)}"
@@ -503,7 +503,7 @@ def _name_left_out(system: TorsionalSystem, end: str) -> str:
     return f" Excluded: {' and '.join(dampers)}{end}" if dampers else ""
 
 
-def _show_holzer(result: TorsionAnalysis, table: HolzerTable, system: System) -> Grid:
+def show_holzer(result: TorsionAnalysis, table: HolzerTable, system: System) -> Grid:
     inertia = system.inertia
     stiffness = system.torsional_stiffness
     angles = [row.angle for row in table.rows]
@@ -549,7 +549,7 @@ def _settle(value: float, others: Sequence[float]) -> float:
     return 0.0 if abs(value) <= 1e-9 * sum(map(abs, others)) else value
 
 
-def _show_response(
+def show_response(
     result: TorsionAnalysis, response: TorsionResponse, system: System
 ) -> Grid | Text:
     span = _name_span(response.speeds_rpm)
@@ -590,7 +590,7 @@ def _show_response(
     return Grid.of_rows(f"Vibratory torque, {span}", heads, rows, note)
 
 
-def _show_excitations(
+def show_excitations(
     result: TorsionAnalysis, response: TorsionResponse, system: System
 ) -> Iterator[Text]:
     """Yield a line for each torque on a node, at the rated speed if that is one of the speeds,
@@ -692,7 +692,7 @@ def _name_orders(torque: WorstTorque, unit: ShownUnit) -> str:
     return ", ".join(named)
 
 
-def _show_limits(result: TorsionAnalysis, system: System) -> Iterator[Grid | Facts | Text]:
+def show_limits(result: TorsionAnalysis, system: System) -> Iterator[Grid | Facts | Text]:
     """Yield the verdicts on shafts, the barred ranges of each, and the barred speeds of all."""
     if hasattr(result, "limits"):
         yield _show_verdicts(result, system)

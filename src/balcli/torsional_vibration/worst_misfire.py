@@ -80,7 +80,7 @@ def find_worst_misfire(source: Source, rpm: Real, tell: Tell = tell_nobody) -> W
     numbers = list_firing(source.engine)
     cases: list[MisfireCase] = []
     for number in numbers:
-        system = source.without(number).system(NO_DAMPERS)
+        system = source.without(number, source.misfire.compressing).system(NO_DAMPERS)
         cases.append(_find_case(system, number, rpm))
         tell(len(cases) / len(numbers))
     return WorstMisfire(choose_worst(cases), tuple(cases))
