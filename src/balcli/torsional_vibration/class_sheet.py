@@ -212,7 +212,7 @@ def _list_sections(
     yield Section("modes", "Natural frequencies and modes", shapes)
     yield Section("holzer", "Holzer's tables", list(_show_holzer(firing, system)))
     entries = show.show_excitations(firing, firing.response, system)
-    excitation = [_show_excitation(firing, system), *entries]
+    excitation: list[Part] = [_show_excitation(firing, system), *entries]
     yield Section("excitation", "Excitation", excitation)
     criticals = [show.show_criticals(firing)] if firing.modes else [_say("No mode.")]
     campbell = [_draw_campbell(firing, system)] if firing.modes else []
@@ -372,7 +372,9 @@ def _tabulate(result: TorsionAnalysis, mode: int) -> HolzerTable | None:
 
 def _show_excitation(result: TorsionAnalysis, system: System) -> Grid:
     """Return the amplitude of each order at rated speed, and its phase sums in the lowest modes."""
-    excitation = result.system.require_excitation()
+    whole = result.system.require_excitation()
+    cylinders = whole.steady.shape[1]
+    excitation = whole._replace(further=(), nodes=whole.nodes[:cylinders])
     speeds = result.response.speeds_rpm
     rpm = result.system.rated_rpm or float(speeds[-1])
     torque = np.abs(excitation.at(np.array([rpm * RPM]))[:, 0, :]).max(axis=1)

@@ -212,7 +212,8 @@ class PoleSum:
 
     def _divide(self, count: int) -> Iterator[slice]:
         """Yield consecutive parts of this number of places, few enough to be computed at once."""
-        step = max(_AT_ONCE // (len(self.excitation.orders) * len(self.felt)), 1)
+        terms = len(self.excitation.orders) * len(self.felt)
+        step = max(_AT_ONCE // max(terms, 1), 1)  # without a phase there may be no order at all
         for start in range(0, count, step):
             yield slice(start, start + step)
 
