@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from support.commands import ask, ask_csv, ask_json, refusal
+from support.commands import ask, ask_csv, ask_json, refusal, run_here
 from support.paths import ENGINES
 
 PUMP = """
@@ -87,7 +87,7 @@ def test_a_card_has_the_area_of_its_polygon(tmp_path):
     loop = np.array([[0, 9], [0.5, 9], [1, 3], [1, 2], [0.4, 1.2], [0.1, 4]])
     area = 0.5 * abs(np.sum(loop[:, 0] * np.roll(loop[:, 1], -1) - np.roll(loop[:, 0], -1) * loop[:, 1]))
     path = tmp_path / "steam.toml"
-    head, _, _ = PUMP.partition("[gas]")
+    head = PUMP.partition("[gas]")[0].replace("rod_diameter = 70\n", "")
     path.write_text(head + '[gas]\nindicator = "card.csv"\n')
     for column, scale in (("stroke", 1.0), ("volume_cm3", 40.0)):
         rows = "\n".join(f"{scale * (x + 0.1 * (scale > 1))},{p}" for x, p in loop)
@@ -106,7 +106,7 @@ def test_a_card_has_the_area_of_its_polygon(tmp_path):
 )
 def test_mistakes_in_a_card_have_lines(tmp_path, rows, told):
     path = tmp_path / "steam.toml"
-    head, _, _ = PUMP.partition("[gas]")
+    head = PUMP.partition("[gas]")[0].replace("rod_diameter = 70\n", "")
     path.write_text(head + '[gas]\nindicator = "card.csv"\n')
     lines = "\n".join(f"{value},5" for value in rows)
     (tmp_path / "card.csv").write_text(f"volume_cm3,pressure_bar\n{lines}\n")
@@ -171,7 +171,7 @@ def test_loads_over_the_angle_are_those_of_the_table(pump):
 
 def test_an_end_that_is_missing_adds_no_columns(pump):
     text = PUMP.partition("[gas.crank_end]")[0]
-    pump.write_text(text)
+    pump.write_text(text.replace("rod_diameter = 70\n", ""))
     assert "pressure_crank_end_Pa" not in ask_csv("curves", pump, "--cylinder", "1", "--step", "90")[0]
 
 
@@ -225,3 +225,35 @@ def test_power_related_unbalance_is_not_that_of_a_machine_that_takes_power(pump)
     assert refusal("analyze", pump, "--only", "pru").endswith(
         "pru: the gas of this machine takes power; give operation.power"
     )
+
+
+def test_a_rod_diameter_without_a_crank_end_is_doubted(pump):
+    text = PUMP.partition("[gas.crank_end]")[0]
+    idle = "it changes nothing without gas at the crank end: give [gas.crank_end], or leave it out"
+    for changed, told in (
+        (PUMP, ""),
+        (text, f"warning: {pump}: piston.rod_diameter: 70 mm; {idle}\n"),
+        (text.replace("rod_diameter = 70\n", ""), ""),
+        (
+            text.replace("rod_diameter = 70\n", "") + "[cylinder.1]\npiston_rod_diameter = 60\n",
+            f"warning: {pump}: cylinder.1.piston_rod_diameter: 60 mm; {idle}\n",
+        ),
+    ):
+        pump.write_text(changed)
+        assert run_here("analyze", pump, "--only", "force").err == told
+
+
+def test_heat_belongs_to_no_cylinder_that_compresses(pump):
+    for text, told in (
+        (
+            "[cylinder.1]\nheat = 3\n",
+            "cylinder.1.heat: belongs to a cycle with combustion, and the cylinder compresses",
+        ),
+        (
+            "[[gas.of]]\ncylinders = [1]\n[cylinder.1]\nheat = 3\n",
+            "cylinder.1.heat: cylinder 1 has its gas in gas.of.1",
+        ),
+    ):
+        pump.write_text(PUMP + text)
+        assert told in refusal("torque", pump)
+        assert refusal("torque", pump).count("heat:") == 1

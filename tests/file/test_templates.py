@@ -83,6 +83,7 @@ def test_the_compressor_is_complete_and_its_options_can_be_switched_on():
     engine = parse("\n".join(OPTION.sub(r"\1", line) for line in lines), "compressor")
     assert engine.source.endswith("replace every figure by your own")
     assert engine.gas.crank_end.clearance == 0.14
+    assert engine.layout.numbering == ((1,), (2,))
     assert engine.cylinder[2].crosshead_mass == 24
     for line in lines[9:]:
         assert " # " in line or not re.match(r"(?:# )?[a-z_]+ += ", line), line

@@ -542,10 +542,10 @@ def _list_contradictions(
     if needs_order and parts.order is None and len(parts.numbers) > 1:
         message = "it sets in which of two turns each cylinder fires; example: [1, 3, 4, 2]"
         yield Problem.of_missing("layout.firing_order", message)
+    with_own_gas = {number for table in gas.of for number in table.cylinders}
     for number, table in parts.model.cylinder.items():
-        if gas.cycle in (None, COMPRESSOR) and table.heat is not None:
-            message = "belongs to a computed cycle, and [gas] has none; give an indicator diagram"
-            yield Problem(f"cylinder.{number}.heat", message)
+        if table.heat is not None and number not in with_own_gas:
+            yield from _refuse_heat(gas, number)
         for key in sorted(gas.keys_of_points & table.model_fields_set):
             message = (
                 f"[[gas.at]] gives {key} of all cylinders at each speed; leave one of the two out"
@@ -558,6 +558,17 @@ def _list_contradictions(
     if two_stroke and gas.zero == "gas-exchange":
         message = 'a two-stroke cycle has no gas-exchange dead centre; give "firing"'
         yield Problem("gas.zero", message)
+
+
+def _refuse_heat(gas: Gas, number: int) -> Iterator[Problem]:
+    """Yield a problem if the gas in [gas] has no heat that a cylinder could replace."""
+    path = f"cylinder.{number}.heat"
+    if gas.cycle is None:
+        message = "belongs to a computed cycle, and [gas] has none; give an indicator diagram"
+        yield Problem(path, message)
+    elif gas.cycle == COMPRESSOR:
+        message = "belongs to a cycle with combustion, and the cylinder compresses; leave it out"
+        yield Problem(path, message)
 
 
 # ------------------------------------------------------------------ builders' tables

@@ -44,7 +44,8 @@ def field(
 
     With an instrument that shows no phase, write readings as bare numbers (`readings = [6.2]`). One
     plane then needs four runs (as found, and a trial weight at three angles such as 0, 120 and 240
-    deg), two planes need seven. After three runs in one plane, two answers are printed.
+    deg), two planes need seven. `balcli new four-runs runs.toml` writes a file to start from. After
+    three runs in one plane, two answers are printed.
 
     \b
     Examples:

@@ -107,6 +107,7 @@ def find_suspicious(model: EngineFile) -> list[Doubt]:
     doubts = [
         *doubt_drifting(model),
         *_find_missing(model),
+        *_doubt_piston_rods(model),
         *doubt_figures(figures),
         *doubt_losses(walk_figures("torsion", list_tables(model.torsion))),
     ]
@@ -195,6 +196,23 @@ def _find_missing(model: EngineFile) -> Iterator[Doubt]:
     if model.flywheel is not None and torsion is not None and not (torsion.front or torsion.rear):
         message = "is missing; `torsion` does not use [flywheel]: also write it as [[torsion.rear]]"
         yield Doubt("torsion.rear", message)
+
+
+def _doubt_piston_rods(model: EngineFile) -> Iterator[Doubt]:
+    """Yield a warning for the diameter of a piston rod that no crank end uses."""
+    if model.gas is not None and model.gas.has_crank_ends:
+        return
+    diameters = {"piston.rod_diameter": model.piston.rod_diameter}
+    for number, own in model.cylinder.items():
+        diameters[f"cylinder.{number}.piston_rod_diameter"] = own.piston_rod_diameter or 0.0
+    for path, diameter in diameters.items():
+        if diameter:
+            message = (
+                f"{diameter:g} mm; it changes nothing without gas at the crank end: give "
+                "[gas.crank_end], or leave it out"
+            )
+            yield Doubt(path, message)
+            return
 
 
 def _list_pistons(model: EngineFile) -> Iterator[Figure]:
