@@ -10,7 +10,7 @@ import pytest
 from hypothesis import settings
 from support.commands import run_here
 
-settings.register_profile("repeatable", deadline=None, derandomize=True, max_examples=60)
+settings.register_profile("repeatable", deadline=None, derandomize=True, max_examples=30)
 settings.load_profile("repeatable")
 
 

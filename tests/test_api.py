@@ -2,6 +2,7 @@
 
 import pickle
 import re
+from functools import cache
 
 import pytest
 
@@ -68,13 +69,17 @@ ASKED = [
 @pytest.mark.parametrize(("function", "name", "how"), ASKED)
 def test_what_an_error_says_is_the_way_to_ask(function, name, how):
     """If an argument of the function decides, and not the file."""
-    engine = balcli.load_example(EXAMPLES[function])
     if "=" not in how:
         assert any(word in how for word in ("file", "scheme", "balcli"))
         return
     arguments = re.split(", (?:or|and) ", how)[0]
-    result = eval(f"engine.{function}({arguments})", {"engine": engine, "Shapes": balcli.Shapes})
-    assert hasattr(result, name)
+    assert hasattr(ask(function, arguments), name)
+
+
+@cache
+def ask(function, arguments):
+    engine = balcli.load_example(EXAMPLES[function])
+    return eval(f"engine.{function}({arguments})", {"engine": engine, "Shapes": balcli.Shapes})
 
 
 def test_what_was_not_asked_for_says_how_to_ask():

@@ -2,9 +2,11 @@
 
 import json
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
+import tomli_w
 from hypothesis import given, settings, strategies as st
 from support.cases import cases, slow
 from support.commands import refusal, run_here as run
@@ -47,19 +49,36 @@ TWO = [
 ]
 
 
-@pytest.fixture
-def geared(tmp_path):
-    """A function of tables beside [[engine]] to the engine of such a file."""
-    import tomli_w
-
+def write_parts(folder):
     for name, tables in {"v4": engine(), "two": TWO_STROKE, "cold": COLD, "single": SINGLE}.items():
-        write(tmp_path / f"{name}.toml", tomli_w.dumps(tables))
+        write(folder / f"{name}.toml", tomli_w.dumps(tables))
 
-    def make(engines=TWO, **tables):
+
+@pytest.fixture(scope="module")
+def load_once(tmp_path_factory):
+    """A function of a text with [[engine]] to the engine, which is loaded once."""
+    folder = tmp_path_factory.mktemp("parts")
+    write_parts(folder)
+    return cache(lambda text: balcli.load(write(folder / "geared.toml", text)))
+
+
+@pytest.fixture
+def geared_file(tmp_path):
+    """A function of tables beside [[engine]] to such a file, which has those of two engines if nothing else is said."""
+    write_parts(tmp_path)
+
+    def write_file(engines=TWO, **tables):
         text = tomli_w.dumps({"operation": {"speed": 3000}} | tables | {"engine": engines})
-        return balcli.load(write(tmp_path / "geared.toml", text))
+        return write(tmp_path / "geared.toml", text)
 
-    return make
+    write_file()
+    return write_file
+
+
+@pytest.fixture
+def geared(geared_file, load_once):
+    """A function of tables beside [[engine]] to the engine of such a file."""
+    return lambda *engines, **tables: load_once(geared_file(*engines, **tables).read_text(encoding="utf-8"))
 
 
 def alone(tables, reference=(0.0, 0.0, 0.0), **more):
@@ -138,8 +157,6 @@ def test_what_cancels_is_balanced(geared):
 @given(st.data())
 def test_orders_add_up_to_the_curves(tmp_path_factory, data):
     """Sampled forces of each crank where it stands, against the sum of the orders; with gas over two turns."""
-    import tomli_w
-
     folder = tmp_path_factory.mktemp("geared")
     angle = st.integers(-720, 720)
     place = st.lists(st.integers(-500, 500), min_size=3, max_size=3)
@@ -247,8 +264,7 @@ def test_weights_go_on_the_cranks_that_turn_so(geared, tmp_path, ratio):
         assert [w["unbalance_kg_m"] * 1e6 for w in mine] == pytest.approx([w.unbalance for w in own])
 
 
-def test_json_names_engines_and_cylinders(geared, tmp_path):
-    geared()
+def test_json_names_engines_and_cylinders(geared_file, tmp_path):
     file = str(tmp_path / "geared.toml")
     told = json.loads(run("analyze", file, "-f", "json", "--by", "cylinder", "--misfire", "lower.1").out)
     lower = {"name": "lower", "file": "two.toml", "ratio": -1, "phase_deg": 75.0, "turn_deg": 35.0}
@@ -273,7 +289,7 @@ def test_mounts_bear_the_torque_in_the_sense_of_the_load(geared):
 
 
 @cases("engine/geared", "what_cannot_be_geared", A='[[engine]]\nfile = "a.toml"\n')
-def test_what_cannot_be_geared(geared, tmp_path, text, message):
+def test_what_cannot_be_geared(geared_file, tmp_path, text, message):
     (tmp_path / "v4.toml").rename(tmp_path / "a.toml")
     write(tmp_path / "locked.toml", "[crank]\nstroke = 90\n[rod]\nlength = 30\n[piston]\nmass = 3\n")
     write(tmp_path / "wrong.toml", "[crank]\nstroke = 90\n[rod]\nlength = -3\n[piston]\nmas = 3\n")
@@ -283,14 +299,12 @@ def test_what_cannot_be_geared(geared, tmp_path, text, message):
 
 
 @cases("engine/geared", "commands_of_one_crank")
-def test_commands_of_one_crank(geared, tmp_path, command):
-    geared()
+def test_commands_of_one_crank(geared_file, tmp_path, command):
     told = refusal(*(str(tmp_path / "geared.toml") if word == "FILE" else word for word in command))
     assert told == "v4.toml and two.toml are geared together; run this on one of them"
 
 
-def test_two_engines_of_one_file_are_told_as_such(geared, tmp_path):
-    geared()
+def test_two_engines_of_one_file_are_told_as_such(geared_file, tmp_path):
     same = write(tmp_path / "same.toml", "".join('[[engine]]\nfile = "v4.toml"\n' for _ in range(2)))
     write(same, same.read_text().replace('"v4.toml"\n', '"v4.toml"\nname = "first"\n', 1) + "at = [300, 0, 0]\n")
     assert refusal("piston", same) == "2 engines of v4.toml are geared together; run this on v4.toml"
@@ -307,16 +321,14 @@ def test_two_engines_of_one_file_are_told_as_such(geared, tmp_path):
         "balance FILE --scheme compensator --position 3000",
     ],
 )
-def test_commands_that_take_several_cranks(geared, tmp_path, command):
-    geared()
+def test_commands_that_take_several_cranks(geared_file, tmp_path, command):
     words = command.replace("FILE", "DIR/geared.toml").replace("DIR", str(tmp_path)).split()
     assert run(*words).status == 0
     if words[0] == "check":  # what was recorded is found
         assert run(*words[:-1]).status == 0
 
 
-def test_a_page_of_several_cranks_has_no_mechanism(geared, tmp_path):
-    geared()
+def test_a_page_of_several_cranks_has_no_mechanism(geared_file, tmp_path):
     with without_pictures():
         assert run("report", str(tmp_path / "geared.toml"), str(tmp_path / "x.html")).status == 0
     assert 'id="motion"' not in (tmp_path / "x.html").read_text(encoding="utf-8")

@@ -42,6 +42,8 @@ class Browser:
         options = (
             *("--headless", "--no-sandbox", "--disable-gpu", "--remote-debugging-pipe", "--no-first-run"),
             *("--disable-dev-shm-usage", "--force-color-profile=srgb", f"--user-data-dir={profile}"),
+            *("--disable-extensions", "--disable-background-networking", "--disable-component-update"),
+            "--disable-features=SpareRendererForSitePerProcess,BackForwardCache",
         )
         self._process = subprocess.Popen(
             [str(CHROMIUM), *options],
@@ -91,11 +93,11 @@ class Browser:
         self.complaints = []
         self.requests = []
         self._shown = page, view
-        for url in ("about:blank", page.as_uri() + address):  # another address alone loads no page
-            loaded = self._loaded
-            self.call("Page.navigate", url=url)  # the page may be loaded before this is answered
-            while self._loaded == loaded:
-                self._next()
+        loaded = self._loaded
+        url = f"{page.as_uri()}?{self._count}{address}"  # another address alone loads no page
+        self.call("Page.navigate", url=url)  # the page may be loaded before this is answered
+        while self._loaded == loaded:
+            self._next()
 
     def keep(self, page: Path, **how: Any) -> bool:
         """Show a file, but leave it as it is if it is shown already; return whether it was. Loading a page takes

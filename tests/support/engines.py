@@ -1,5 +1,6 @@
 """What several tests need: a good engine file, the same with some text replaced, and small engines."""
 
+from functools import lru_cache
 from typing import Any
 
 import pytest
@@ -107,8 +108,14 @@ def engine(**parts: dict[str, Any] | list[dict[str, Any]]) -> Engine:
     return build_text(tomli_w.dumps(tables(**parts)))
 
 
-def build_text(text: str) -> Engine:
-    """The engine of a file's text."""
+def build_text(text: str | bytes) -> Engine:
+    """The engine of a file's text. Nothing changes an engine, so that a text which names no other file is read once."""
+    names_files = ".csv" in str(text)
+    return build(parse(text)) if names_files else _build_once(text)
+
+
+@lru_cache(maxsize=500)
+def _build_once(text: str | bytes) -> Engine:
     return build(parse(text))
 
 

@@ -18,6 +18,7 @@ import math
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import Annotated, NamedTuple
 
 import numpy as np
@@ -484,6 +485,7 @@ class _Offer(NamedTuple):
         return bool(self.cancels.share or self.own.devices)
 
 
+@lru_cache(maxsize=16)  # analysis, balance and page of an engine share one
 def find_ladder(engine: Engine, small: float = SMALL) -> Ladder:
     """Return the ladder of an engine.
 
