@@ -1,9 +1,11 @@
 """Peaks of functions side by side, each within its own bounds; where a function is least."""
 
+import math
+
 import numpy as np
 import pytest
 
-from balcli.core.peaks import find_highest, find_least, find_peaks_between
+from balcli.core.peaks import find_highest, find_least, find_least_smooth, find_peaks_between
 
 
 def find_each(function, low, high):
@@ -76,8 +78,22 @@ def test_of_two_peaks_in_an_interval_the_one_that_looks_lower_may_be_higher():
 
 @pytest.mark.parametrize("place", [0.0, 0.1, np.pi / 10, 0.5, 0.9, 1.0])
 @pytest.mark.parametrize("power", [1, 2])
-def test_the_bottom_of_a_valley(place, power):
-    assert find_least(lambda x: abs(x - place) ** power, 0, 1) == pytest.approx(place, abs=1e-4)
+@pytest.mark.parametrize("find", [find_least, find_least_smooth])
+def test_the_bottom_of_a_valley(place, power, find):
+    assert find(lambda x: abs(x - place) ** power, 0, 1) == pytest.approx(place, abs=1e-4)
+
+
+@pytest.mark.parametrize(("judge", "most"), [(lambda x: (x - 0.3) ** 2, 6), (lambda x: math.cosh(5 * x - 1), 10)])
+def test_the_bottom_of_a_smooth_valley_takes_few_steps(judge, most):
+    """A third of the 22 of golden section."""
+    places = []
+    found = find_least_smooth(lambda x: places.append(x) or judge(x), -1, 1)
+    assert judge(found) == pytest.approx(min(judge(0.3), judge(0.2)), abs=1e-8)
+    assert len(places) <= most
+
+
+def test_what_has_no_bound_on_one_side_is_least_beside_it():
+    assert find_least_smooth(lambda x: x if x >= 0.2 else math.inf, 0, 1) == pytest.approx(0.2, abs=1e-4)
 
 
 def test_on_a_flat_bottom_the_next_part_counts():

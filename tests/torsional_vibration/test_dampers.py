@@ -352,11 +352,15 @@ def test_orders_of_a_waterfall_do_not_cover_one_another():
         assert left.max() < right.min()
 
 
+@pytest.fixture(scope="module")
+def many_and_few_orders():
+    return [torsion(ENGINES / "i6_diesel.toml", [1000, 2000, 3000], orders=n) for n in (None, [4.5, 6])]
+
+
 @pytest.mark.parametrize("what", ["campbell", "waterfall"])
-def test_pictures_leave_out_orders_that_are_small(what):
+def test_pictures_leave_out_orders_that_are_small(many_and_few_orders, what):
     """At most 15 orders are drawn, and the title counts the others; of few large orders all are."""
-    speeds = [1000, 2000, 3000]
-    crowded, few = (torsion(ENGINES / "i6_diesel.toml", speeds, orders=n) for n in (None, [4.5, 6]))
+    crowded, few = many_and_few_orders
 
     def look(result):
         (axes,) = make_torsion(result, what).axes

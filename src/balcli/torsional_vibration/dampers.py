@@ -20,7 +20,7 @@ from typing import Annotated, Any, NamedTuple
 import numpy as np
 from pydantic import ValidationError
 
-from ..core.peaks import ROUNDS, find_least
+from ..core.peaks import find_least_smooth
 from ..core.phases import RPM
 from ..core.records import HIDDEN
 from ..core.vibration import Real
@@ -63,7 +63,7 @@ _MOST_AT_ONCE = 3.0  # largest factor from one tried mass to the next, without t
 _MOST_PENDULUM = 0.5  # largest inertia of pendulums, as a share of the inertia of their node
 _PLACES = 13  # number of grid points of the search, which then refines each valley
 # Expected number of computed responses; the last two are with and without the best damper.
-_RESPONSES = _PLACES + 2 + ROUNDS + 2
+_RESPONSES = _PLACES + 10 + 2
 _END = 0.99  # an optimum beyond this share of the (logarithmic) range counts as at an end
 _HARDLY = 0.99  # a damper that leaves more than this share of the largest stress is useless
 _HEAVY = 10.0  # a damper with more than this multiple of the inertia of its node is too large
@@ -307,15 +307,16 @@ def _find_hardest(system: TorsionalSystem, speeds: Real) -> tuple[int, float, fl
 
 
 def _minimise(judge: Callable[[float], float], width: float) -> float:
-    """Return the argument within [-width, width] at which a function is least, by golden-section
-    search in every valley of a coarse grid.
+    """Return the argument within [-width, width] at which a function is least, by a search in every
+    valley of a coarse grid.
     """
     places = np.linspace(-width, width, _PLACES).tolist()
     values = np.array([judge(place) for place in places])
     around = np.concatenate([[np.inf], values, [np.inf]])
     bottoms = np.flatnonzero((values < around[:-2]) & (values <= around[2:])).tolist()
     minima = [
-        find_least(judge, places[max(k - 1, 0)], places[min(k + 1, _PLACES - 1)]) for k in bottoms
+        find_least_smooth(judge, places[max(k - 1, 0)], places[min(k + 1, _PLACES - 1)])
+        for k in bottoms
     ]
     return min(minima, key=judge, default=-width)
 
