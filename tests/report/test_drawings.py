@@ -25,7 +25,7 @@ cg = 40
 [piston]
 bore = 84
 mass = 0.47
-skirt = 30
+skirt = 24
 [operation]
 speed = 6800
 [frame]
@@ -128,7 +128,7 @@ def test_the_picture_shows_the_nearest_piston_at_its_crank_angle(tmp_path):
     (edge,) = (line for label, line in lines.items() if label.startswith("piston"))
     assert edge.get_label() == f"piston {web.clearance_cylinder} at {web.clearance_deg:.4g}°"
     psi = math.radians(web.clearance_deg)
-    height = 41 * math.cos(psi) + math.sqrt(142**2 - (41 * math.sin(psi)) ** 2) - 30
+    height = 41 * math.cos(psi) + math.sqrt(142**2 - (41 * math.sin(psi)) ** 2) - 24
     assert_allclose(edge.get_ydata(), height)
     half = math.sqrt(42**2 - (28 / 2) ** 2)  # the nearer face is half the pin's length away
     assert_allclose(edge.get_xdata(), [-half, half])
@@ -139,8 +139,23 @@ def test_the_picture_shows_the_nearest_piston_at_its_crank_angle(tmp_path):
     assert f"gap {1e3 * web.clearance_m:.4g} mm" in [text.get_text() for text in axes.texts]
 
 
+@pytest.mark.parametrize("name", ["web.dxf", "web.svg"])
+def test_a_web_that_strikes_a_piston_is_not_drawn_in_silence(tmp_path, name):
+    (tmp_path / "e.toml").write_text(TWIN.replace("skirt = 24", "skirt = 28") + WEB)
+    done = run_here("plot", tmp_path / "e.toml", tmp_path / name, "--what", "webs")
+    assert done.status == 0
+    assert "web 1 has a clearance of -1 mm to the piston of cylinder 1" in done.err
+
+
+def test_the_drawing_of_one_of_several_tables_has_its_number(tmp_path):
+    (tmp_path / "e.toml").write_text(TWIN + WEB + WEIGHED)
+    done = run_here("plot", tmp_path / "e.toml", tmp_path / "web.dxf", "--what", "webs")
+    assert "no outline is known for web.2, given by mass" in done.err
+    assert [file.name for file in tmp_path.glob("*.dxf")] == ["web-1.dxf"]
+
+
 def test_without_a_skirt_the_crank_pin_is_upwards(tmp_path):
-    (tmp_path / "e.toml").write_text(TWIN.replace("skirt = 30\n", "") + WEB)
+    (tmp_path / "e.toml").write_text(TWIN.replace("skirt = 24\n", "") + WEB)
     figure = plot(load(tmp_path / "e.toml"), "webs")
     assert "give piston.bore and piston.skirt" in figure.get_supxlabel()
     (axes,) = figure.axes

@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
+from ..analysis.parts import find_parts
 from ..engine.engine import Engine, refuse_geared
 from ..engine.webs.bodies import WebShape
 from ..engine.webs.write_dxf import write_drawing
 from ..errors import BalcliError, warn
 from ..file.toml import name_file
-from ..shell.inputs import read_engine
+from ..shell.inputs import read_engine, warn_each
 from ..shell.output import refuse_overwriting, write_file
 
 _PAGE = ("webs",)
@@ -18,7 +19,7 @@ _PAGE = ("webs",)
 
 def write_outlines(path: str, target: Path, pages: Sequence[str], scheme: str | None) -> list[Path]:
     """Write the outline of each kind of web of an engine file; return the names of the files: the
-    target, or for several kinds the target with the number of each [[web]] table (`web-2.dxf`).
+    target, or for several [[web]] tables the target with the number of each (`web-2.dxf`).
 
     Args:
         path: Path of the engine file.
@@ -36,16 +37,29 @@ def write_outlines(path: str, target: Path, pages: Sequence[str], scheme: str | 
         raise BalcliError(
             "--what webs shows the engine as it is: leave --scheme and its options out"
         )
-    outlines = _find_outlines(read_engine(path).engine, name_file(path))
-    if len(outlines) == 1:
-        files = [target]
-    else:
+    name = name_file(path)
+    engine = read_engine(path).engine
+    outlines = _find_outlines(engine, name)
+    assert engine.webs is not None
+    files = [target]
+    if len(engine.webs.kinds) > 1:
         files = [target.with_stem(f"{target.stem}-{table}") for table in outlines]
     names = (f"web.{table}" for table in outlines)
     refuse_overwriting(reads=[path], writes=dict(zip(names, files, strict=True)))
+    warn_of_webs(engine, name)
     for file, shape in zip(files, outlines.values(), strict=True):
         write_file(write_drawing(shape), file)
     return files
+
+
+def warn_of_webs(engine: Engine, name: str) -> None:
+    """Warn of webs that come too near to a piston or the crankcase.
+
+    Args:
+        engine: Engine.
+        name: Name of its file.
+    """
+    warn_each(find_parts(engine, (), ()).doubts, name)
 
 
 def _find_outlines(engine: Engine, name: str) -> dict[int, WebShape]:

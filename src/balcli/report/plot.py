@@ -17,6 +17,7 @@ from ..engine.engine import Engine, take_model
 from ..errors import check_number, check_type, wrong_type
 from ..field_balancing.answer import FieldBalance
 from ..field_balancing.show import make_field
+from ..file.toml import name_file
 from ..forces.spectrum import check_orders
 from ..limits import SMALL
 from ..mounting.plot import make_mounts
@@ -36,6 +37,7 @@ from ..torsional_vibration.answer import TorsionAnalysis, TorsionQuestion, answe
 from ..torsional_vibration.load import make_source
 from ..torsional_vibration.plot import make_figures_of_torsion, make_torsion
 from ..torsional_vibration.quantity import choose_torsion_speeds
+from .drawings import warn_of_webs
 from .names import OF_GAS, OF_TORSION, PAGES, check_page
 from .pages import PageSubject, make_page
 from .study import Study, compute_study, refuse_scheme
@@ -191,6 +193,8 @@ def _make_pages(path: str, pages: Sequence[str], asked: Asked) -> Iterator[Figur
     engine = read_engine(path, parse_speed(asked.speed), shown).engine
     if any(page in OF_GAS for page in pages):
         require_gas(engine, path)
+    if "webs" in pages and engine.webs is not None:
+        warn_of_webs(engine, name_file(path))
     for page in pages:
         scheme = asked.scheme if page == "factor" else beside
         study = compute_study(engine, page, orders, scheme, asked.options)
