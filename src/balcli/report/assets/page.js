@@ -600,22 +600,20 @@ const Page = (() => {
     });
   }
   // Curves of the file: torque and pressure of gas over the cycle, motion of a piston over a revolution.
-  function drawFileCurves() {
+  function listFileCurves() {
     const running = read("running");
-    for (const curve of running?.curves || []) drawFileCurve(curve, running.cycle);
-    for (const curve of read("motion")?.curves || []) drawFileCurve(curve, 360);
+    const motion = read("motion");
+    const ofGas = (running?.curves || []).map((curve) => ({ ...curve, end: running.cycle }));
+    const ofPiston = (motion?.curves || []).map((curve) => ({ ...curve, end: 360 }));
+    return [...ofGas, ...ofPiston].map((curve) => ({ ...curve, svg: byId(`${curve.id}-curve`), lines: listFileLines(curve) }));
   }
-  function drawFileCurve(curve, end) {
-    const { id, unit } = curve;
-    const svg = byId(`${id}-curve`);
-    const lines = listFileLines(curve);
-    Charts.drawCurves(svg, { end, unit, lines });
-    const step = end / (curve.total.length - 1);
-    const listRows = () => [
-      ["crank angle, deg", ...lines.map(({ name }) => `${name}, ${unit}`)],
-      ...curve.total.map((_, k) => [k * step, ...lines.map(({ values }) => values[k])]),
-    ];
-    Charts.addTools(svg.parentElement.querySelector("figcaption"), id, () => svg, listRows);
+  const fileCurves = listFileCurves();
+  const drawFileCurves = () => fileCurves.forEach(({ svg, end, unit, lines }) => Charts.drawCurves(svg, { end, unit, lines }));
+  function listFileRows({ end, unit, total: values, lines }) {
+    const step = end / (values.length - 1);
+    const heads = lines.map(({ name }) => `${name}, ${unit}`);
+    const rows = values.map((_, k) => [k * step, ...lines.map((line) => line.values[k])]);
+    return [["crank angle, deg", ...heads], ...rows];
   }
   function listFileLines({ title, total: values, gas, mean, crank_end: crankEnd }) {
     if (gas) {
@@ -642,8 +640,12 @@ const Page = (() => {
     const addCsv = (id) => Charts.addTools(byId(id).querySelector("h2"), id, null, () => listTable(`${id}-table`));
     addCsv("orders");
     addCsv("ladder");
-    const curve = byId("about-curve");
-    Charts.addTools(curve.parentElement.querySelector("figcaption"), "about", () => curve, listAboutRows);
+    const addToCurve = (id, listRows) => {
+      const svg = byId(`${id}-curve`);
+      Charts.addTools(svg.parentElement.querySelector("figcaption"), id, () => svg, listRows);
+    };
+    addToCurve("about", listAboutRows);
+    for (const curve of fileCurves) addToCurve(curve.id, () => listFileRows(curve));
   }
   function followWidth() {
     let width = innerWidth;
@@ -651,7 +653,8 @@ const Page = (() => {
       if (innerWidth === width) return;
       width = innerWidth;
       Charts.forgetWidths();
-      drawAllBars();
+      drawFileCurves();
+      show(figures, { scene, changed, atOnce: true });
     });
   }
   function start() {
