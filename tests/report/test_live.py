@@ -455,6 +455,24 @@ def test_what_holds_only_for_the_file_says_so_while_a_number_differs(show):
 
 
 @live
+def test_the_page_ends_with_a_command_that_prints_its_figures(show):
+    page = show(GOOD)
+    end = "document.querySelector('footer').innerText"
+    assert page.run(end).endswith("balcli analyze engine.toml prints the same figures")
+    page.run("Live.change('crank.stroke', 80), 0")
+    assert page.run(end).endswith("balcli analyze of the downloaded file prints the same figures")
+
+
+@live
+def test_facts_that_do_not_follow_other_throws_are_gray(show):
+    page = show(GOOD)
+    page.run(f"Live.change('crank.throws.2', 170), {WAIT}")
+    gray = page.run("[...document.querySelectorAll('#facts .stale')].map(each => each.firstChild.textContent)")
+    assert set(gray) == {"firing", "assumed"}
+    assert "170" in page.read("facts")
+
+
+@live
 def test_the_speed_of_the_command_line_is_that_of_the_whole_page(show):
     """So nothing is out of date at first, but it is at the speed of the file."""
     page = show(GOOD, "", "--speed", "6000")

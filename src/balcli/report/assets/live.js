@@ -302,7 +302,7 @@
     const stillThere = data.facts.filter(([name]) => computed.has(name) || !COMPUTED.includes(name));
     const facts = stillThere.map(([name, text]) => {
       if (computed.has(name)) return [name, computed.get(name)];
-      return [name, text, isMoved && NOT_FOLLOWED.includes(name) ? "old" : ""];
+      return [name, text, isMoved && NOT_FOLLOWED.includes(name) ? "old stale" : ""];
     });
     const added = [...computed].filter(([name]) => !data.facts.some(([other]) => other === name));
     return [...facts, ...added];
