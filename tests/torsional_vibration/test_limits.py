@@ -84,7 +84,60 @@ def test_a_limit_by_speed_has_the_nearest_value_outside():
         ({"limit": {"speed": [600, 500], "stress": [1, 2]}}, "speeds that do not rise: 500 rpm after 600 rpm"),
         ({"limit": {"speed": [600, 700], "stress": [1, 2, 3]}}, "has 2 speeds, but 3 values of stress"),
         ({"torque_limit": {"speed": [600, 700]}}, "lacks torque"),
+        (
+            {"limit": {"speed": [600, 700], "stress": [1, 2], "tensile": 500}},
+            'shaft.1.limit: has tensile without a rule; give rule = "M68", or leave tensile out',
+        ),
+        ({"limit": {"tensile": 500, "ck": 1}}, "shaft.1.limit: has tensile and ck without a rule"),
     ],
 )
 def test_a_mistake_in_a_limit_is_told(shaft, told):
     assert told in refusal("torsion", "-", "--speeds", "700:900:5", stdin=write_pair(**shaft))
+
+
+@pytest.mark.parametrize("own", [{}, {"torque_limit": 999}])
+def test_a_table_for_all_shafts_holds_where_a_shaft_has_none_of_its_own(own):
+    tables = {"limit": {"speed": [600, 1500], "stress": [20, 11]}}
+    tables["torque_limit"] = {"speed": [600, 1500], "torque": [1300, 700]}
+    stiff = {"stiffness": 9.0e4, "loss": 0.03, "diameter": 70}
+    for_all = chain_text(NODES, {("engine", "pump"): stiff | own}, TORQUES, **tables)
+    for_one = write_pair(**(tables | own))
+    speeds = ("--speeds", "700:1400:25")
+    assert ask_torsion(for_all, *speeds)["limits"] == ask_torsion(for_one, *speeds)["limits"]
+
+
+@pytest.mark.parametrize(
+    ("keys", "told"),
+    [
+        ({"limit": {"rule": "M68", "tensile": 500, "ck": 1, "rated_speed": 900}}, 'limit with rule = "M68", which is'),
+        ({"torque_limit": "mean"}, 'torque_limit = "mean", which is for single shafts'),
+    ],
+)
+def test_a_rule_is_not_for_all_shafts(keys, told):
+    text = chain_text(NODES, {("engine", "pump"): 9.0e4}, TORQUES, **keys)
+    assert told in refusal("torsion", "-", stdin=text)
+
+
+def test_one_warning_names_all_shafts_with_a_limit():
+    nodes = NODES | {"fan": 3}
+    shafts = {
+        ("engine", "pump"): {"stiffness": 9.0e4, "loss": 0.03},
+        ("pump", "fan"): {"stiffness": 4.0e4, "loss": 0.03},
+    }
+    table = {"speed": [600, 1500], "torque": [1300, 700]}
+    text = chain_text(nodes, shafts, TORQUES, torque_limit=table)
+    told = run_here("torsion", "-", "--speeds", "700:1600:25", stdin=text).err
+    assert told.count("torque limit of engine-pump, pump-fan: outside its speeds") == 1
+
+
+def test_barred_speeds_that_end_with_the_speeds_are_open_in_words():
+    text = write_pair(limit=18)
+    for speeds, told in (("700:760:5", "above 7"), ("770:900:5", "below 7"), ("750:770:5", "750 to 770 rpm")):
+        out = run_here("torsion", "-", "--speeds", speeds, stdin=text).out
+        assert out.splitlines()[-1].startswith(f"barred speeds  {told}")
+
+
+def test_barred_ranges_name_the_kind_of_limit_where_both_kinds_are_exceeded():
+    out = run_here("torsion", "-", "--speeds", "700:900:5", stdin=write_pair(limit=18, torque_limit=1200)).out
+    _, _, table = out.partition("Barred speeds\n")
+    assert [line.split()[1] for line in table.splitlines()[2:4]] == ["stress", "torque"]

@@ -184,7 +184,7 @@ def test_text_and_csv_have_a_line_for_each_torque(tmp_path):
     _, _, text = ask("torsion", path, "--speeds", "1000:3000:500").partition("Torques on nodes\n")
     lines = text.splitlines()
     assert lines[0] == "propeller, order 3 (crank order 1.2): ±120 N·m at 2000 rpm, phase not known."
-    assert lines[1] == "flywheel, order 2 (crank order 2): ±50 N·m at 2000 rpm, phase 25.0 deg."
+    assert lines[1] == "flywheel, order 2 (crank order 2): ±50 N·m at 2000 rpm, phase 25°."
     rows = [row for row in ask_csv("torsion", path, "--speeds", "1000:3000:500") if row["figure"] == "amplitude"]
     of_propeller = [float(row["value"]) for row in rows if row["part"] == "response" and row["name"] == "propeller"]
     assert of_propeller == pytest.approx([120 * (rpm / 2000) ** 2 for rpm in range(1000, 3001, 500)])
@@ -232,6 +232,52 @@ def test_a_limit_by_the_mean_torque():
     mean = torque(load(write_diesel(extra=GAS))).mean_torque_Nm
     assert (verdict.kind, verdict.limit_Nm) == ("torque", pytest.approx(mean, rel=1e-9))
     assert verdict.share == pytest.approx(found.response.shafts[-1].worst.half_peak_to_peak_Nm / mean, rel=1e-6)
+
+
+def test_the_phase_in_words_is_that_of_the_file(tmp_path):
+    """Order 2.5 of a part that turns backwards at 0.4 is order 1 of the crank."""
+    more = GEARED + entry(node="propeller", order=2.5, amplitude=120.0, angle=35.0)
+    path = write(tmp_path / "e.toml", write_diesel(extra=GAS) + more)
+    assert "±120 N·m at 2000 rpm, phase 35°." in ask("torsion", path, "--speeds", "1000:3000:500")
+
+
+AT_SPEEDS = """
+[[gas.at]]
+speed = 1000
+harmonics = "low.csv"
+[[gas.at]]
+speed = 2000
+harmonics = "high.csv"
+"""
+
+
+@pytest.mark.parametrize(("low", "high", "checked"), [(-1, 3, False), (0, 3, False), (1, 3, True)])
+def test_a_mean_torque_that_vanishes_is_no_limit(tmp_path, low, high, checked):
+    for name, mean in (("low", low), ("high", high)):
+        write(tmp_path / f"{name}.csv", f"order,cos,sin\n0,{mean},0\n0.5,2,4\n1.5,1,3\n3,1,2\n")
+    text = write_diesel(extra=AT_SPEEDS).replace('name = "flywheel"\n', 'name = "flywheel"\ntorque_limit = "mean"\n')
+    path = write(tmp_path / "e.toml", text)
+    (of_flywheel,) = [
+        limit
+        for limit in ask_json("torsion", path, "--speeds", "1000:2000:500")["limits"]
+        if limit["shaft"] == "flywheel"
+    ]
+    if checked:
+        assert of_flywheel["share"] > 0
+    else:
+        assert (of_flywheel["verdict"], of_flywheel["reason"]) == (
+            "not checked",
+            "its mean torque is 0 at one of the speeds",
+        )
+
+
+def test_a_limit_by_the_mean_torque_of_gas_without_one_is_refused(tmp_path):
+    write(tmp_path / "h.csv", "order,cos,sin\n0,0,0\n0.5,2,4\n3,1,2\n")
+    text = write_diesel(extra='[gas]\nharmonics = "h.csv"\n')
+    limited = text.replace('name = "flywheel"\n', 'name = "flywheel"\ntorque_limit = "mean"\n')
+    assert "and needs [gas] with a mean; give a torque in N m" in refusal(
+        "torsion", write(tmp_path / "e.toml", limited)
+    )
 
 
 # ------------------------------------------------------------------ mistakes

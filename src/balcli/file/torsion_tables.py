@@ -118,7 +118,7 @@ class StressLimit(LimitBySpeed):
 
     def _check_form(self) -> Iterator[str]:
         if self.rule is None:
-            yield from self.check_values("stress")
+            yield from self._find_table_faults()
             return
         missing = [key for key in ("tensile", "ck") if not self.has(key)]
         if missing:
@@ -126,6 +126,14 @@ class StressLimit(LimitBySpeed):
         for key in ("speed", "stress"):
             if self.has(key):
                 yield f"has rule and {key}; leave one of them out"
+
+    def _find_table_faults(self) -> Iterator[str]:
+        of_rules = [key for key in ("tensile", "ck", "rated_speed") if self.has(key)]
+        if of_rules:
+            needless = " and ".join(of_rules)
+            yield f'has {needless} without a rule; give rule = "M68", or leave {needless} out'
+            return
+        yield from self.check_values("stress")
 
 
 class TorqueLimit(LimitBySpeed):
@@ -272,16 +280,30 @@ class ChainKeys(FileTable):
 
     loss: Loss = 0.0
     """Loss factor of every shaft for which the file gives none. Example: 0.035"""
-    limit: Annotated[float, _STRESS] | None = None
-    """Largest permitted stress of every shaft without a limit of its own; speeds with a larger
-    stress are barred. Example: 40"""
-    torque_limit: Annotated[float, _TORQUE] | None = None
-    """Largest permitted vibratory torque of every shaft without a torque limit of its own; speeds
-    with a larger torque are barred. Example: 9000"""
+    limit: Annotated[float | StressLimit, NumberOrTable(_STRESS)] | None = None
+    """Largest permitted stress of every shaft without a limit of its own: a number, or a table over
+    the speed, but no rule; speeds with a larger stress are barred. Example: 40"""
+    torque_limit: Annotated[float | TorqueLimit | str, NumberOrTable(_TORQUE, MEAN)] | None = None
+    """Largest permitted vibratory torque of every shaft without a torque limit of its own: a
+    number, or a table over the speed, but not "mean"; speeds with a larger torque are barred.
+    Example: 9000"""
     angle_limit: Annotated[float, Number(ANGLE, above=0, most=1e3)] | None = None
     """Largest permitted amplitude of the free end (in a chain file: of the first node); speeds with
     a larger amplitude are barred. Example: 0.3
     """
+
+    def _check_limits(self) -> Iterator[str]:
+        rule = getattr(self.limit, "rule", None)
+        if rule is not None:
+            yield (
+                f'has limit with rule = "{rule}", which is for single shafts, not for crankshafts; '
+                "give it to the shafts of propulsion, each in its own table"
+            )
+        if self.torque_limit == MEAN:
+            yield (
+                'has torque_limit = "mean", which is for single shafts; give it to the part of a '
+                "gear, or give a torque in N m"
+            )
 
 
 def find_stiffness(shaft: ShaftKeys) -> float:

@@ -56,6 +56,7 @@ from .worst_misfire import WorstMisfire, find_worst_misfire
 BEYOND = 1.5  # criticals up to this multiple of the file's speed are listed: engines overspeed
 BREAKING = 1000e6  # vibratory stress above which a warning is given, Pa: no steel bears it
 ASTOUNDING = 45.0  # half swing above which a warning is given, deg; a few degrees are usual
+_MOST_NAMED = 4  # largest number of shafts that a warning names
 _ASTRAY = 1e-3  # a Holzer table whose angles differ more from the mode's is mostly rounding error
 
 
@@ -258,10 +259,17 @@ class TorsionAnalysis(Result):
 
 
 def _doubt_limits(system: TorsionalSystem, rpm: Real) -> Iterator[Doubt]:
-    """Yield warnings of limits that do not cover the range of speeds."""
+    """Yield warnings of limits that do not cover the range of speeds, each once for all shafts."""
+    named: dict[tuple[str, str], list[str]] = {}
     for limit in system.limits:
+        word = "torque limit" if limit.kind == "torque" else "limit"
         for text in limit.limit.list_doubts(float(rpm[0]), float(rpm[-1])):
-            yield Doubt("", f"limit of {printable(system.shafts[limit.column])}: {text}")
+            shafts = named.setdefault((word, text), [])
+            shafts.append(printable(system.shafts[limit.column]))
+    for (word, text), shafts in named.items():
+        if len(shafts) > _MOST_NAMED:
+            shafts[_MOST_NAMED:] = ["..."]
+        yield Doubt("", f"{word} of {', '.join(shafts)}: {text}")
 
 
 def _find_doubts(response: TorsionResponse) -> Iterator[Doubt]:

@@ -173,7 +173,7 @@ def assemble_system(
         rings=tuple(rings),
         pendulums=tuple(pendulums),
         means=None if means is None else means.extend(len(shafts)),
-        limit_pa=None if keys.limit is None else keys.limit * 1e6,
+        limit_pa=keys.limit * 1e6 if isinstance(keys.limit, float) else None,
         angle_limit=None if keys.angle_limit is None else math.radians(keys.angle_limit),
         last=len(planned) - 1,
         doubts=(
@@ -594,7 +594,9 @@ def _find_means(
 
 
 def _name_carrying(shafts: Sequence[PlannedShaft], means: MeanTorques) -> set[str]:
-    """Return the names of the shafts that carry a mean torque."""
+    """Return the names of the shafts that carry a mean torque if all cylinders fire."""
+    if not any(means.engine.silent) and not np.any(means.find_total(means.judged_rpm)):
+        return set()
     carries = np.any(means.shares, axis=0).tolist()
     return {shaft.name for shaft, carried in zip(shafts, carries, strict=True) if carried}
 

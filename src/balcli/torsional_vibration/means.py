@@ -17,6 +17,7 @@ from ..engine.engine import Engine
 from ..forces.spectrum import GasAtSpeeds, compute_spectra, follow_gas
 
 _MEAN = np.zeros(1)  # the order of a mean
+_ANY_RPM = 100.0  # a speed
 
 
 class Link(NamedTuple):
@@ -97,6 +98,11 @@ class MeanTorques:
         """Speeds at which the mean torque is not smooth."""
         gas = self.engine.gas
         return () if gas is None else gas.nodes_rpm
+
+    @property
+    def judged_rpm(self) -> Real:
+        """Speeds that tell whether there is a mean torque at all."""
+        return np.array(self.nodes_rpm or (_ANY_RPM,))
 
     def of_cylinders(self, rpm: Real) -> Real:
         """Return the mean torque of each cylinder, N m, shape (*speeds, cylinders)."""

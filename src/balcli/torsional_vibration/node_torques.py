@@ -59,7 +59,8 @@ def find_idle_limits(
         if part.torque_limit == MEAN and part.name not in carrying:
             message = (
                 'is "mean", but its shaft carries no mean torque: that of the cylinders flows to '
-                "the last part of [[torsion.rear]], and needs [gas]; give a torque in N m"
+                "the last part of [[torsion.rear]], and needs [gas] with a mean; give a torque in "
+                "N m"
             )
             yield Problem(f"{path}.torque_limit", message)
 

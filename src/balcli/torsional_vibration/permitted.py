@@ -129,6 +129,14 @@ class MeanLimit(NamedTuple):
         """Yield nothing: the gas has warnings of its own for speeds that it does not cover."""
         yield from ()
 
+    def vanishes(self, first_rpm: float, last_rpm: float) -> bool:
+        """Return whether the mean torque is 0 at a speed from the first to the last one, where it
+        would permit nothing.
+        """
+        between = [rpm for rpm in self.corners if first_rpm < rpm < last_rpm]
+        torques = self.means.at(np.array([first_rpm, *between, last_rpm]))[:, self.shaft]
+        return bool(torques.min() <= 0 <= torques.max())
+
 
 Limit: TypeAlias = LimitTable | M68 | MeanLimit
 

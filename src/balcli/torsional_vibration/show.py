@@ -34,7 +34,6 @@ from ..show.sheet import (
     Sheet,
     Text,
     assumed_facts,
-    degrees,
     number,
     order_name,
     size_text,
@@ -607,8 +606,9 @@ def show_excitations(
         size = size_text(float(torque.amplitude(np.array(rpm))), system.moment)
         phase = "phase not known"
         if torque.turn is not None:
-            angle = math.degrees(-cmath.phase(torque.turn))
-            phase = f"phase {degrees(angle % 360)} deg"
+            turns = math.copysign(1, result.system.gears[torque.node])
+            angle = math.degrees(-turns * cmath.phase(torque.turn))
+            phase = f"phase {number(angle % 360)}°"
         else:
             unknown = True
         name = f"{shown.node}, order {order_name(shown.order)}"
@@ -699,7 +699,8 @@ def show_limits(result: TorsionAnalysis, system: System) -> Iterator[Grid | Fact
         if ranges := _show_ranges(result):
             yield ranges
     if hasattr(result, "barred_rpm"):
-        spans = ", ".join(map(_name_span, result.barred_rpm))
+        ends = result.response.speeds_rpm
+        spans = ", ".join(_name_barred(span, ends) for span in result.barred_rpm)
         facts = [("barred speeds", spans or "none in this range")]
         if result.system.angle_limit is not None:
             limit = number(math.degrees(result.system.angle_limit))
@@ -784,16 +785,32 @@ def _show_ranges(result: TorsionAnalysis) -> Grid | None:
     ]
     if ruled:
         heads += [Column("transient"), Column("M68 range, rpm", words=True)]
+    kinds = {verdict.kind for verdict in result.limits if verdict.barred}
+    mixed = len(kinds) > 1
+    if mixed:
+        heads.insert(1, Column("limit", words=True))
     rows = []
     for verdict in result.limits:
         for span in verdict.barred or ():
             row = [verdict.shaft, _name_range(span), number(span.peak_rpm), f"{span.share:.0%}"]
+            if mixed:
+                row.insert(1, verdict.kind or "")
             if ruled:
                 share = span.transient_share
                 row.append(UNKNOWN if share is None else f"{share:.0%}")
                 row.append(UNKNOWN if span.rule_rpm is None else _name_ends(span.rule_rpm))
             rows.append(row)
     return Grid.of_rows("Barred speeds", heads, rows, "") if rows else None
+
+
+def _name_barred(span: tuple[float, float], speeds_rpm: Real) -> str:
+    """Return a range of barred speeds in words; it is open where the speeds end."""
+    low, high = span
+    below = low <= speeds_rpm[0]
+    above = high >= speeds_rpm[-1]
+    if below and not above:
+        return f"below {number(high)} rpm"
+    return f"above {number(low)} rpm" if above and not below else _name_span(span)
 
 
 def _name_range(span: BarredRange) -> str:

@@ -12,7 +12,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from ..core.vibration import Real
-from .permitted import M68, M68_BARRED_BELOW, ShaftLimit
+from .permitted import M68, M68_BARRED_BELOW, MeanLimit, ShaftLimit
 from .shaft_limits import ExceededRange, JudgedLimit, judge_limits
 from .system import TorsionalSystem
 
@@ -94,7 +94,9 @@ def judge_system(system: TorsionalSystem, rpm: Real) -> Judgment:
         system: System with an excitation.
         rpm: Rising speeds, shape (speeds,).
     """
-    judged = judge_limits(system, rpm, system.limits) if system.limits else ()
+    idle = [limit for limit in system.limits if _permits_nothing(limit, rpm)]
+    limits = [limit for limit in system.limits if limit not in idle]
+    judged = judge_limits(system, rpm, limits) if limits else ()
     barred = _unite(judged) if system.limits else None
     of_shafts = any(limit.kind != "angle" for limit in system.limits)
     if not of_shafts and not system.unknown_stress:
@@ -103,15 +105,25 @@ def judge_system(system: TorsionalSystem, rpm: Real) -> Judgment:
     for k, shaft in enumerate(system.shafts):
         of_shaft = [
             (limit, judgment)
-            for limit, judgment in zip(system.limits, judged, strict=True)
+            for limit, judgment in zip(limits, judged, strict=True)
             if limit.column == k
         ]
         for limit, judgment in of_shaft:
             verdicts.append(_judge(system, limit, judgment, rpm))
-        if not of_shaft and k in system.checkable:
+        reason = None
+        if any(limit.column == k for limit in idle):
+            reason = "its mean torque is 0 at one of the speeds"
+        elif not of_shaft and k in system.checkable:
             reason = "no diameter" if k in system.without_diameter else "no limit"
+        if reason is not None:
             verdicts.append(LimitVerdict(shaft=shaft, verdict="not checked", reason=reason))
     return Judgment(tuple(verdicts), barred)
+
+
+def _permits_nothing(limit: ShaftLimit, rpm: Real) -> bool:
+    """Return whether a limit is a mean torque that is 0 at one of the speeds."""
+    of_mean = limit.limit
+    return isinstance(of_mean, MeanLimit) and of_mean.vanishes(float(rpm[0]), float(rpm[-1]))
 
 
 def _unite(judged: Sequence[JudgedLimit]) -> tuple[tuple[float, float], ...]:
