@@ -173,7 +173,6 @@ def assemble_system(
         rings=tuple(rings),
         pendulums=tuple(pendulums),
         means=None if means is None else means.extend(len(shafts)),
-        limit_pa=keys.limit * 1e6 if isinstance(keys.limit, float) else None,
         angle_limit=None if keys.angle_limit is None else math.radians(keys.angle_limit),
         last=len(planned) - 1,
         doubts=(

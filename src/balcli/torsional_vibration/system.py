@@ -195,7 +195,6 @@ class TorsionalSystem:
         torques: Torques of [[torsion.excitation]]; those with a known phase are part of the
             excitation, too.
         means: Mean torques of shafts; None: they are not known.
-        limit_pa: Stress above which a speed is barred.
         unknown_stress: Indices of shafts with a stress limit, but without a diameter.
         limits: Limits of stress and torque, in the order of the shafts, stress first.
         angle_limit: Half swing of the free end, rad, above which a speed is barred.
@@ -222,7 +221,6 @@ class TorsionalSystem:
     excitation: Excitation | None = None
     torques: tuple[NodeTorque, ...] = ()
     means: MeanTorques | None = None
-    limit_pa: float | None = None
     angle_limit: float | None = None
     unknown_stress: tuple[int, ...] = ()
     limits: tuple[ShaftLimit, ...] = ()
