@@ -21,6 +21,7 @@ def largest_of(found, weights) -> float:
 
 
 CASES = [(1, 4, 1), (2, 3, 2), (3, 8, 2), (4, 12, 3), (5, 24, 4), (6, 24, 6), (7, 7, 6)]
+LONGEST = (6, 24, 6)
 
 
 def dual_multipliers(matrix, residual):
@@ -61,7 +62,9 @@ def test_what_can_be_cancelled_is_cancelled():
     assert found.bound == 0
 
 
-@pytest.mark.parametrize("case", [c for c in CASES if c[2] > 1])
+@pytest.mark.parametrize(
+    "case", [pytest.param(c, marks=[pytest.mark.slow] * (c == LONGEST)) for c in CASES if c[2] > 1]
+)
 def test_limits_of_the_largest(case):
     """The bound holds within the limits: no random point inside is better, and it is reached."""
     matrix, target, weights = problem(*case)

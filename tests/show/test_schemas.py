@@ -101,7 +101,7 @@ RESULTS = {
     "numbers": f"numbers {V8}",
     "scatter": f"scatter {I4} --samples 50",
     "mounts": f"mounts {ENGINES / 'i4_mounts.toml'} {I4} --scheme auto {SPEEDS}",
-    "torsion": f"torsion {DIESEL} --holzer 1 --holzer 12Hz {SPEEDS} --damper viscous",
+    "torsion": f"torsion {DIESEL} --holzer 1 --holzer 12Hz {SPEEDS} --orders 0.5-6 --damper viscous",
     "rubber": f"torsion {DIESEL} {SPEEDS} --damper rubber",
     "pendulum": f"torsion {DIESEL} {SPEEDS} --damper pendulum",
     "locomotive": f"locomotive {ENGINES / 'historic/locomotive4.toml'}",

@@ -12,7 +12,7 @@ out (`forces.symmetry`).
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import partial
+from functools import lru_cache, partial
 from itertools import pairwise
 from types import NoneType
 from typing import NamedTuple
@@ -150,7 +150,13 @@ def select_tables(
                 argument=Argument(argument),
                 takers=", ".join(takers),
             )
-    return [TABLES[each](load_print(each), ranges) for each in names]
+    return [_recompute(each, ranges) for each in names]
+
+
+@lru_cache(maxsize=64)
+def _recompute(name: str, ranges: Ranges) -> Table:
+    """Return a table; the list of tables, a source and the errata show many of them again."""
+    return TABLES[name](load_print(name), ranges)
 
 
 def _tell_nearest(name: str) -> str:
