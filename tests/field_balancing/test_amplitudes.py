@@ -155,6 +155,7 @@ def test_the_prediction_for_the_lighter_answer(tmp_path):
     picture = tmp_path / "polar.svg"
     assert run_here("field", path, "--plot", picture).status == 0
     assert "amplitudes only" in picture.read_text(encoding="utf-8")
+    assert "angles as they are marked" in picture.read_text(encoding="utf-8")
     assert "heavier: 12" in picture.read_text(encoding="utf-8")
 
 

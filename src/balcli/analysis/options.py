@@ -19,8 +19,9 @@ AnalysisFormatOption = Annotated[
     list[Format] | None,
     format_option(
         (*TEXTS.values(), Format.MARINE),
-        "Format of the result; default: by the ending of -o, else table. marine: table of external "
-        "forces and moments, guide moments and torque by order; in CSV with `-f marine -f csv`.",
+        "Format of the result; default: by the ending of -o, else table. marine: sheet of external "
+        "forces and moments (of a compressor: unbalanced forces and couples), guide moments and "
+        "torque by order; in CSV with `-f marine -f csv`.",
     ),
 ]
 SpeedsOption = Annotated[

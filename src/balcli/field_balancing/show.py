@@ -358,9 +358,10 @@ def make_field(result: FieldBalance) -> Figure:
         _draw_weights(right, result)
         unit = f", {result.unit}" if result.unit else ""
         readings = f"Readings{unit}; phases count {result.phases} rotation"
+        weights = f"Weights, {result.weight_unit}; angles count {result.weights} rotation"
         if result.fit is not None:
             readings = f"Readings{unit}; amplitudes only"
-        weights = f"Weights, {result.weight_unit}; angles count {result.weights} rotation"
+            weights = f"Weights, {result.weight_unit}; angles as they are marked"
         for ax, sense, title in ((left, result.phases, readings), (right, result.weights, weights)):
             ax.set_theta_zero_location("N")  # the rotor turns anticlockwise
             ax.set_theta_direction(1 if sense == "with" else -1)
