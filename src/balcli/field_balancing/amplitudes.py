@@ -116,14 +116,11 @@ def fit_amplitudes(file: RunsFile, used: list[int], name: str = "") -> Amplitude
     circle = _find_circle(weights[:, 0] / size) if len(planes) == 1 else None
     fits = []
     for j, amplitudes in enumerate(series.readings.real.T):
-        start = _start(amplitudes, weights / size, circle)
-        if start is None:
-            sensor = file.sensors[j] if file.sensors else f"sensor {j + 1}"
-            text = (
-                f"no unbalance fits the readings of {sensor}: a reading or a weight must be wrong, "
-                "or the trial weights are too light"
-            )
-            raise InputError([Problem("run", text)], name)
+        try:
+            start = _start(amplitudes, weights / size, circle)
+        except _NoFitError as error:
+            of_plane = file.planes[planes[error.column]] if len(planes) > 1 else ""
+            raise InputError([_explain_no_fit(file, j, of_plane)], name) from None
         fits.append(_refine(amplitudes, weights / size, start))
     unknowns: Complex = np.array(fits, dtype=complex)
     as_found = np.asarray(unknowns[:, 0].real)
@@ -277,14 +274,47 @@ def _find_circle(weights: Complex) -> _Circle | None:
     return _Circle(normal / (2 * curvature) * np.abs(weights).max(), is_line=False)
 
 
-def _start(amplitudes: Array, weights: Complex, circle: _Circle | None) -> Complex | None:
+def _explain_no_fit(file: RunsFile, j: int, of_plane: str) -> Problem:
+    """Return the problem of readings that no unbalance fits.
+
+    Args:
+        file: File of runs.
+        j: Index of the sensor.
+        of_plane: Plane in which the trial weights do not fit; empty if there is only one.
+    """
+    sensor = file.sensors[j] if file.sensors else f"sensor {j + 1}"
+    text = (
+        f"no unbalance fits the readings of {sensor}: a reading or a weight must be wrong, or the "
+        "trial weights are too light"
+    )
+    if of_plane:
+        text += f"; check the runs with weights in {of_plane}"
+    return Problem("run", text)
+
+
+class _NoFitError(Exception):
+    """No unbalance fits the readings of a sensor.
+
+    Attributes:
+        column: Column of the weights whose runs do not fit.
+    """
+
+    def __init__(self, column: int) -> None:
+        super().__init__(column)
+        self.column = column
+
+
+def _start(amplitudes: Array, weights: Complex, circle: _Circle | None) -> Complex:
     """Return reading as found and influence coefficients from the linear equations of each plane,
-    shape (1 + planes,); None if no unbalance fits.
+    shape (1 + planes,).
 
     Args:
         amplitudes: Readings of one sensor, shape (runs,).
         weights: Weights on the rotor, at most 1, shape (runs, planes).
         circle: Circle of all weights, if two answers fit: the lighter one is returned.
+
+    Raises:
+        _NoFitError: No unbalance fits.
     """
     as_found = float(amplitudes[~weights.any(axis=1)].mean())
     start = [complex(as_found)]
@@ -297,7 +327,7 @@ def _start(amplitudes: Array, weights: Complex, circle: _Circle | None) -> Compl
         if circle is not None and x is not None:
             x = _choose_lighter(x, np.linalg.svd(rows)[2][-1], as_found)
         if x is None or x[2] <= 0:
-            return None
+            raise _NoFitError(k)
         start.append(complex(x[0], x[1]) / as_found)
     return np.array(start)
 
