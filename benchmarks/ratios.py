@@ -15,6 +15,7 @@ import os
 import resource
 import subprocess
 import sys
+import tempfile
 import time
 import venv
 from collections.abc import Callable, Iterator
@@ -27,7 +28,7 @@ os.environ["OPENBLAS_NUM_THREADS"] = "1"  # before numpy is imported
 import numpy as np
 
 import balcli
-from balcli.analysis.answer import QUANTITIES, analyze
+from balcli.analysis.answer import QUANTITIES, UNASKED, analyze
 from balcli.bench.starts import LIBRARIES
 from balcli.torsional_vibration.answer import torsion
 
@@ -156,29 +157,37 @@ def list_commands() -> Iterator[Ratio]:
     yield compare("cold analyze to its libraries' import", cold, imports, 1.9)
 
 
-def make_engine(throws: int) -> balcli.Engine:
-    """Return an in-line engine with this number of throws."""
+def describe_engine(throws: int) -> str:
+    """Return the file of an in-line engine with this number of throws."""
     angles = [(137.5 * k) % 360 for k in range(throws)]
-    return balcli.load(
-        {
-            "crank": {"stroke": 80, "throws": angles, "spacing": 90, "throw_mass": 1.0},
-            "rod": {"length": 140, "mass": 0.5, "cg": 40},
-            "piston": {"mass": 0.4},
-        }
-    )
+    return f"""
+[crank]
+stroke = 80
+throws = {angles}
+spacing = 90
+throw_mass = 1.0
+[rod]
+length = 140
+mass = 0.5
+cg = 40
+[piston]
+mass = 0.4
+"""
 
 
 def list_throws() -> Iterator[Ratio]:
-    """Yield what the ladder adds to the analysis of a thousand throws."""
-    engine = make_engine(1000)
-    without = [name for name in QUANTITIES if name != "ladder"]
-    yield compare(
-        "analyze of 1000 throws to the same without ladder",
-        lambda: time_run(partial(analyze, engine, only=QUANTITIES)),
-        lambda: time_run(partial(analyze, engine, only=without)),
-        2,
-        3,
-    )
+    """Yield what sizing and ladder add to the analysis of a thousand throws."""
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "throws.toml"
+        file.write_text(describe_engine(1000), encoding="utf-8")
+        whole = partial(time_command, "-m", "balcli", "analyze", str(file))
+        yield compare(
+            "analyze of 1000 throws to the same without sizing and ladder",
+            whole,
+            partial(whole, "--only", ",".join(UNASKED)),
+            2,
+            3,
+        )
 
 
 # ------------------------------------------------------------------ torsion
@@ -272,7 +281,7 @@ def measure_growth() -> dict[str, dict[int, float]]:
         return time_run(partial(balcli.sweep, engine, values, ["shaft.flywheel.stress"], jobs=1))
 
     def time_throws(count: int) -> float:
-        return time_run(partial(analyze, make_engine(count), only=QUANTITIES))
+        return time_run(partial(analyze, balcli.load(describe_engine(count)), only=QUANTITIES))
 
     return {
         "orders (torsion, 12 nodes, 50 speeds)": {n: time_torsion(12, n, 50) for n in (24, 48, 96)},
