@@ -12,9 +12,9 @@ TORQUES = [("engine", 2, 300, 60), ("engine", 1, 0, 95)]
 NODES = {"engine": 12, "pump": {"inertia": "5 kg m^2", "damping": 30}}
 
 
-def write_pair(**shaft):
+def write_pair(torques=TORQUES, **shaft):
     own = {"stiffness": 9.0e4, "loss": 0.03, "diameter": 70} | shaft
-    return chain_text(NODES, {("engine", "pump"): own}, TORQUES)
+    return chain_text(NODES, {("engine", "pump"): own}, torques)
 
 
 def test_a_limit_over_the_speed_is_linear_and_judged_on_the_curve_itself():
@@ -66,6 +66,31 @@ def test_m68_at_two_diameters_and_speeds():
     assert rule._replace(factor=1).transient == pytest.approx(1.7)
     assert rule._replace(factor=0.25).transient == pytest.approx(3.4)
     assert rule.range_about(50) == pytest.approx((16 * 50 / 17.5, 17.5 * 50 / 16))
+
+
+@pytest.mark.parametrize(
+    ("rated", "ck", "verdict", "reason"),
+    [
+        (1000, 0.3, "barred", None),
+        (900, 0.3, "fails", "the barred range reaches 808.8 rpm, but M68 allows none above 720 rpm"),
+        (3000, 0.01, "fails", "209% of the transient limit at 762.1 rpm"),
+        (900, 0.01, "fails", "383% of the transient limit at 763.2 rpm"),
+    ],
+)
+def test_m68_allows_no_range_near_the_rated_speed_or_above_the_transient_limit(rated, ck, verdict, reason):
+    rule = {"rule": "M68", "tensile": 400, "ck": ck, "rated_speed": rated}
+    text = write_pair([("engine", 2, 300, 60)], limit=rule)
+    (limit,) = ask_torsion(text, "--speeds", "700:830:5")["limits"]
+    assert (limit["verdict"], limit.get("reason")) == (verdict, reason)
+
+
+def test_the_reason_is_the_range_with_the_largest_share_of_the_transient_limit():
+    rule = {"rule": "M68", "tensile": 400, "ck": 1, "rated_speed": 20000}
+    text = write_pair([("engine", 2, 2400, 480), ("engine", 1, 0, 3000)], limit=rule)
+    (limit,) = ask_torsion(text, "--speeds", "500:2000:25")["limits"]
+    first, second = (span["transient_share"] for span in limit["barred"])
+    assert 1 < first < second
+    assert limit["reason"] == f"{second:.0%} of the transient limit at 1524 rpm"
 
 
 def test_a_limit_by_speed_has_the_nearest_value_outside():

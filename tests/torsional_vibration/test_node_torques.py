@@ -280,6 +280,15 @@ def test_a_limit_by_the_mean_torque_of_gas_without_one_is_refused(tmp_path):
     )
 
 
+@pytest.mark.parametrize(("silent", "verdict"), [((), "fails"), ((3,), "barred")])
+def test_m68_allows_ranges_near_the_rated_speed_with_a_misfire_only(silent, verdict):
+    rule = 'limit = { rule = "M68", tensile = 400, ck = 0.5, rated_speed = 1550 }'
+    text = write_diesel(extra=GAS).replace("diameter = 85\n", f"diameter = 85\n{rule}\n")
+    limit = torsion(load(text), [1500.0, 1600.0], misfire=silent).limits[-1]
+    assert (limit.shaft, limit.verdict) == ("flywheel", verdict)
+    assert (limit.reason is None) == (verdict == "barred")
+
+
 # ------------------------------------------------------------------ mistakes
 @pytest.mark.parametrize(
     ("more", "told"),

@@ -4,7 +4,6 @@ it is not checked.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Literal, NamedTuple
@@ -192,12 +191,17 @@ def _find_failure(rule: M68, barred: Sequence[BarredRange], misfires: bool) -> s
     return next(_list_failures(rule, barred, misfires), None)
 
 
+def _find_transient_share(span: BarredRange) -> float:
+    return span.transient_share or 0.0
+
+
 def _list_failures(rule: M68, barred: Sequence[BarredRange], misfires: bool) -> Iterator[str]:
-    """Yield the reasons for which a rule allows no barred range."""
-    for span in barred:
-        share = span.transient_share or math.nan
+    """Yield the reasons for which a rule allows no barred range, the heaviest one first."""
+    for span in sorted(barred, key=_find_transient_share, reverse=True):
+        share = _find_transient_share(span)
         if share > 1:
             yield f"{share:.0%} of the transient limit at {span.peak_rpm:.4g} rpm"
+    for span in barred:
         highest = M68_BARRED_BELOW * rule.rated_rpm
         if span.to_rpm > highest and not misfires:
             yield (
