@@ -225,8 +225,14 @@ def _solve(crank: _Crank, scheme: str, options: SchemeOptions) -> tuple[_Wanted,
         guesses.append(_extrapolate(guesses, answers))
         crank = _thicken(crank, dict(zip(numbers, guesses[-1].tolist(), strict=True)))
         wanted = want(crank, options)
-    names = join_words(list_open_webs(crank.model))
-    raise BalcliError(f"{names}: no thickness settles; give one of them as a figure")
+    names = []
+    for number, table in enumerate(crank.model.web, 1):
+        if table.is_open("thickness"):
+            names.append(f"web.{number}.thickness")
+    raise BalcliError(
+        f"{join_words(names)}: no thickness makes what is wanted; give figures, or a larger "
+        "outer_radius or opening"
+    )
 
 
 def _measure_thicknesses(crank: _Crank, numbers: Iterable[int], wanted: _Wanted) -> Array:
