@@ -9,8 +9,8 @@ import pytest
 from numpy.testing import assert_allclose
 from support.commands import ask, ask_csv
 
-from balcli import SchemeOptions, analyze, balance, load
-from balcli.errors import ArgumentError, InputError
+from balcli import SchemeOptions, analyze, balance, load, sweep
+from balcli.errors import ArgumentError, BalcliError, InputError
 
 FOUR = {
     "crank": {"stroke": 88, "throws": [0, 180, 180, 0], "spacing": 93},
@@ -249,6 +249,43 @@ def test_rods_on_one_pin_share_the_throw():
     whole = result.parts.throws[0].throw_mass_kg
     assert_allclose(whole, 1.023066926)
     assert_allclose([own.throw_kg for own in result.masses], whole / 2)
+
+
+UNEVEN = {key: FOUR[key] for key in ("rod", "piston", "operation", "bearing")} | {
+    "crank": {"stroke": 88, "throws": [0, 100], "spacing": 93}
+}
+
+
+@pytest.mark.parametrize(
+    ("key", "values"),
+    [("thickness", [18, 22]), ("outer_radius", [70, 80]), ("opening", [90, 120]), ("density", [7.1, 8])],
+)
+def test_dimensions_of_webs_vary_as_in_files_of_their_own(key, values):
+    """All webs of the table vary together; the density is that of the pin, too."""
+    names = ["force.1.major", "moment.1.major"]
+    web = WEB | {"angle": 184, "webs": [1, 3, 4]}
+    other = {"thickness": 18, "hub": 65, "boss": 53}
+    swept = sweep(load(UNEVEN | {"web": [web, other]}), {f"web.1.{key}": values}, names)
+    for k, value in enumerate(values):
+        alone = analyze(load(UNEVEN | {"web": [web | {key: value}, other]}), orders=[1])
+        wanted = [float(alone.spectra[name].major[0]) for name in ("force", "moment")]
+        assert_allclose([column[k] for column in swept.values], wanted, rtol=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("path", "value", "told"),
+    [
+        ("web.1.opening", 200, "web.1.opening: 200 deg; at most 195.67 deg"),
+        ("web.1.outer_radius", 32.5, "web.1.outer_radius: 32.5 mm; give more than the hub's radius"),
+        ("web.1.hub", 60, "but for thickness, outer_radius, opening and density of webs with an outline"),
+        ("web.2.thickness", 20, "give each value a file of its own"),
+        ("bearing.pin_length", 30, "give each value a file of its own"),
+    ],
+)
+def test_other_figures_of_webs_do_not_vary(path, value, told):
+    engine = find_parts(WEB | {"webs": [1, 2, 3]}, WEIGHED)
+    with pytest.raises(BalcliError, match=told):
+        sweep(engine, {path: [value]}, ["force.1.major"])
 
 
 def test_csv_has_the_figures_of_every_web(tmp_path):

@@ -7,7 +7,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from ..errors import Problem
-from ..file.fields import counted
+from ..file.fields import counted, join_words
+from ..file.web_tables import VARIABLE
 from .parts import Parts
 from .webs.build import WEBS_ON_THROW, assign_tables, take_pin
 
@@ -27,9 +28,25 @@ def check_webs(parts: Parts) -> Iterator[Problem]:
     yield from _check_crank(parts)
     take_pin(model)
     assign_tables(parts.model, parts.plan.throws)
-    if varied := parts.figures.find_varied("web.", "bearing.", "crank.stroke", "crank.throw_mass"):
-        told = "[[web]] is computed for the figures of the file; give each value a file of its own"
-        yield Problem(varied[0], told)
+    yield from _check_varied(parts)
+
+
+def _check_varied(parts: Parts) -> Iterator[Problem]:
+    """Check that no figures of webs and pins vary but dimensions of webs with an outline."""
+    varied = parts.figures.find_varied("bearing.", "crank.stroke", "crank.throw_mass")
+    for path in parts.figures.find_varied("web."):
+        _, number, key = f"{path}..".split(".")[:3]
+        table = parts.model.web[int(number) - 1]
+        given = getattr(table, key, None)
+        is_number = isinstance(given, float) and not table.is_open(key)
+        if table.is_weighed or key not in VARIABLE or not is_number:
+            varied.append(path)
+    if varied:
+        message = (
+            f"[[web]] is computed for the figures of the file, but for {join_words(VARIABLE)} of "
+            "webs with an outline; give each value a file of its own"
+        )
+        yield Problem(varied[0], message)
 
 
 def _check_crank(parts: Parts) -> Iterator[Problem]:

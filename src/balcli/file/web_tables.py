@@ -31,6 +31,7 @@ OpeningOrFit = Annotated[float, Number(ANGLE, above=0, most=360, word=FIT)]
 Deviation = Annotated[float, Number(LENGTH, least=0, most=1e9)]
 
 _OPPOSITE_DEG = 180.0  # from the crank pin
+VARIABLE = ("thickness", "outer_radius", "opening", "density")  # dimensions that may vary
 FITTED_KEYS = ("opening", "outer_radius", "thickness")
 _FORMS = "hub and boss, or profile, or mass and cg"
 _SHAPE = ("hub", "boss", "outer_radius", "opening", "angle")

@@ -28,7 +28,7 @@ from ...file.web_tables import Web
 from .dxf import Drawing
 
 MM = 1e-3
-_ROUNDING_DEG = 1e-9
+ROUNDING_DEG = 1e-9
 _SAME_PLACE = 1e-6  # m; circles that differ by less are one hole
 
 
@@ -174,7 +174,7 @@ def find_sector(table: Web, path: str, cheek: Cheek) -> Sector | None:
     if table.outer_radius is None or table.opening is None:
         return None
     most = cheek.find_largest_opening(table.angle)
-    if table.opening > most + _ROUNDING_DEG:
+    if table.opening > most + ROUNDING_DEG:
         at_most = "no counterweight at this angle" if most <= 0 else f"at most {most:.5g} deg"
         told = f"{as_written(table.opening, 'deg')}; {at_most} with this hub and boss"
         raise InputError([Problem(f"{path}.opening", told)])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, cast
 
 from ...core.cylinders import Device, DeviceKind
 from ...core.phasors import Complex, Figure, unit
@@ -11,7 +11,7 @@ from ...errors import BalcliError, InputError, Message, Problem
 from ...file.csv_columns import locate_beside
 from ...file.model import EngineFile
 from .bodies import MM, Pin, WebBody, describe_web, weigh_pin
-from .dimensions import vary_body
+from .dimensions import refuse_impossible, vary_body
 from .dxf import Drawing, read_drawing
 
 if TYPE_CHECKING:
@@ -166,8 +166,8 @@ def build_webs(model: EngineFile, throws: Sequence[BareThrow], figures: FileFigu
     Args:
         model: Engine file.
         throws: Throws of its crank, from the free end.
-        figures: Figures of the file; a dimension of a single web may vary, such as
-            `webs.3.thickness` of web 3.
+        figures: Figures of the file. A dimension of all webs of a table may vary
+            (`web.1.thickness`), or of a single web (`webs.3.thickness` of web 3).
 
     Raises:
         InputError: A table has "fit", or the dimensions make no web.
@@ -188,12 +188,16 @@ def build_webs(model: EngineFile, throws: Sequence[BareThrow], figures: FileFigu
                 _refuse_fit(table, number)
                 bodies[key] = describe_web(table, f"web.{number}", throw_mm, drawings[number])
             body = bodies[key]
-            if varied := figures.of_table(f"webs.{web}"):
+            of_table = figures.of_table(f"web.{number}")
+            if varied := of_table | figures.of_table(f"webs.{web}"):
+                refuse_impossible(body, model.web[number - 1], f"web.{number}", of_table)
                 body = vary_body(body, model.web[number - 1], varied)
             apart = (MM * bearing.length + body.thickness) / 2
             place = z - apart if side == 0 else z + apart
             webs.append(CrankWeb(web, number, throw, place, pin_deg, body))
-        density = model.web[tables[WEBS_ON_THROW * throw + 1] - 1].density
+        front = tables[WEBS_ON_THROW * throw + 1]
+        own = model.web[front - 1].density
+        density = cast("float", figures.take(f"web.{front}.density", own))  # or variants of it
         pins.append(weigh_pin(bearing.diameter, bearing.bore, bearing.length, throw_mm, density))
     return Webs(tuple(webs), tuple(pins))
 

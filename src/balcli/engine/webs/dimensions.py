@@ -16,10 +16,10 @@ import numpy as np
 
 from ...core.outline import Moments, find_direction, find_moments
 from ...core.phasors import Complex, Figure
-from ...file.web_tables import Web
-from .bodies import MM, WebBody, WebShape
+from ...errors import InputError, Problem
+from ...file.web_tables import VARIABLE, Web
+from .bodies import MM, ROUNDING_DEG, WebBody, WebShape
 
-TOLERANCED = ("thickness", "outer_radius", "opening", "density")  # dimensions that may deviate
 _SECTOR = ("outer_radius", "opening")
 
 
@@ -81,7 +81,7 @@ class WebModel(NamedTuple):
         hub = 0.0 if shape.cheek is None else shape.cheek.hub
         sector = shape.sector
         nominal = Dimensions(MM * table.thickness, hub, 0.0, 1e3 * table.density)
-        deviating = [key for key in TOLERANCED if sector is not None or key not in _SECTOR]
+        deviating = [key for key in VARIABLE if sector is not None or key not in _SECTOR]
         angle = 0.0
         if sector is not None:
             angle = sector.angle
@@ -108,6 +108,29 @@ class WebModel(NamedTuple):
             cast("Complex", unbalance),
             thickness * (density * (self.plate.polar + polar) + self.slugs.polar),
         )
+
+
+def refuse_impossible(body: WebBody, table: Web, path: str, varied: Mapping[str, Figure]) -> None:
+    """Raise InputError for varied dimensions that make no web.
+
+    Args:
+        body: Web as the file gives it.
+        table: Its table.
+        path: Dotted name of the table.
+        varied: Dimensions that vary, by their keys, in the units of the file.
+    """
+    shape = body.shape
+    if shape is None or shape.cheek is None:
+        return
+    most = shape.cheek.find_largest_opening(table.angle)
+    widest = float(np.max(varied.get("opening", 0.0)))
+    if widest > most + ROUNDING_DEG:
+        message = f"{widest:g} deg; at most {most:.5g} deg with this hub and boss"
+        raise InputError([Problem(f"{path}.opening", message)])
+    smallest = float(np.min(varied.get("outer_radius", np.inf)))
+    if smallest <= shape.cheek.hub / MM:
+        message = f"{smallest:g} mm; give more than the hub's radius, {shape.cheek.hub / MM:g} mm"
+        raise InputError([Problem(f"{path}.outer_radius", message)])
 
 
 def vary_body(body: WebBody, table: Web, varied: Mapping[str, Figure]) -> WebBody:
