@@ -464,6 +464,18 @@ def test_the_page_ends_with_a_command_that_prints_its_figures(show):
 
 
 @live
+def test_steps_that_are_fitted_by_default_are_marked(show):
+    """At every stroke: those that the command names."""
+    page = show(GOOD)
+    marked = "[...document.querySelectorAll('#ladder-table tbody tr')].map(row => row.classList.contains('auto'))"
+    for change in ("0", "Live.change('piston.mass', 0.05)"):
+        page.run(f"{change}, {WAIT}")
+        ladder = figures(page)["ladder"]
+        assert page.run(marked) == [step["step"] in ladder["auto"] for step in ladder["steps"]]
+        assert ladder["auto"]
+
+
+@live
 def test_facts_that_do_not_follow_other_throws_are_gray(show):
     page = show(GOOD)
     page.run(f"Live.change('crank.throws.2', 170), {WAIT}")

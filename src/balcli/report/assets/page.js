@@ -464,8 +464,15 @@ const Page = (() => {
     Tables.fill(byId("devices-table"), Tables.makeDevices(listChoices()[chosen]));
     byId("devices-title").textContent = chosen ? `Devices of ${nameChoice(chosen)}` : "Devices: choose a step above";
     byId("devices-table").hidden = !chosen;
-    const rows = [...byId("ladder-table").tBodies[0].rows];
-    rows.forEach((row, k) => row.classList.toggle("sel", k === chosen));
+    markLadder();
+  }
+  // Marks the chosen step, and the steps that are fitted by default.
+  function markLadder() {
+    const { auto, steps } = figures.ladder;
+    [...byId("ladder-table").tBodies[0].rows].forEach((row, k) => {
+      row.classList.toggle("sel", k === chosen);
+      row.classList.toggle("auto", auto.includes(steps[k].step));
+    });
   }
   function showFollowingTables() {
     const title = byId("ladder").querySelector("h2").firstChild;
