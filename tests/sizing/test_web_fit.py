@@ -353,6 +353,18 @@ def test_unequal_webs_have_tables_of_their_own(tmp_path):
     assert [len(table.holes) for table in build_text(text).model.web] == [1, 1, 0]
 
 
+def test_tables_after_a_divided_one_keep_their_figures(tmp_path):
+    middle = 'boss = 50\nouter_radius = "fit"\nopening = 120\n'
+    text = TEXT.replace("outer_radius = 70", "outer_radius = 80").removesuffix("boss = 50\n") + middle
+    weights = "".join(f"[[counterweight]]\nunbalance = {u}\nposition = {z}\n" for u, z in ((900, -96), (400, 96)))
+    (tmp_path / "e.toml").write_text(text + weights)
+    run_here("balance", tmp_path / "e.toml", "--factor", "-0.5", "--write", tmp_path / "out.toml")
+    written = build_text((tmp_path / "out.toml").read_text()).model.web
+    assert [table.webs for table in written] == [(1, 2), (5, 6), None]
+    assert [table.outer_radius == 80 for table in written] == [True, True, False]
+    assert written[2].opening == 120
+
+
 def test_an_inline_list_is_written_anew(tmp_path):
     web = '{ thickness = 19, hub = 60, boss = 50, outer_radius = 70, opening = "fit" }'
     text = f"web = [{web}]\n{TEXT[: TEXT.index('# webs of the ends')]}"
