@@ -192,8 +192,7 @@ ERRATA = Renderer(sheet=lay_out_errata, document=describe_errata, rows=list_erra
 OUTSIDE = (
     "docs/sources.md names the command for every equation, table and figure of the five. Outside "
     "balcli: finite-element stress, fatigue and reliability; lateral vibration, whirling and "
-    "gyroscopic moments of shafts; stiffness of a throw from its dimensions; analysis of recorded "
-    "vibration traces; dry-friction dampers."
+    "gyroscopic moments of shafts; analysis of recorded vibration traces; dry-friction dampers."
 )
 
 
