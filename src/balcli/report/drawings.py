@@ -9,7 +9,7 @@ from ..analysis.parts import find_parts
 from ..engine.engine import Engine, refuse_geared
 from ..engine.webs.bodies import WebShape
 from ..engine.webs.write_dxf import write_drawing
-from ..errors import BalcliError, warn
+from ..errors import ArgumentError, BalcliError, warn
 from ..file.toml import name_file
 from ..shell.inputs import read_engine, warn_each
 from ..shell.output import refuse_overwriting, write_file
@@ -32,10 +32,12 @@ def write_outlines(path: str, target: Path, pages: Sequence[str], scheme: str | 
             file cannot be written.
     """
     if tuple(pages) != _PAGE:
-        raise BalcliError(f"{target}: a .dxf file has the outlines of webs alone; give --what webs")
+        raise ArgumentError(
+            "{file}: a .dxf file has the outlines of webs alone; give {what} webs", file=target
+        )
     if scheme is not None:
-        raise BalcliError(
-            "--what webs shows the engine as it is: leave --scheme and its options out"
+        raise ArgumentError(
+            "{what} webs shows the engine as it is: leave {scheme} and its options out"
         )
     name = name_file(path)
     engine = read_engine(path).engine
