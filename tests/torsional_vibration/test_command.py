@@ -106,7 +106,7 @@ def test_a_limit_of_stress_without_any_diameter_is_not_judged():
     assert "barred speeds" not in said
     assert "engine-flywheel, flywheel-pinion, wheel-pump: not checked (no diameter)." in said
     said = run_here(*asked, stdin=text.replace("limit = 40", "limit = 40\nangle_limit = 0.1")).out
-    assert "limit          ±0.1 deg at engine\nbarred speeds  800 to " in said
+    assert "limit          ±0.1 deg at engine\nbarred speeds  below " in said
     assert "wheel-pump: not checked (no diameter)." in said
 
 

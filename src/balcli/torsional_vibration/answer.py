@@ -36,7 +36,7 @@ from .chain_file import describes_chain, read_chain_tables
 from .dampers import FIGURES, WIDE_SWING, DamperAsked, SizedDamper, size_damper
 from .load import Source, make_chain_source, make_source
 from .measured import MeasuredCurve, compare_measured
-from .misfire import ALL_FIRE, CHAIN_HAS_NONE, WORST, MisfireAsked, ask_misfire
+from .misfire import ALL_FIRE, WORST, MisfireAsked, ask_misfire
 from .modes import (
     Critical,
     NaturalMode,
@@ -631,7 +631,7 @@ def _read_source(source: object, orders: Array | None, misfire: MisfireAsked) ->
     tables, name = take_tables("torsion", source, wanted)
     if describes_chain(tables):
         if misfire != ALL_FIRE:
-            raise ArgumentError(CHAIN_HAS_NONE)
+            raise ArgumentError("{misfire}: a chain has no cylinders")
         name = name or "chain file"  # name, in messages, of a chain without a path
         return make_chain_source(read_chain_tables(tables, name), name, orders)
     engine = build_tables(tables, name)

@@ -29,7 +29,7 @@ from .build import (
 )
 from .chain_file import ChainFile, describes_chain, read_chain_tables
 from .measured import MeasuredPoints, read_measured
-from .misfire import ALL_FIRE, CHAIN_HAS_NONE, MisfireAsked, stop_firing
+from .misfire import ALL_FIRE, MisfireAsked, stop_firing
 from .system import TorsionalSystem
 
 # kg mm2 or mm; smaller figures are unlikely: they belong to tiny parts, such as a steel disc of
@@ -106,7 +106,7 @@ def load_source(path: str, orders: Real | None = None, misfire: MisfireAsked = A
     data: Mapping[str, object] = parse_toml(text, name)
     if describes_chain(data):
         if misfire != ALL_FIRE:
-            raise ArgumentError(CHAIN_HAS_NONE)
+            raise ArgumentError("{misfire}: a chain has no cylinders")
         return make_chain_source(read_chain_tables(data, name), name, orders, text)
     refuse_other_kind(data, name, ENGINE, CHAIN)
     model = parse(text, name)

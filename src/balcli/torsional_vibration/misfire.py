@@ -14,7 +14,6 @@ from ..forces.curves import silence
 from ..shell.values import parse_cylinder
 
 WORST = "worst"  # instead of a cylinder number: every cylinder in turn
-CHAIN_HAS_NONE = "{misfire}: a chain has no cylinders"
 
 
 class MisfireAsked(NamedTuple):
