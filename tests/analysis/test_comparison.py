@@ -69,7 +69,7 @@ def test_guides_with_gas_do_not_stand_beside_guides_without() -> None:
 
 
 def test_one_engine_is_refused() -> None:
-    with pytest.raises(BalcliError, match="compare needs at least two engine files"):
+    with pytest.raises(BalcliError, match="compare needs at least two engines"):
         compare(build_text(GOOD))
 
 

@@ -99,7 +99,7 @@ def test_verdict_and_ladder_name_the_shaft(tmp_path):
     assert "cures" not in half
     two = heavy.replace('name = "cam"\n', "") + SHAFT.format("b", -0.5, 50000)
     told = " ".join(ask("analyze", write(tmp_path / "two.toml", two)).split())
-    assert "Order ½ comes from shafts shaft 1 and 'b'; balance these shafts." in told
+    assert "Order ½ comes from shafts 1 and 'b'; balance these shafts." in told
 
 
 def test_the_page_is_drawn_without_sliders():

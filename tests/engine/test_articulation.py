@@ -151,3 +151,36 @@ def test_a_pendulum_test_of_an_articulated_rod_is_its_inertia():
 @cases("engine/articulation", "mistakes_of_articulated_rods")
 def test_mistakes_of_articulated_rods(rod, message):
     assert mistakes(("{ length = 188, mass = 0.62, cg = 90 }", rod)) == [message]
+
+
+def test_rods_given_by_a_ratio_follow_the_stroke_of_their_own_row():
+    """A stroke of the first master changes the articulated rods of its row, and no other ones."""
+    text = """
+        [crank]
+        stroke = 120
+        throws = [0, 180]
+        spacing = 200
+        [rod]
+        length = 240
+        mass = 1.9
+        cg = 55
+        [piston]
+        mass = 1.3
+        [layout]
+        radial = 5
+        rows = 2
+        [articulation]
+        master = 1
+        knuckle_radius = 52
+        rod = { ratio = 0.3, mass = 0.62, cg = 30 }
+        """
+    lengths = {}
+    for more in ("", "[cylinder.1]\nstroke = 160\n"):
+        own = build_text(text + more)
+        rods = np.ravel(own.cylinders.radius / own.cylinders.lam)
+        lengths[more] = dict(zip(own.numbers, np.broadcast_to(rods, 10).tolist(), strict=True))
+    plain, long_stroke = lengths.values()
+    assert [plain[number] for number in range(2, 6)] == pytest.approx([0.2] * 4)
+    assert [long_stroke[number] for number in range(2, 6)] == pytest.approx([0.08 / 0.3] * 4)
+    assert [long_stroke[number] for number in range(7, 11)] == pytest.approx([0.2] * 4)
+    assert long_stroke[1] == long_stroke[6] == pytest.approx(0.24)

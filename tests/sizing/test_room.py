@@ -155,7 +155,7 @@ def test_mass_is_that_of_the_shape_and_radius_adds_a_column(tmp_path):
     row = next(line for line in plain.splitlines() if line.startswith("1 counterweight "))
     assert row.split()[4] == "1.227"
     at_radius = " ".join(ask("balance", file, "--step", "1", "--radius", "50").split())
-    assert "Mass: at a radius of 50 mm in the last column." in at_radius
+    assert "Last column: mass at a radius of 50 mm." in at_radius
     sector = ask("balance", file, "--step", "1", "--sector", "30,67,140")
     row = next(line for line in sector.splitlines() if line.startswith("1 counterweight "))
     centroid = 2 / 3 * (67**3 - 30**3) * math.sin(math.radians(70)) / (math.radians(70) * (67**2 - 30**2))

@@ -58,6 +58,7 @@ LEFT = {
     )
     for kind in FREE
 }
+_BEFORE = {left: kind for kind, left in LEFT.items()}  # same scale: that of one cylinder
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -190,7 +191,8 @@ def list_lines(analyses: Sequence[Analysis], *, every_order: bool = False) -> tu
             continue  # no bearing loads are known for a crank with one throw
         values = tuple(table[kind, order] for table in tables)
         shown = kind._replace(label=f"{kind.label}{alone}") if kind in GUIDES else kind
-        single = tuple(analysis.of_one_cylinder.get(kind.name, 0.0) for analysis in analyses)
+        scale = _BEFORE.get(kind, kind).name
+        single = tuple(analysis.of_one_cylinder.get(scale, 0.0) for analysis in analyses)
         line = make_line(shown, order, values, single)
         free = kind.name in EVERY_KIND
         due = line.low if free else order is None or order % 1 == 0
@@ -305,7 +307,7 @@ def compare(
     if len(called) != len(checked):
         raise BalcliError(f"{len(called)} names for {len(checked)} engines; give one for each")
     if len(checked) < 2:
-        raise BalcliError("compare needs at least two engine files")
+        raise BalcliError("compare needs at least two engines")
     wanted = set(UNASKED) if only is None else set(list_words("only", only))
     without_gas = [engine for engine in checked if engine.gas is None]
     if only is None and not without_gas:
@@ -425,7 +427,10 @@ def _lay_out_kind(kind: Kind, lines: list[Line], result: Comparison, system: Sys
         columns.append(Column(name, [row[k] for row in cells]))
         if k > 0:
             columns.append(Column("ratio", [_show_ratio(line, k) for line in lines]))
-    return Grid(f"{capitalized(kind.label)}, {unit.name}: largest by order", columns)
+    title = f"{capitalized(kind.label)}, {unit.name}"
+    if any(line.order is not None for line in lines):
+        title += ": largest by order"
+    return Grid(title, columns)
 
 
 def _show_ratio(line: Line, k: int) -> str:

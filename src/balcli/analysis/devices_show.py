@@ -25,6 +25,11 @@ ANGLES = (
     "Angles count in the direction of rotation, clockwise seen from the free end (front). Angles "
     "of counterweights count from cylinder 1's crank pin, those of shafts from x."
 )
+_OF_ENGINES = (
+    "Angles of counterweights count from the pin of cylinder 1 of the engine that carries them, in "
+    "the direction in which that engine turns: anticlockwise, seen from the free end (front), if "
+    "it turns against the first. Angles of shafts count from x, in the direction of the first."
+)
 
 
 # ------------------------------------------------------------------ for people
@@ -58,7 +63,9 @@ def device_grid(remedy: Remedy, system: System) -> Grid:
             _length(device.position, length),
         )
         rows.append(cells)
-    return Grid.of_rows("", heads, rows, " ".join([ANGLES, *_explain_places(devices, free)]))
+    of_engines = any(isinstance(device, Counterweight) and device.engine for device in devices)
+    angles = _OF_ENGINES if of_engines else ANGLES
+    return Grid.of_rows("", heads, rows, " ".join([angles, *_explain_places(devices, free)]))
 
 
 def _tell_turns(device: DeviceTable) -> str:
@@ -162,15 +169,18 @@ def practical_grid(
             _disc_cell(figures.disc_thickness_mm, length),
         ]
         rows.append(row)
-    notes = ["Force: largest over a stroke." if remedy.sliders else "Force: centrifugal."]
+    notes = ["Force: centrifugal; of sliders, the largest over a stroke."]
+    if not remedy.sliders:
+        notes = ["Force: centrifugal."]
     if any(p.disc_mass_kg is not None for p in practical):
         notes.append("Disc: semicircular, of steel.")
     if tools.radius is not None:
         heads.append(Column(f"at radius, {mass.name}"))
         for row, figures in zip(rows, practical, strict=True):
             row.append(unit_cell(figures.mass_kg, mass))
-        place = "an amplitude" if remedy.sliders else "a radius"
-        notes.append(f"Mass: at {place} of {list_radii(practical, length)} in the last column.")
+        radii = list_radii(practical, length)
+        place = "a radius (of sliders, an amplitude)" if remedy.sliders else "a radius"
+        notes.append(f"Last column: mass at {place} of {radii}.")
     notes += _tell_misfits([misfit for misfit in misfits if not misfit.asked], length)
     return Grid.of_rows("Sizes of the weights", heads, rows, " ".join(notes))
 

@@ -282,9 +282,7 @@ class VerdictWords(NamedTuple):
     def write_compensated(self, compensated: Compensated) -> str:
         """Return sentences on an order with moment compensators."""
         system = self.system
-        sentences = []
-        if compensated.vertical_Nm is not None:
-            sentences.append(self._write_vertical(compensated, compensated.vertical_Nm))
+        sentences = [self._write_vertical(compensated)]
         if compensated.across_Nm and compensated.across_Nm > NEGLIGIBLE * self.scales.moment:
             left = size_text(compensated.across_Nm, system.moment)
             sentences.append(f"Moment left: up to {left} about x.")
@@ -293,8 +291,11 @@ class VerdictWords(NamedTuple):
             sentences.append(f"The engine's own force of this order is up to {most}.")
         return " ".join(sentences)
 
-    def _write_vertical(self, compensated: Compensated, vertical_Nm: float) -> str:
-        """Return a sentence on the vertical moment that compensators leave, and on their force."""
+    def _write_vertical(self, compensated: Compensated) -> str:
+        """Return a sentence on the vertical moment that compensators leave, unless moments were not
+        asked for, and on their force.
+        """
+        vertical_Nm = compensated.vertical_Nm
         unit = self.system.length
         where = join_words([f"z = {number(unit.of(z))} {unit.name}" for z in compensated.at_m])
         named = "compensators"
@@ -308,9 +309,11 @@ class VerdictWords(NamedTuple):
         force = "no force"
         if compensated.introduced_N:
             force = f"a force of {size_text(compensated.introduced_N, self.system.force)} by design"
+        order = name_order(compensated.order)
+        if vertical_Nm is None:
+            return f"{order}: the {named} at {where} {verb} {force}."
         return (
-            f"{name_order(compensated.order)}: vertical moment {left} the {named} at {where}; "
-            f"the {named} {verb} {force}."
+            f"{order}: vertical moment {left} the {named} at {where}; the {named} {verb} {force}."
         )
 
     # -------------------------------------------------------------- couple and roll
@@ -450,10 +453,17 @@ def tell_own_shafts(names: Sequence[str]) -> str:
     """
     if not names:
         return "comes from shafts of the file; balance these shafts"
-    quoted = join_words([name if name.startswith("shaft ") else f"'{name}'" for name in names])
+    quoted = join_words([_quote_shaft(name) for name in names])
     if len(names) > 1:
         return f"comes from shafts {quoted}; balance these shafts"
-    return f"comes from shaft {quoted.removeprefix('shaft ')}; balance that shaft"
+    return f"comes from shaft {quoted}; balance that shaft"
+
+
+def _quote_shaft(name: str) -> str:
+    """Return the number of a shaft without a name (`shaft 2`), or its name in quotes."""
+    if name.startswith("shaft "):
+        return name.removeprefix("shaft ")
+    return f"'{name}'"
 
 
 def name_cure(cure: Cure) -> str:

@@ -19,7 +19,7 @@ from .records import BalanceParts, CrankPart, ThrowPart, WebPart
 
 if TYPE_CHECKING:
     from ..engine.webs.build import CrankWeb
-    from ..show.units import System
+    from ..show.units import ShownUnit, System
     from ..sizing.remedy import FittedWeb
 
 
@@ -178,11 +178,14 @@ _THROWS_NOTE = (
 
 
 class WebRow(NamedTuple):
-    """Webs that are alike: their numbers, those of their throws, and one of them."""
+    """Webs that are alike: their numbers, those of their throws, one of them, and the crank angles
+    at which they have their clearance.
+    """
 
     webs: list[int]
     throws: list[int]
     part: WebPart
+    clearances_deg: list[float]
 
 
 def lay_out_webs(parts: BalanceParts, system: System) -> Iterator[Grid | Facts]:
@@ -205,7 +208,9 @@ def lay_out_webs(parts: BalanceParts, system: System) -> Iterator[Grid | Facts]:
 
 
 def group_webs(parts: Iterable[WebPart]) -> list[WebRow]:
-    """Return webs with equal figures as one row."""
+    """Return webs with equal figures as one row. Places and crank angles of the clearance may
+    differ.
+    """
     rows: dict[tuple[object, ...], WebRow] = {}
     for part in parts:
         alike = tuple(
@@ -213,9 +218,10 @@ def group_webs(parts: Iterable[WebPart]) -> list[WebRow]:
             for key, value in part._asdict().items()
             if key not in ("position_mm", "clearance_deg")
         )
-        row = rows.setdefault((part.table, *alike), WebRow([], [], part))
+        row = rows.setdefault((part.table, *alike), WebRow([], [], part, []))
         row.webs.append(part.web)
         row.throws.append(part.throw)
+        row.clearances_deg.append(part.clearance_deg or 0.0)
     return list(rows.values())
 
 
@@ -244,11 +250,7 @@ def _lay_out_webs(webs: Iterable[WebPart], system: System) -> Grid:
     ]
     radii = [row.part.outer_radius_m or row.part.swing_radius_m for row in rows]
     columns.append(Column(f"R, {length.name}", [_cell(r, length.size) for r in radii]))
-    clearances = []
-    for row in rows:
-        gap = row.part.clearance_m
-        place = "" if gap is None else f" at {number(row.part.clearance_deg or 0.0)} deg"
-        clearances.append(_cell(gap, length.size, digits_m=6) + place)
+    clearances = [_tell_clearance(row, length) for row in rows]
     columns.append(Column(f"clearance, {length.name}", clearances, words=True))
     if any(row.part.worst_kg_m is not None for row in rows):
         for label, key in (("worst ±", "worst_kg_m"), ("rss ±", "rss_kg_m")):
@@ -259,6 +261,16 @@ def _lay_out_webs(webs: Iterable[WebPart], system: System) -> Grid:
             columns.append(Column(f"{label}, {unbalance.name}", cells))
     shown = [column for column in columns if {*column.cells} != {UNKNOWN}]
     return Grid("Webs", shown, _WEBS_NOTE)
+
+
+def _tell_clearance(row: WebRow, length: ShownUnit) -> str:
+    """Return the clearance of a row of webs, with the crank angles at which they have it."""
+    gap = row.part.clearance_m
+    cell = _cell(gap, length.size, digits_m=6)
+    if gap is None:
+        return cell
+    angles = dict.fromkeys(number(angle) for angle in row.clearances_deg)
+    return f"{cell} at {' or '.join(angles)} deg"
 
 
 def _cell(value: float | None, size: float = 1.0, digits_m: int = 12) -> str:

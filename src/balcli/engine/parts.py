@@ -570,14 +570,21 @@ class Parts:
 
     def kind_of_rod(self, place: RodPlace) -> tuple[int, int, bool]:
         """Return a key that is the same for rods with the same figures: cylinder number (0 if the
-        cylinder has no figures of its own), throw (0 if all throws have one stroke), and whether
-        the rod is articulated.
+        cylinder has no figures of its own), throw (0 if no stroke differs, in [crank] or in a
+        table of a cylinder), and whether the rod is articulated.
         """
         number = place.number if place.number in self.tables else 0
         throw = 0
-        if isinstance(self.model.crank.stroke, tuple) and place.number:
+        if self._strokes_differ and place.number:
             throw = next(c.throw for c in self.plan.cells if c.number == place.number)
         return number, throw, place.articulated
+
+    @cached_property
+    def _strokes_differ(self) -> bool:
+        """Whether the file gives strokes of single throws or cylinders."""
+        if isinstance(self.model.crank.stroke, tuple):
+            return True
+        return any(self.override(number, "stroke") is not None for number in self.tables)
 
     def weigh_gear(self, place: RodPlace) -> RunningGear:
         """Return piston and rod of one cylinder; cylinders without figures of their own share one

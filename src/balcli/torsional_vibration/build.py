@@ -783,8 +783,12 @@ def _check_throws(torsion: Torsion, engine: Engine, throws: int) -> Iterator[Pro
     inertia = "throw_inertia", torsion.throw_inertia or (), throws, in_file
     for key, values, needed, also in (stiffness, inertia):
         if len(values) not in (0, 1, needed, also):
-            text = f"has {len(values)} values, but {counted(throws, 'throw')} need {needed}"
-            yield Problem(f"torsion.{key}", f"{text}; give one value for all, or {needed} values")
+            text = f"has {len(values)} values, but the crankshaft has {counted(throws, 'throw')}"
+            wanted = "give one value"
+            if needed > 1:
+                counts = str(needed) if also == needed else f"{needed} or {also}"
+                wanted = f"give one value for all, or {counts} values"
+            yield Problem(f"torsion.{key}", f"{text}; {wanted}")
     for number, each in enumerate(torsion.throw, 1):
         if each.throw > throws:
             text = f"is {each.throw}, but the crankshaft has {counted(throws, 'throw')}"

@@ -152,7 +152,8 @@ def compare_measured(system: TorsionalSystem, points: MeasuredPoints) -> Measure
 
 def _find_amplitudes(system: TorsionalSystem, points: MeasuredPoints) -> Real:
     """Return the computed amplitude of the free end at each point, deg, shape (points,). It is 0
-    for an order that nothing excites.
+    for an order that nothing excites. Torques whose phase is not known are left out: the worst
+    phase is no measurement.
     """
     amplitudes = np.zeros(len(points.orders))
     torques = () if system.excitation is None else system.excitation.further

@@ -26,7 +26,7 @@ _WHOLE = 1e-9  # twice an order is whole if it is this close to a whole number
 def find_mistakes(
     torsion: Torsion, nodes: Sequence[str], *, has_gas: bool, has_speed: bool
 ) -> Iterator[Problem]:
-    """Yield the mistakes of torques and of limits by the mean torque.
+    """Yield the mistakes of [[torsion.excitation]].
 
     Args:
         torsion: Table [torsion].

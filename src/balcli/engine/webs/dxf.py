@@ -8,6 +8,7 @@ code 70 marks a closed polyline (Autodesk, "DXF Reference").
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import pairwise
 from pathlib import Path
 from typing import NamedTuple
 
@@ -72,11 +73,11 @@ def _find_scale(name: str, pairs: list[tuple[int, str]]) -> float:
     """Return the millimetres in a unit of the drawing; `name`: name of the file, for messages.
 
     Raises:
-        ValueError: $INSUNITS is no number.
+        ValueError: $INSUNITS is no number, or the file ends after it.
     """
-    for place, pair in enumerate(pairs):
+    for pair, (_, text) in pairwise(pairs):
         if pair == (9, "$INSUNITS"):
-            unit = int(pairs[place + 1][1])
+            unit = int(text)
             if unit not in _IN_MM:
                 told = f"{name}: $INSUNITS is {unit}; draw in millimetres (4) or inches (1)"
                 raise BalcliError(told)
