@@ -92,6 +92,23 @@ def test_weight_is_a_sector_from_the_hub():
         assert_allclose(added.polar, half / 2 * (radius**4 - 32.5**4))
 
 
+@pytest.mark.parametrize("angle", [150, 180, 215])
+def test_a_weight_up_to_the_tangent_is_the_limit_of_smaller_ones(angle):
+    """At the largest opening, an edge of the sector is on the tangent of the cheek."""
+    cheek = Cheek(38, 32, 42)
+    most = cheek.find_largest_opening(angle)
+    assert most > 0
+    whole = find_moments(cheek.draw(Sector(55, most, angle)))
+    alone = find_moments(cheek.draw())
+    opening = math.radians(most)
+    assert_allclose(whole.area - alone.area, opening * (55**2 - 38**2) / 2, rtol=1e-9)
+    middle = cmath.exp(1j * math.radians(angle))
+    first = 2 / 3 * (55**3 - 38**3) * math.sin(opening / 2) * middle
+    assert abs(whole.first - alone.first - first) < 1e-9 * abs(first)
+    almost = find_moments(cheek.draw(Sector(55, most - 1e-5, angle)))
+    assert_allclose(almost.area, whole.area, rtol=1e-6)
+
+
 def test_largest_opening_touches_the_tangent():
     cheek = Cheek(32.5, 26.5, 44)
     most = cheek.find_largest_opening()

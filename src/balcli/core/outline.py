@@ -320,6 +320,8 @@ class Cheek(NamedTuple):
         for start, end, radius in bounds:
             if end - start > _ROUNDING * 360:
                 outline += _draw_arc(0.0, radius, start, end)
+            elif radius == self.hub:  # the sector begins or ends at the tangent: only a point
+                outline.append(_place(radius, start))
         return _join(outline)
 
 
@@ -341,6 +343,12 @@ def _draw_arc(centre: float, radius: float, start: float, end: float) -> list[Ve
         x = centre + radius * turn.real
         vertices.append(Vertex(x, radius * turn.imag, bulge if k < parts else 0.0))
     return vertices
+
+
+def _place(radius: float, angle: float) -> Vertex:
+    """Return a vertex around the origin; `angle`: its direction, deg."""
+    turn = find_direction(angle)
+    return Vertex(radius * turn.real, radius * turn.imag)
 
 
 def find_direction(degrees: float) -> complex:
