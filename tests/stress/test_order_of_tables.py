@@ -96,6 +96,8 @@ def answer(tables: dict[str, Any], chapter: str, folder) -> dict[str, Any]:
     for mode in found["modes"] if nodes else ():
         mode["shape"] = dict(zip(nodes, mode["shape"], strict=True))
         mode["node_in"].sort()
+    for shaft in found.get("response", {}).get("shafts", ()):
+        del shaft["mean_Nm"]  # flows to the last part behind the throws, whatever its name
     return list_figures(found)
 
 

@@ -335,9 +335,9 @@ def fit_webs(
         TypeError: An argument has the wrong type.
 
     Example:
-        >>> tables = load_example("i4_webs").to_dict()
-        >>> tables["web"][0]["opening"] = "fit"
-        >>> fit_webs(tables).parts.webs[0].opening_deg
+        >>> file = load_example("i4_webs").to_dict()
+        >>> file["web"][0]["opening"] = "fit"
+        >>> fit_webs(file).after.peak.moment.value
     """
     check_type("fit_webs", scheme, str, 'give "factor", "step" or "counterweights"')
     check_type("fit_webs", options, (SchemeOptions, NoneType), "give SchemeOptions(factor=(0.5,))")

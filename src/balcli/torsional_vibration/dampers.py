@@ -193,6 +193,7 @@ def size_damper(
     measure, unit = ("stress", "Pa") if any(bare.stress_by_torque) else ("torque", "Nm")
     before = judge(None)
     after = judge(damper)
+    tell(1.0)
     figures: dict[str, Any] = {f"before_{unit}": before, f"after_{unit}": after}
     for key, value in damper.model_dump(exclude={"kind"}, exclude_none=True).items():
         name, size, _ = DAMPER_KEYS[key]
