@@ -289,7 +289,16 @@ def test_m68_allows_ranges_near_the_rated_speed_with_a_misfire_only(silent, verd
     assert (limit.reason is None) == (verdict == "barred")
 
 
-# ------------------------------------------------------------------ mistakes
+# ------------------------------------------------------------------ doubts and mistakes
+@pytest.mark.parametrize(("inertia", "doubted"), [(3, True), (3.8, False), ("3 kg m^2", False)])
+def test_a_tiny_part_is_doubted(tmp_path, inertia, doubted):
+    """The lightest throw has 0.0327 kg m2: a ten-thousandth is 3.27 kg mm2."""
+    part = f'[[torsion.rear]]\nname = "propeller"\ninertia = {inertia!r}\nstiffness = 4e5\n'.replace("'", '"')
+    done = run_here("torsion", write(tmp_path / "e.toml", write_diesel() + part))
+    told = "torsion.rear.2.inertia: 3 kg mm^2, beside 3.27e+04 kg mm^2 of a throw; is it in kg mm^2?"
+    assert (told in done.err) is doubted
+
+
 @pytest.mark.parametrize(
     ("more", "told"),
     [

@@ -105,7 +105,7 @@ class Web(FileTable):
     """Angle of the middle of the counterweight from the web's own crank pin; with an opening or
     outer radius that is "fit", a left out angle is found as well. Example: 180"""
     profile: Annotated[str, FileName()] | None = None
-    """DXF file with the outline, instead of hub, boss and counterweight. Example: 'web.dxf'"""
+    """A DXF file with the outline, instead of hub, boss and counterweight. Example: 'web.dxf'"""
     mass: Mass | None = None
     """Mass of the web from CAD or scales, with cg, instead of any shape. Example: 1.94"""
     cg: Place | None = None

@@ -42,6 +42,7 @@ from ..file.torsion_tables import (
     find_shaft_inertia,
     find_stiffness,
 )
+from ..file.units import ask_unit
 from ..forces.crankshaft import find_shear_stress
 from ..forces.spectrum import compute_spectra, follow_gas, list_gas_orders
 from ..limits import HIGHEST_TORSION_ORDER_UNASKED
@@ -72,6 +73,7 @@ from .throw_stiffness import (
 
 NO_DAMPERS: Mapping[str, Damper | None] = MappingProxyType({})
 _LIGHT = 0.05  # negligible inertia of a shaft, as a share of the smaller inertia at its ends
+_TINY = 1e-4  # inertia of a part over that of a throw, below which its unit is doubted
 _MOST_NAMED = 4  # largest number of shafts that a message names
 _MESH = ShaftKeys.model_construct(stiffness=math.inf)
 
@@ -496,12 +498,7 @@ def build_engine_system(
     gears = dict.fromkeys(throws, 1.0)
     for _, part, of in led:
         gears[part.name] = gears[of] if part.gear is None else part.gear
-    leading = []  # the shaft from a part's neighbour to the part; stiffness at the part's speed
-    for path, part, of in joints:
-        ratio = gears[part.name] / gears[of]
-        shaft = PlannedShaft(part.name, place[of], place[part.name], part, ratio)
-        known = part.stiffness is not None
-        leading.append(shaft._replace(path=f"{path}.stiffness") if known else shaft)
+    leading = list(_plan_part_shafts(joints, place, gears))
     size = find_throw_size(model, engine)
     throw = find_throw_stiffness(torsion, size, np.arange(front, front + len(throws) - 1))
     assumed = engine.list_assumed("gas", "torsion", without=(*STEADY, "operation.speed")) or ()
@@ -530,7 +527,7 @@ def build_engine_system(
     rated_rpm = model.operation.speed if own_speed else None
     torques = tuple(node_torques.make_torques(torsion, place, gears, means, rated_rpm))
     phased = [torque for torque in torques if torque.turn is not None]
-    return assemble_system(
+    system = assemble_system(
         nodes,
         shafts,
         torsion,
@@ -547,6 +544,45 @@ def build_engine_system(
         assumed=assumed,
         file=name,
     )
+    of_throws = system.chain.inertia[front : front + len(throws)]
+    doubts = _doubt_inertias(joints, gears, float(of_throws.min()))
+    return replace(system, doubts=(*system.doubts, *doubts))
+
+
+def _plan_part_shafts(
+    joints: Iterable[_Joint], place: Mapping[str, int], gears: Mapping[str, float]
+) -> Iterator[PlannedShaft]:
+    """Yield the shaft from each part's neighbour to the part; its stiffness is that at the part's
+    speed.
+
+    Args:
+        joints: Parts and their paths.
+        place: Index of each node, by its name.
+        gears: Speed of each node over crank speed, by its name.
+    """
+    for path, part, of in joints:
+        ratio = gears[part.name] / gears[of]
+        given = f"{path}.stiffness" if part.stiffness is not None else ""
+        yield PlannedShaft(part.name, place[of], place[part.name], part, ratio, given)
+
+
+def _doubt_inertias(
+    joints: Iterable[_Joint], gears: Mapping[str, float], of_throw: float
+) -> Iterator[Doubt]:
+    """Yield warnings of parts whose inertia is tiny beside that of a throw, as if it were in kg m2.
+
+    Args:
+        joints: Parts and their paths.
+        gears: Speed of each node over crank speed, by its name.
+        of_throw: Smallest inertia of a throw, kg m2.
+    """
+    for path, part, _ in joints:
+        inertia = part.inertia or 0.0
+        at_crank = inertia / 1e6 * gears[part.name] ** 2
+        if 0 < at_crank < _TINY * of_throw:
+            size = f"{inertia:.4g} kg mm^2, beside {1e6 * of_throw:.4g} kg mm^2 of a throw"
+            question = ask_unit("kg mm^2", f"{inertia:.4g} kg m^2")
+            yield Doubt(f"{path}.inertia", f"{size}; {question}")
 
 
 def _make_section(torsion: Torsion, size: ThrowSize | None) -> ShaftKeys:

@@ -390,9 +390,9 @@ def _show_excitation(result: TorsionAnalysis, system: System) -> Grid:
         rows.append(row)
     title = f"Torque on one node at {number(rpm)} rpm"
     note = (
-        "Gas and inertia torque of a cylinder, or a torque of the file; of different ones, the "
-        "largest. Phase sum: sum over all torques of an order, each times the angle of its node, "
-        "divided by the largest."
+        "Gas and inertia torque of a cylinder, or a torque of a chain file; of different ones, the "
+        "largest. Phase sum: sum over these torques of an order, each times the angle of its node, "
+        "divided by the largest. Critical speeds count torques on nodes as well."
     )
     return Grid.of_rows(title, heads, rows, note)
 
