@@ -242,6 +242,19 @@ def test_play_and_pause_by_keyboard(show):
 
 
 @live
+def test_charts_have_their_usual_width_on_paper(show):
+    """Their width in the window is another one; what they say is cut if it is narrow."""
+    page = show()
+    width = "document.querySelector('#bars svg').viewBox.baseVal.width"
+    in_window = page.run(width)
+    assert in_window != 520
+    page.run("dispatchEvent(new Event('beforeprint'))")
+    assert page.run(width) == 520
+    page.run("dispatchEvent(new Event('afterprint'))")
+    assert page.run(width) == in_window
+
+
+@live
 def test_light_and_dark_and_in_print(show):
     paper = "getComputedStyle(document.body).backgroundColor"
     white = "rgb(255, 255, 255)"

@@ -30,7 +30,11 @@ const Charts = (() => {
   // Widths are measured once: a browser that is asked for one lays out the whole page first.
   let widths = new WeakMap();
   const forgetWidths = () => { widths = new WeakMap(); };
+  // Paper has a width of its own, which cannot be measured beforehand: charts have their usual width there.
+  let isOnPaper = false;
+  const drawForPaper = (value) => { isOnPaper = value; };
   function widthOf(svg, usual) {
+    if (isOnPaper) return usual;
     if (!widths.has(svg)) widths.set(svg, svg.clientWidth || usual);
     return widths.get(svg);
   }
@@ -392,7 +396,7 @@ const Charts = (() => {
   const nameEngine = () => document.querySelector("h1").textContent.replace(/[^\w-]+/g, "_").slice(0, 40);
 
   return {
-    ROW, forgetWidths, element, vectorAt, tracePath,
+    ROW, forgetWidths, drawForPaper, element, vectorAt, tracePath,
     drawBars, drawPath, drawCurves, drawStar, addTools, writeSvg, writeCsv, savePng,
   };
 })();

@@ -654,15 +654,26 @@ const Page = (() => {
     addToCurve("about", listAboutRows);
     for (const curve of fileCurves) addToCurve(curve.id, () => listFileRows(curve));
   }
+  function drawAgain() {
+    drawFileCurves();
+    show(figures, { scene, changed, atOnce: true });
+  }
   function followWidth() {
     let width = innerWidth;
     addEventListener("resize", () => {
       if (innerWidth === width) return;
       width = innerWidth;
       Charts.forgetWidths();
-      drawFileCurves();
-      show(figures, { scene, changed, atOnce: true });
+      drawAgain();
     });
+  }
+  function followPaper() {
+    for (const [event, isOnPaper] of [["beforeprint", true], ["afterprint", false]]) {
+      addEventListener(event, () => {
+        Charts.drawForPaper(isOnPaper);
+        drawAgain();
+      });
+    }
   }
   function start() {
     addTools();
@@ -678,6 +689,7 @@ const Page = (() => {
       document.addEventListener("step", writeStep);
     }
     followWidth();
+    followPaper();
   }
   const listValues = () => [...listChoices().map((_, k) => valueOf(k)), ...listStale().map(() => "scheme")];
 
