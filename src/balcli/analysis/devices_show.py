@@ -80,7 +80,9 @@ def _tell_turns(device: DeviceTable) -> str:
 
 
 def _tell_angle(device: DeviceTable) -> str:
-    """Return the angle of a device, and what it counts from unless that is x."""
+    """Return the angle of a device; of a counterweight also what it counts from, of a slider the
+    direction of its path.
+    """
     angle = degrees(device.angle)
     match device:
         case Counterweight():

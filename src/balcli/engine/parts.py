@@ -276,7 +276,7 @@ class Places(NamedTuple):
         z: Position of each cylinder, by its number.
         throws: Position of each throw, in the middle of its rods, shape (throws, *trailing).
         pins: Position of each throw as [crank] gives it, or the middle of its rods if [crank] gives
-            no positions, shape (throws, *trailing).
+            none but 0, shape (throws, *trailing).
         reference: x, y, z of the point about which moments are taken: the point of the file, or the
             point on the crank axis half-way between the outermost throws.
     """

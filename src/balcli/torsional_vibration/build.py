@@ -292,7 +292,7 @@ def build_chain(
         file: Tables of the file.
         name: Name of the file, for messages.
         orders: Orders of the excitation to use, shape (orders,); None: all.
-        fitted: Dampers by node name; they replace those in the file.
+        fitted: Dampers by the name of their node, as for `assemble_system`.
 
     Raises:
         InputError: A node has no shaft, gears lock each other, or no node can turn.
@@ -407,7 +407,10 @@ def _find_faults(system: TorsionalSystem, paths: Sequence[str]) -> Iterator[Prob
     if system.angle_limit is not None and still[0]:
         text = f"applies to the first node, and {shorten(names[0])} is fixed; leave it out"
         yield Problem("angle_limit", f"{text}, or begin the chain with the node that it limits")
-    for piece in [] if apart else [motion != 0 for motion in rigid_motions(chain)] or [~still]:
+    if apart:
+        return
+    turning = [motion != 0 for motion in rigid_motions(chain)]
+    for piece in turning or [~still]:  # of a clamped chain, all nodes that can move
         if not np.any(chain.inertia[piece]):
             path = f"node.{np.argmax(piece) + 1}.inertia"
             yield Problem.of_missing(path, "no node that turns with this node has an inertia")
@@ -470,7 +473,7 @@ def build_engine_system(
         engine: Engine of this file.
         excitation: Torques of its cylinders, from `excite_engine`.
         name: Name of the file, for messages.
-        fitted: Dampers by part name; they replace those in the file.
+        fitted: Dampers by the name of their node, as for `assemble_system`.
 
     Raises:
         InputError: [torsion] contradicts itself; the error lists each contradiction by its path.

@@ -51,7 +51,7 @@ class Columns:
 
     def find(self, rpm: Real, which: Indices) -> Real:
         """Return values at speeds (places,), each of the column in `which`, by sums over poles
-        where these exist. They may have less digits than those of `find_exactly`.
+        where these exist. They may have fewer digits than those of `find_exactly`.
         """
         values = np.zeros(len(rpm))
         summed = self._spanned[which]

@@ -88,7 +88,7 @@ class MeanTorques:
         """Mean torque of each cylinder, N m, shape (cylinders,), or the gas that depends on the
         speed.
         """
-        engine = replace(self.engine, ripple=(), speed_rpm=1 / RPM)  # 1 rad/s
+        engine = replace(self.engine, ripple=(), speed_rpm=1 / RPM)  # means depend on no speed
         if engine.gas is not None and engine.gas.nodes_rpm:
             return follow_gas(engine, _find_means)
         return np.asarray(_find_means(engine)[0].real)

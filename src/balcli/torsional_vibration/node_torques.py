@@ -85,6 +85,7 @@ def make_torques(
         gear = gears[entry.node]
         order = entry.order * abs(gear)
         halves = round(2 * order)
+        # Cylinders have only half orders; a torque of another order has no phase to them.
         is_order = halves > 0 and abs(2 * order - halves) <= _WHOLE * halves
         if is_order:
             order = halves / 2

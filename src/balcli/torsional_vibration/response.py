@@ -25,7 +25,7 @@ from .motion import compute_curves, compute_in_parts, refuse_unbounded
 from .poles import find_poles
 from .system import TorsionalSystem
 
-_ABOUT = np.array([[-0.5], [0], [0.5]])  # offsets of added speeds, divided by the resonance's width
+_ABOUT = np.array([[-0.5], [0], [0.5]])  # offsets of added speeds, in widths of the resonance
 # Resonances wider than this number of steps between given speeds need no added speeds: one of the
 # given speeds has at least 95 % of the peak.
 _WIDE = 3.0
@@ -51,9 +51,10 @@ def find_largest(
     Args:
         system: System with an excitation.
         rpm: Rising speeds, shape (speeds,).
-        weights: Factors of the first columns; columns whose factor is 0 or missing are skipped.
-            Default: 1 for all.
-        together: Whether only the highest of all columns is needed, which takes less time.
+        weights: Factors of the first columns, by which values are multiplied; columns whose factor
+            is 0 or missing are skipped, and their values are 0. Default: 1 for all.
+        together: Whether only the highest of all columns is needed, which takes less time; values
+            of other columns may then be too small.
         known: Values of all columns at these speeds, shape (speeds, columns), if they are known.
 
     Raises:

@@ -196,7 +196,8 @@ class TorsionalSystem:
             excitation, too.
         means: Mean torques of shafts; None: they are not known.
         unknown_stress: Indices of shafts with a stress limit, but without a diameter.
-        limits: Limits of stress and torque, in the order of the shafts, stress first.
+        limits: Limits of stress and torque, in the order of the shafts, stress first; then that of
+            the free end's swing.
         angle_limit: Half swing of the free end, rad, above which a speed is barred.
         last: Index of the last node that is not a rubber ring.
         ends: Indices of the nodes at the free end and at the rear end, without branches.

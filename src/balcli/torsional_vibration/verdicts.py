@@ -54,7 +54,7 @@ class LimitVerdict:
         verdict: Passes: nothing exceeds the limit; barred: it is exceeded in the listed ranges;
             fails: a rule allows no such ranges.
         reason: Why a shaft fails or is not checked; left out otherwise.
-        share: Largest value divided by the limit.
+        share: Largest ratio of a value to the limit at its speed.
         speed_rpm: Speed of the largest share.
         value_Pa: Stress at that speed.
         value_Nm: Torque at that speed.

@@ -80,7 +80,9 @@ def list_intervals_of_crank(parts: Parts) -> list[Intervals]:
 
 
 def _rank_intervals(intervals: Intervals) -> tuple[bool, int]:
-    """Return a key that puts intervals that begin with 0 first."""
+    """Return a key: intervals that begin with 0 come first; then those with the shortest run of
+    cylinders that fire together.
+    """
     return (intervals[0] > 0, _count_most_together(intervals))
 
 

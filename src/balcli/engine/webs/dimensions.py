@@ -1,5 +1,4 @@
-"""Compute mass, unbalance and inertia of a web as functions of its dimensions, by closed forms. The
-crank pin keeps its density.
+"""Compute mass, unbalance and inertia of a web as functions of its dimensions, by closed forms.
 
 A plate of the thickness t and the density rho has the counterweight as a sector from the hub's
 radius h to the outer radius R with the opening q. The sector has the area `q (R^2 - h^2)/2`, the
