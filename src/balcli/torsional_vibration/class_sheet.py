@@ -18,9 +18,11 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.phases import RPM
+from ..engine.engine import Engine
 from ..errors import ArgumentError
 from ..file.fields import counted
 from ..process import Tell, tell_nobody
+from ..show.engine_facts import engine_facts
 from ..show.notebook import write_block
 from ..show.plot_style import inline_svg, save_figure
 from ..show.sheet import (
@@ -138,12 +140,12 @@ def write_sheet(cases: Cases, source: Source, file: SheetFile, system: System) -
         '<meta name="viewport" content="width=device-width, initial-scale=1">',
         f"<title>{escape(name)}: torsional vibration</title>",
         f"<style>\n{_STYLE.read_text(encoding='utf-8')}</style></head>",
-        "<body>",
+        "<body><main>",
         f"<h1>{escape(name)}: torsional vibration calculation</h1>",
         _write_summary(cases),
         *map(_write_section, sections),
         '<div class="signed"><span>calculated</span><span>checked</span><span>date</span></div>',
-        "</body></html>",
+        "</main></body></html>",
     ]
     return "\n".join(lines)
 
@@ -152,8 +154,10 @@ def _write_section(section: Section) -> str:
     """Return a section; one without content says so."""
     blocks = []
     for part in section.parts:
-        kind = "facts" if isinstance(part, Facts) else "wide"
-        blocks.append(f'<div class="{kind}">{write_block(part)}</div>')
+        kind = 'class="facts"'
+        if not isinstance(part, Facts):
+            kind = 'class="wide" tabindex="0"'  # keys scroll a table that is too wide
+        blocks.append(f"<div {kind}>{write_block(part)}</div>")
     blocks += [f"<figure>{picture}</figure>" for picture in section.pictures]
     body = "\n".join(blocks)
     return f'<section id="{section.key}">\n<h2>{escape(section.title)}</h2>\n{body}\n</section>'
@@ -204,7 +208,7 @@ def _list_sections(
 ) -> Iterator[Section]:
     """Yield the sections in their order."""
     firing = cases.firing
-    yield Section("inputs", "Inputs", [_show_inputs(firing, source, file)])
+    yield Section("inputs", "Inputs", [_show_inputs(firing, source, file, system)])
     nodes = _show_nodes(firing, system)
     yield Section("mass-elastic", "Mass-elastic system", [nodes, _show_shafts(firing, system)])
     yield Section("throw", "Throw stiffness", [_show_throw(firing, system)])
@@ -236,8 +240,8 @@ def _say(line: str) -> Text:
 
 
 # ------------------------------------------------------------------ inputs and system
-def _show_inputs(result: TorsionAnalysis, source: Source, file: SheetFile) -> Facts:
-    """Return where the figures come from."""
+def _show_inputs(result: TorsionAnalysis, source: Source, file: SheetFile, system: System) -> Facts:
+    """Return where the figures come from, and the engine."""
     engine = source.engine
     speeds = result.response.speeds_rpm
     span = f"{number(float(speeds[0]))} to {number(float(speeds[-1]))} rpm"
@@ -249,6 +253,9 @@ def _show_inputs(result: TorsionAnalysis, source: Source, file: SheetFile) -> Fa
         ("calculated with", f"balcli {__version__}, {date.today().isoformat()}"),
         ("speeds", f"{span}, {counted(len(speeds), 'speed')} given; peaks between them are found"),
     ]
+    if engine is not None:
+        pairs += _describe_engine(engine, system)
+        pairs += _tell_power(result, system)
     if result.system.rated_rpm:
         pairs.append(("rated speed", f"{number(result.system.rated_rpm)} rpm"))
     orders = [order_name(order) for order in result.orders]
@@ -257,6 +264,24 @@ def _show_inputs(result: TorsionAnalysis, source: Source, file: SheetFile) -> Fa
     warnings = [str(doubt) for doubt in (*source.doubts, *result.doubts)]
     pairs.append(("warnings", "; ".join(warnings) or "none"))
     return Facts(tuple(pairs))
+
+
+def _describe_engine(engine: Engine, system: System) -> Iterator[tuple[str, str]]:
+    """Yield cylinders, crank, firing and masses; speed and assumed values stand elsewhere."""
+    for name, text in engine_facts(engine, system, whole=False).pairs:
+        if name not in ("speed", "assumed"):
+            yield name, text
+
+
+def _tell_power(result: TorsionAnalysis, system: System) -> Iterator[tuple[str, str]]:
+    """Yield mean torque and power of an engine with gas at its rated speed."""
+    means = result.system.means
+    rpm = result.system.rated_rpm
+    if means is None or rpm is None:
+        return
+    torque = float(means.find_total(np.array(rpm)))
+    power = size_text(torque * rpm * RPM, system.power)
+    yield "indicated", f"{size_text(torque, system.moment)} on average, {power}"
 
 
 def _show_nodes(result: TorsionAnalysis, system: System) -> Grid:
