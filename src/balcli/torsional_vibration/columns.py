@@ -22,8 +22,7 @@ class Columns:
 
     def __init__(self, system: TorsionalSystem) -> None:
         curves = len(system.shafts) + 1 + len(system.pendulums)
-        rubber = len(system.nodes) - 1 - system.last
-        self.count = curves + len(system.rings) + rubber
+        self.count = curves + len(system.rings) + system.rubber_rings
         self._system = system
         self._curves = curves
         self._sum = expand_in_poles(system)

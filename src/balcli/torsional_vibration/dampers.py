@@ -299,7 +299,7 @@ def _find_hardest(system: TorsionalSystem, speeds: Real) -> tuple[int, float, fl
         system: System with an excitation.
         speeds: Rising speeds, rpm, shape (speeds,).
     """
-    rings = len(system.nodes) - 1 - system.last
+    rings = system.rubber_rings
     stress = system.stress_by_torque
     weights = (stress if any(stress) else np.ones(len(stress)))[: len(stress) - rings]
     rpm, value = find_largest(system, speeds, weights, together=True)

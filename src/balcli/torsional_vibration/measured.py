@@ -26,9 +26,9 @@ from .motion import compute_curves
 from .system import Excitation, TorsionalSystem
 
 _HEADS = (
-    Head("speed_rpm", SPEED, symbols="n|rpm"),
+    Head("speed_rpm", SPEED),
     Head("order"),
-    Head("amplitude_deg", ANGLE, symbols="amp|angle"),
+    Head("amplitude_deg", ANGLE),
 )
 
 

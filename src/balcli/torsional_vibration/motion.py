@@ -299,7 +299,7 @@ def _find_heat(system: TorsionalSystem, w: Real, angle: Complex, torque: Complex
     nodes, inertia, damping = np.array(system.rings, float).reshape(-1, 3).T
     ring = viscous_inertia(inertia, damping, w[..., None])
     oil = -(w[..., None] ** 3) * ring.imag * np.abs(angle[..., nodes.astype(int)]) ** 2
-    first = len(system.shafts) - (len(system.nodes) - 1 - system.last)
+    first = len(system.shafts) - system.rubber_rings
     loss = system.damping.loss[first:]
     stiffness = system.chain.stiffness[first:]
     softness = loss / (stiffness * (1 + loss**2))

@@ -264,9 +264,14 @@ class TorsionalSystem:
         return self.excitation
 
     @property
+    def rubber_rings(self) -> int:
+        """Number of rubber rings, which are the last nodes and hang on the last shafts."""
+        return len(self.nodes) - 1 - self.last
+
+    @property
     def checkable(self) -> frozenset[int]:
         """Indices of the shafts that a limit may judge: elastic, and not the rubber of a ring."""
-        first_ring = len(self.shafts) - (len(self.nodes) - 1 - self.last)
+        first_ring = len(self.shafts) - self.rubber_rings
         elastic = np.flatnonzero(np.isfinite(self.chain.stiffness)).tolist()
         return frozenset(shaft for shaft in elastic if shaft < first_ring)
 
