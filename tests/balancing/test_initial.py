@@ -6,30 +6,13 @@ import math
 import pytest
 from numpy.testing import assert_allclose
 from support.commands import ask, ask_csv, ask_json, run_here
+from support.engines import TWIN
 
 from balcli import Tools, balance, load
 from balcli.balancing.initial import find_initial
 from balcli.errors import NotComputedError
 from balcli.sizing.remedy import Remedy
 
-TWIN = """
-[crank]
-stroke = 82
-throws = [0, 180]
-spacing = 96
-[rod]
-length = 142
-mass = 0.58
-cg = 40
-[piston]
-bore = 84
-mass = 0.47
-[operation]
-speed = 6800
-[bearing]
-pin_diameter = 46
-pin_length = 28
-"""
 SHAPE = "hub = 62\nboss = 54\nouter_radius = 74\nopening = 96\n"
 TOLERANT = f'[[web]]\nthickness = 21\n{SHAPE}tolerance = {{ outer_radius = 0.3, density = "0.4%" }}\n'
 EXACT = f"[[web]]\nwebs = [3]\nthickness = 18\n{SHAPE}"
@@ -124,6 +107,24 @@ def test_holes_that_do_not_suffice_for_the_weights_are_counted(file):
     assert done.status == 2
     planes = json.loads(done.out)["initial"]["planes"]
     assert_allclose([plane["capacity_kg_m"] for plane in planes], 2 * HOLE, rtol=1e-12)
+
+
+@pytest.mark.parametrize(("z", "width", "wide"), [(-0.06, 20.9, 0), (-0.06, 21.1, 21), (0.03, 20, 18)])
+def test_holes_wider_than_the_web_are_noted(file, z, width, wide):
+    """The web nearest to the plane counts: web 3, nearest to 30 mm, has 18 mm, the others have 21 mm."""
+    asked = ("--factor", "50%", f"--planes={1e3 * z:g},80", "--drill", 11, "--max-depth", 9, "--radius", 74)
+    text = " ".join(run_here("balance", file, *asked, "--width", width).out.split())
+    capacity = f"in {width:g} mm along the crank"
+    told = f", wider than the web there, which is {wide} mm thick" if wide else ""
+    assert f"{capacity}{told}." in text
+
+
+@pytest.mark.parametrize(("share", "warned"), [(0.99, True), (1.01, False)])
+def test_a_mass_below_that_of_webs_and_pins_is_doubted(file, share, warned):
+    mass = share * load(file).webs.mass
+    done = run_here("balance", file, "--factor", "50%", "--grade", "G16", "--mass", f"{mass:.5f}")
+    told = "kg of webs and crank pins; give the mass of the whole crankshaft"
+    assert (told in done.err) is warned
 
 
 def test_card_and_csv_have_what_a_machine_needs(file):

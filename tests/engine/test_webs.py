@@ -352,3 +352,29 @@ def test_planes_of_the_webs_halve_the_weights_at_every_throw(tmp_path):
 def test_planes_of_webs_need_webs():
     with pytest.raises(ArgumentError, match="webs: the file has no"):
         balance(load({**FOUR}), "auto", SchemeOptions(planes="webs"))
+
+
+@pytest.mark.parametrize(
+    ("places", "width", "told"),
+    [
+        ([-181, 0, 181], 15, None),
+        ([-180.9, 0, 181], 15, "web 1 (z = -173.5 to -153 mm) overlaps the main bearing at -180.9 mm, 15 mm wide"),
+        ([-181, 0, 180], 15, "web 8 (z = 153 to 173.5 mm) overlaps the main bearing at 180 mm, 15 mm wide"),
+        ([-173.4, 0, 181], None, "overlaps the main bearing at -173.4 mm; check thickness, main_positions"),
+        ([-174, 0, 181], None, None),
+    ],
+)
+def test_webs_within_main_bearings_are_doubted(places, width, told):
+    bearing = FOUR["bearing"] | {"main_positions": places}
+    sizes = {"main_diameter": 60, "main_width": width} if width else {}
+    doubts = [doubt for doubt in find_parts(WEB, bearing=bearing | sizes).doubts if "overlap" in doubt.message]
+    assert [doubt.path for doubt in doubts] == ["web.1.thickness"] * (told is not None)
+    assert all(told in doubt.message for doubt in doubts)
+
+
+@pytest.mark.parametrize(("width", "doubted"), [(24.9, False), (25.1, True)])
+def test_webs_leave_room_for_bearings_between_throws(width, doubted):
+    """Bearings without positions are half-way between throws."""
+    bearing = FOUR["bearing"] | {"main_diameter": 60, "main_width": width}
+    told = "thicker webs of neighbouring throws overlap the main bearing between them"
+    assert any(told in doubt.message for doubt in find_parts(WEB, bearing=bearing).doubts) is doubted

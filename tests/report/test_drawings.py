@@ -8,32 +8,12 @@ import pytest
 from numpy.testing import assert_allclose
 from shapely.geometry import Polygon
 from support.commands import ask, run_here
+from support.engines import TWIN
 
 from balcli import analyze, load, plot
 from balcli.errors import ArgumentError
 
 SKEW = "hub = 62\nboss = 54\nouter_radius = 74\nopening = 96\nangle = 187\n"
-TWIN = """
-[crank]
-stroke = 82
-throws = [0, 180]
-spacing = 96
-[rod]
-length = 142
-mass = 0.58
-cg = 40
-[piston]
-bore = 84
-mass = 0.47
-skirt = 24
-[operation]
-speed = 6800
-[frame]
-crankcase = 80
-[bearing]
-pin_diameter = 46
-pin_length = 28
-"""
 HOLES = "holes = [{ x = 41, diameter = 15 }, { x = -58, y = 12, diameter = 16, density = 17 }]\n"
 WEB = f"[[web]]\nthickness = 21\n{SKEW}{HOLES}clearance = 1\n"
 WEIGHED = "[[web]]\nwebs = [2, 3]\nthickness = 18\nmass = 1.4\ncg = [-9, 0.2]\n"

@@ -228,6 +228,10 @@ def test_no_room_at_all():
 SHORT = WEB | {"opening": "fit", "outer_radius": 58}
 
 
+# A slug of 29 mm reaches both edges of a counterweight of 20 degrees.
+NARROW = {"web": {"outer_radius": "fit", "opening": 20}, "rod": {"length": 190}, "piston": {"skirt": 1}}
+
+
 def find_cures(web=SHORT, **more):
     cures = solve(web, **more).remedy.webs[0].cures
     assert [cure.remedy for cure in cures] == ["pin bore", "lightening", "outer radius", "heavy metal"]
@@ -254,6 +258,33 @@ def test_each_remedy_alone_makes_what_is_missing():
     assert slug.mass_kg == pytest.approx(17e3 * 0.019 * math.pi / 4 * slug.diameter_m**2)
 
 
+@pytest.mark.parametrize("key", ["opening", "outer_radius", "thickness"])
+@pytest.mark.parametrize("density", [0, 17])
+def test_holes_in_a_fitted_counterweight_count(key, density):
+    """Behind the cheek, where no web is before the counterweight is fitted."""
+    holes = [{"x": -50, "y": 5, "diameter": 16, "density": density}, {"x": 38, "diameter": 20}]
+    result = solve(WEB | {key: "fit", "holes": holes, "angle": 180}, factor=0.1)
+    assert {web.missing for web in result.remedy.webs} == {None}
+    fitted = result.after.webs.webs[0].body
+    assert len(fitted.shape.holes) == 2
+    assert [hole.x for hole in result.before.webs.webs[0].body.shape.holes] == [0.038]
+    wanted = (ROTATING + 0.1 * RECIPROCATING + PIN) * RADIUS / 2
+    assert fitted.unbalance.real == pytest.approx(-wanted, rel=1e-9)
+
+
+def test_holes_that_the_fitted_counterweight_does_not_hold():
+    aside = {"x": -20, "y": 50, "diameter": 10}
+    told = r"web\.1\.holes: the hole at x = -20, y = 50, diameter = 10 mm is not within the web with opening = [\d.]+ deg; "
+    with pytest.raises(BalcliError, match=told):
+        solve(WEB | {"opening": "fit", "holes": [aside]}, factor=-0.2)
+    slug = {"x": -50, "diameter": 20, "density": 17}
+    bare = solve(WEB | {"opening": "fit"}).before.webs.webs[0].body.unbalance.real
+    alone = bare - (17 - 7.85) * 1e3 * 0.019 * math.pi * 0.010**2 * 0.050
+    factor = (-2 * alone / RADIUS - ROTATING - PIN) / RECIPROCATING
+    with pytest.raises(BalcliError, match="mm is not within the web, which needs no counterweight; move"):
+        solve(WEB | {"opening": "fit", "angle": 180, "holes": [slug]}, factor=factor)
+
+
 def test_a_bore_that_is_there_counts():
     wider = find_cures(bearing={"pin_bore": 12})[0].diameter_m
     missing = solve(SHORT, bearing={"pin_bore": 12}).remedy.webs[0].missing
@@ -271,11 +302,14 @@ def test_a_bore_that_is_there_counts():
         (2, {"frame": {"crankcase": None}, "piston": {"skirt": None}}, None),
         (3, {"web": {"outer_radius": 64}}, True),
         (3, {"web": {"outer_radius": 58}}, False),
+        (3, NARROW | {"frame": {"crankcase": 103}}, True),
+        (3, NARROW | {"frame": {"crankcase": 102}}, False),
     ],
 )
 def test_enough(row, more, enough):
-    web = SHORT | more.pop("web", {})
-    assert find_cures(web, **more)[row].enough is enough
+    own = dict(more)
+    web = SHORT | own.pop("web", {})
+    assert find_cures(web, **own)[row].enough is enough
 
 
 # ------------------------------------------------------------------ files
@@ -398,7 +432,7 @@ def test_what_does_not_fit_is_shown_and_nothing_is_written(tmp_path):
     assert "do not fit in an opening of 180 deg and a radius of 45 mm; what helps:" in done.err
     assert "e.toml: webs 1-2,5-6: " in done.err
     for name in ("pin bore", "lightening", "outer radius", "heavy metal"):
-        assert f"\n  {name} " in done.err
+        assert f"\n  {name}" in done.err
 
 
 def test_text_of_a_fit(tmp_path):

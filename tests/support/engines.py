@@ -65,6 +65,28 @@ offset = {offset}
 {layout}
 rotary = true
 """
+# All that [[web]] tables need beside them
+TWIN = """\
+[crank]
+stroke = 82
+throws = [0, 180]
+spacing = 96
+[rod]
+length = 142
+mass = 0.58
+cg = 40
+[piston]
+bore = 84
+mass = 0.47
+skirt = 24
+[operation]
+speed = 6800
+[frame]
+crankcase = 80
+[bearing]
+pin_diameter = 46
+pin_length = 28
+"""
 
 
 def changed(*replacements: tuple[str, str], more: str = "") -> str:

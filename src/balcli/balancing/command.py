@@ -213,6 +213,20 @@ def _warn_of_discs(name: str, tools: Tools, misfits: Sequence[Misfit]) -> None:
     )
 
 
+def _warn_of_mass(name: str, result: Balance) -> None:
+    """Warn of a mass of the crankshaft that is less than that of its webs and crank pins."""
+    engine = (result.after if result.remedy.webs else result.before).engine
+    if not hasattr(result, "permitted") or engine.webs is None:
+        return
+    mass = result.permitted.mass_kg
+    least = engine.webs.mass
+    if mass < least:
+        warn(
+            f"{name}: --mass: {mass:g} kg is less than the {least:.4g} kg of webs and crank pins; "
+            "give the mass of the whole crankshaft as it is balanced, with bobweights"
+        )
+
+
 def parse_grade(text: str | None) -> float | None:
     """Return the grade of `--grade` (`16` or `G16`), mm/s."""
     if text is None:
@@ -491,6 +505,7 @@ def balance(
     if hasattr(result, "parts"):
         warn_each(result.parts.doubts, name_file(path))
     _warn_of_discs(name_file(path), tools, result.misfits)
+    _warn_of_mass(name_file(path), result)
     if write is not None and misfit is None and result.webs_fit:
         _write_balanced(text, path, write, result, rpm)
     show_balance(result, form, output, units)

@@ -54,6 +54,7 @@ from ..sizing.factor import name_one_cylinder
 from ..sizing.ladder import AS_DRAWN, WEIGHTS_AT_THROWS
 from ..sizing.planes import find_unbalance, name_kind
 from ..sizing.remedy import Remedy
+from ..sizing.workshop import HoleRow
 from .answer import Balance
 from .scheme_show import (
     card_grids,
@@ -70,7 +71,7 @@ _TURNING_WEIGHTS = (
     "The pin stands still; the cylinders turn and carry the counterweights. Angles count from the "
     "axis of cylinder 1, which is over pin 1 at crank angle 0."
 )
-_ROUNDING = 1e-9  # a smaller share of the largest couple is rounding
+_ROUNDING = 1e-9  # a smaller share of a couple or of a length is rounding
 _SIGNED = "Weighed by ____________________   Date ______________   Checked ________________"
 
 
@@ -370,7 +371,14 @@ def _tell_initial(result: Balance, system: System) -> Iterator[str]:
         rim = size_text(row.rim, length)
         room = size_text(row.room, length)
         told = f"{counted(row.holes, 'hole')}, {depth} deep from a rim of {rim}, in {room}"
-        yield f"Capacity: {told} along the crank."
+        yield f"Capacity: {told} along the crank{_tell_width(row, length)}."
+
+
+def _tell_width(row: HoleRow, length: ShownUnit) -> str:
+    """Return in words that a row of holes is wider than the web; empty if it is not."""
+    if row.web is None or row.room <= row.web * (1 + _ROUNDING):
+        return ""
+    return f", wider than the web there, which is {size_text(row.web, length)} thick"
 
 
 def _compare_with_permitted(missing: float, permitted: float) -> str:

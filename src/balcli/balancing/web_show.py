@@ -15,7 +15,7 @@ from .answer import Balance
 _ROUNDING = 1e-9  # share of the wanted unbalance
 _CURES_NOTE = (
     "Each alone would make what is missing. Pin bore: through the pin and both webs of the throw, "
-    "enough up to half the diameter of the pin. Lightening: mass to take from the web at the crank "
+    "fits up to half the diameter of the pin. Lightening: mass to take from the web at the crank "
     "radius. Heavy metal: a slug of tungsten through the counterweight, 3 mm inside its rim."
 )
 
@@ -45,10 +45,11 @@ def lay_out_fitted(result: Balance, system: System) -> Iterator[Grid]:
     helps = []
     for row in rows:
         for cure in row.part.remedies or ():
-            enough = {None: UNKNOWN, True: "yes", False: "no"}[cure.enough]
-            helps.append((write_ranges(row.webs), cure.remedy, _tell_size(cure, system), enough))
+            fits = {None: UNKNOWN, True: "yes", False: "no"}[cure.enough]
+            size = _tell_size(cure, system) or UNKNOWN
+            helps.append((write_ranges(row.webs), cure.remedy, size, fits))
     if helps:
-        heads = [Column(head, words=True) for head in ("web", "remedy", "size", "enough")]
+        heads = [Column(head, words=True) for head in ("web", "remedy", "size", "fits")]
         yield Grid.of_rows("What would help", heads, helps, _CURES_NOTE)
 
 
@@ -70,14 +71,14 @@ def _list_rows(result: Balance) -> list[WebRow]:
 
 
 def _tell_size(cure: WebCure, system: System) -> str:
-    """Return the figures of a remedy in words; a dash if none is large enough."""
+    """Return the figures of a remedy in words; empty if none is large enough."""
     sizes = []
     for metres in (cure.diameter_m, cure.radius_m):
         if metres is not None:
             sizes.append(f"{number(system.length.of(metres))} {system.length.name}")
     if cure.mass_kg is not None:
         sizes.append(size_text(cure.mass_kg, system.mass))
-    return ", ".join(sizes) or UNKNOWN
+    return ", ".join(sizes)
 
 
 def tell_misfits(result: Balance) -> str:
@@ -103,8 +104,9 @@ def _tell_misfit(row: WebRow, key: str) -> Iterable[str]:
     sizes = [f"{number(1e6 * size)} g·mm" for size in (missing, needed)]
     yield f"{webs}: {sizes[0]} of {sizes[1]} do not fit in {_tell_room(row.part, key)}; what helps:"
     for cure in row.part.remedies or ():
-        words = {None: "", True: ": enough", False: ": not enough"}[cure.enough]
-        yield f"  {cure.remedy} {_tell_size(cure, SI)}{words}"
+        words = {None: "", True: ", which fits", False: ", which does not fit"}[cure.enough]
+        size = _tell_size(cure, SI)
+        yield f"  {cure.remedy} {size}{words}" if size else f"  {cure.remedy}: none is large enough"
 
 
 def _tell_room(part: WebPart, key: str) -> str:

@@ -323,7 +323,15 @@ class Engine:
         of_gas = () if self.gas is None else self.gas.doubts
         if self.model is None:
             return of_gas
-        return (*find_suspicious(self.model), *doubt_firing(self.model), *of_gas)
+        of_file = *find_suspicious(self.model), *doubt_firing(self.model)
+        return (*of_file, *self._doubt_webs(self.model), *of_gas)
+
+    def _doubt_webs(self, model: EngineFile) -> Iterator[Doubt]:
+        """Yield warnings of webs that overlap main bearings."""
+        if self.webs is not None:
+            from .webs.overlap import doubt_overlaps  # loaded only for files with [[web]]
+
+            yield from doubt_overlaps(self.webs, model.bearing)
 
     def doubt_clearances(self) -> Iterator[Doubt]:
         """Yield warnings of geared engines whose cranks would strike each other."""

@@ -111,18 +111,29 @@ def _list_room_between_throws(model: EngineFile) -> Iterator[Range]:
     if model.crank.positions is not None:
         steps = [after - before for before, after in pairwise(sorted(model.crank.positions))]
         apart = min(steps, default=None)
-    pin = None if model.bearing is None else model.bearing.pin_length
-    if not apart or not pin or apart <= pin:
+    if model.bearing is None or not model.bearing.pin_length or not apart:
+        return
+    pin = model.bearing.pin_length
+    basis = f"throws {apart:g} mm apart and pins {pin:g} mm long"
+    hint = "thicker webs of neighbouring throws overlap"
+    width = 0.0
+    if model.bearing.main_width and model.bearing.main_positions is None:
+        width = model.bearing.main_width
+        basis = (
+            f"throws {apart:g} mm apart, pins {pin:g} mm long and main bearings {width:g} mm wide"
+        )
+        hint = "thicker webs of neighbouring throws overlap the main bearing between them"
+    if apart <= pin + width:
         return
     yield Range(
         figures=_list_given(model, "thickness"),
         least=0.0,
-        most=(apart - pin) / 2,
+        most=(apart - pin - width) / 2,
         dimension=LENGTH,
         others=(),
-        basis=f"throws {apart:g} mm apart and pins {pin:g} mm long",
-        hint="thicker webs of neighbouring throws overlap",
-        also=("crank.spacing", "crank.positions", "bearing.pin_length"),
+        basis=basis,
+        hint=hint,
+        also=("crank.spacing", "crank.positions", "bearing.pin_length", "bearing.main_width"),
     )
 
 

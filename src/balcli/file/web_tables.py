@@ -10,6 +10,8 @@ from collections.abc import Iterator
 from contextlib import suppress
 from typing import Annotated, NamedTuple
 
+from pydantic import PrivateAttr
+
 from .fields import FileName, Number, as_written, join_words
 from .table import (
     FIT,
@@ -124,6 +126,8 @@ class Web(FileTable):
     tolerance: WebTolerance | None = None
     """Largest deviations of the dimensions."""
 
+    _counterweight_removed: bool = PrivateAttr(default=False)
+
     @property
     def to_fit(self) -> str:
         """Key whose value is "fit"; empty if there is none."""
@@ -133,6 +137,11 @@ class Web(FileTable):
     def is_weighed(self) -> bool:
         """Whether mass and centre of mass are given instead of a shape."""
         return self.mass is not None
+
+    @property
+    def counterweight_removed(self) -> bool:
+        """Whether the file gives a counterweight, which this table is without."""
+        return self._counterweight_removed
 
     @property
     def has_cheek(self) -> bool:
@@ -155,10 +164,13 @@ class Web(FileTable):
         return bare.model_copy(update={"thickness": 0.0}) if self.is_open("thickness") else bare
 
     def remove_counterweight(self) -> Web:
-        """Return the table without its counterweight."""
+        """Return the table without its counterweight. Holes in the counterweight stay listed, and
+        are no part of the web.
+        """
         nothing = {"outer_radius": None, "opening": None, "angle": _OPPOSITE_DEG}
         bare = self.model_copy(update=nothing)
         bare.model_fields_set.difference_update(nothing)
+        bare._counterweight_removed = self.outer_radius is not None or self.counterweight_removed
         return bare
 
     def find_faults(self) -> Iterator[Fault]:

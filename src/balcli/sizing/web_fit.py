@@ -19,6 +19,7 @@ from ..core.records import Node
 from ..engine.build import build
 from ..engine.engine import Engine, refuse_geared, take_model
 from ..engine.placed import build_fitted
+from ..engine.webs.bodies import draw_web, refuse_stray_holes
 from ..engine.webs.build import WEBS_ON_THROW, CrankWeb, assign_tables, take_pin
 from ..errors import Argument, ArgumentError, BalcliError
 from ..file.fields import join_words, limit_digits
@@ -103,7 +104,7 @@ class _Crank(NamedTuple):
         table = self.find_table(web)
         path = f"web.{self.tables[web.number]}"
         throw_m = self.throws[web.throw].radius
-        return OpenWeb.take(path, table, throw_m, web.body.unbalance, self._find_room(table))
+        return OpenWeb.take(path, table, throw_m, self._find_room(table))
 
     def _find_room(self, table: Web) -> WebRoom:
         """Return the room for the counterweight of a web."""
@@ -280,6 +281,7 @@ def _fit_web(crank: _Crank, web: CrankWeb, wanted: complex) -> _Solved:
     open_web = crank.describe(web)
     found = solve_weight(open_web, wanted)
     table = open_web.table
+    _refuse_stray_holes(open_web, found)
     fitted = FittedWeb(web.number, table.to_fit, wanted, found.unbalance)
     if not found.fits:
         fitted = fitted._replace(room=found.weight.unbalance)
@@ -287,6 +289,18 @@ def _fit_web(crank: _Crank, web: CrankWeb, wanted: complex) -> _Solved:
         cures = list_cures(open_web, found.weight, missing, take_pin(crank.model))
         fitted = fitted._replace(cures=cures)
     return _Solved(fitted, _fill(table, found), found)
+
+
+def _refuse_stray_holes(open_web: OpenWeb, found: SolvedWeight) -> None:
+    """Raise InputError if a hole is not within a fitted web."""
+    table = _fill(open_web.table, found)
+    shape = draw_web(table, open_web.path, open_web.throw_m / MM, None)
+    key = open_web.table.to_fit
+    outline = "the web, which needs no counterweight"
+    if found.weight.is_there:
+        unit = "deg" if key == "opening" else "mm"
+        outline = f"the web with {key} = {getattr(table, key):.6g} {unit}"
+    refuse_stray_holes(shape, open_web.path, outline)
 
 
 def _fill(table: Web, found: SolvedWeight) -> Web:

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from ..core.outline import find_direction
 from ..core.unbalance import SLUGS
-from ..engine.webs.bodies import MM, describe_web, find_cheek
+from ..engine.webs.bodies import MM, describe_web, find_cheek, weigh_bare
 from ..errors import InputError, Problem
 from .planes import measure_direction
 from .remedy import WebCure
@@ -52,7 +52,6 @@ class OpenWeb(NamedTuple):
         table: Its table.
         throw_m: Crank radius, m.
         cheek: Its cheek, m.
-        bare: Its unbalance without counterweight, kg m; not used if the thickness is fitted.
         room: Room for its counterweight.
     """
 
@@ -60,25 +59,28 @@ class OpenWeb(NamedTuple):
     table: Web
     throw_m: float
     cheek: Cheek
-    bare: complex
     room: WebRoom
 
     @classmethod
-    def take(cls, path: str, table: Web, throw_m: float, bare: complex, room: WebRoom) -> OpenWeb:
+    def take(cls, path: str, table: Web, throw_m: float, room: WebRoom) -> OpenWeb:
         """Return a web without cheek given; arguments as the attributes."""
-        return cls(path, table, throw_m, find_cheek(table, path, throw_m / MM), bare, room)
+        return cls(path, table, throw_m, find_cheek(table, path, throw_m / MM), room)
+
+    @property
+    def bare(self) -> complex:
+        """Its unbalance without the steel of its counterweight, kg m; nan if the thickness is
+        fitted.
+        """
+        return weigh_bare(self.table, self.cheek)
 
     def measure_along(self, unbalance: complex) -> float:
         """Return the component of an unbalance along the angle that the table gives."""
         return (unbalance * find_direction(self.table.angle).conjugate()).real
 
-    def weigh_metre(self, table: Web) -> float:
-        """Return the unbalance along this angle of a form of the web for one metre of thickness,
-        kg.
-        """
-        thick = table.model_copy(update={"thickness": _METRE_MM})
-        body = describe_web(thick, self.path, self.throw_m / MM, None)
-        return self.measure_along(body.unbalance)
+    def thicken(self, thickness_mm: float) -> OpenWeb:
+        """Return the web with another thickness."""
+        update = {"thickness": thickness_mm}
+        return self._replace(table=self.table.model_copy(update=update))
 
 
 class Weight(NamedTuple):
@@ -149,9 +151,10 @@ def solve_weight(web: OpenWeb, wanted: complex) -> SolvedWeight:
     """
     if web.table.is_open("thickness"):
         return _solve_thickness(web, wanted)
-    needed = wanted - web.bare
+    bare = web.bare
+    needed = wanted - bare
     angle_deg, unbalance = _measure_along(web, needed)
-    rounding = _ROUNDING * (abs(wanted) + abs(web.bare))
+    rounding = _ROUNDING * (abs(wanted) + abs(bare))
     if unbalance < -rounding:
         told = (
             f"without a counterweight the web has {_in_g_mm(-unbalance)} more at "
@@ -215,7 +218,9 @@ class _PerMetre(NamedTuple):
     @classmethod
     def of_web(cls, web: OpenWeb) -> _PerMetre:
         """Return the unbalance of a web whose thickness is fitted."""
-        return cls(web.weigh_metre(web.table), web.weigh_metre(web.table.remove_counterweight()))
+        thick = web.thicken(_METRE_MM)
+        whole = describe_web(thick.table, web.path, web.throw_m / MM, None).unbalance
+        return cls(web.measure_along(whole), web.measure_along(thick.bare))
 
 
 def measure_thickness(web: OpenWeb, wanted: complex) -> float:
@@ -299,5 +304,7 @@ def _find_slug(largest: Weight, missing: float) -> WebCure:
     phi = math.acos(1 - 2 * missing / most)
     diameter = 2 / 3 * reach * (1 + 2 * math.cos((phi - 2 * math.pi) / 3))
     mass = density * largest.thickness * math.pi / 4 * diameter**2
-    enough = reach - diameter >= largest.hub
+    half_opening = math.radians(min(largest.opening_deg, LARGEST_OPENING_DEG)) / 2
+    is_beside = (reach - diameter / 2) * math.sin(half_opening) >= diameter / 2
+    enough = reach - diameter >= largest.hub and is_beside
     return WebCure("heavy metal", diameter_m=diameter, mass_kg=mass, enough=enough)

@@ -243,6 +243,7 @@ class HoleRow(NamedTuple):
         depth: Depth of each, m.
         rim: Radius from which they are drilled, m.
         room: Room along the crank, m.
+        web: Thickness of the web in the plane, m, which may be less than the room; None: not known.
         unbalance: Unbalance that they remove (with slugs: add) together, kg m.
     """
 
@@ -250,6 +251,7 @@ class HoleRow(NamedTuple):
     depth: float
     rim: float
     room: float
+    web: float | None
     unbalance: float
 
 
@@ -269,7 +271,8 @@ def plan_hole_row(engine: Engine, remedy: Remedy, tools: Tools, z: float) -> Hol
     room = tools.width or _find_width(engine, remedy)
     count = _count_fitting(room, tools.drill)
     of_one = find_drilled_unbalance(depth, rim, tools.drill, _find_drilled_density(tools))
-    return HoleRow(int(count), depth, rim, room, count * of_one)
+    web = None if engine.webs is None else engine.webs.find_nearest(z).body.thickness
+    return HoleRow(int(count), depth, rim, room, web, count * of_one)
 
 
 def _find_rim(engine: Engine, device: DeviceTable, tools: Tools) -> float:

@@ -24,7 +24,7 @@ from ...core.outline import (
 )
 from ...errors import InputError, Problem
 from ...file.fields import as_written
-from ...file.web_tables import Web
+from ...file.web_tables import Hole, Web
 from .dxf import Drawing
 
 MM = 1e-3
@@ -53,6 +53,22 @@ class WebShape(NamedTuple):
     def swing_radius(self) -> float:
         """Largest distance of the outline from the crank axis, m."""
         return find_swing_radius(self.outline)
+
+    @property
+    def stray_holes(self) -> list[Circle]:
+        """Holes that are not within the outline."""
+        return [hole for hole in self.holes if not holds_circle(self.outline, hole)]
+
+    def leave_stray_holes_out(self) -> WebShape:
+        """Return the shape with the holes within its outline."""
+        stray = self.stray_holes
+        kept = []
+        densities = []
+        for hole, density in zip(self.holes, self.hole_densities, strict=True):
+            if hole not in stray:
+                kept.append(hole)
+                densities.append(density)
+        return self._replace(holes=tuple(kept), hole_densities=tuple(densities))
 
 
 class WebBody(NamedTuple):
@@ -94,11 +110,15 @@ def describe_web(table: Web, path: str, throw_mm: float, drawing: Drawing | None
         inertia = None if table.inertia is None else table.inertia * MM**2
         return WebBody(table.mass, unbalance, inertia, thickness)
     shape = draw_web(table, path, throw_mm, drawing)
+    if table.counterweight_removed:
+        shape = shape.leave_stray_holes_out()
+    else:
+        refuse_stray_holes(shape, path, "the outline of the web")
     per_area = 1e3 * table.density * thickness
     body = _weigh(find_moments(shape.outline), per_area)
     at_pin = None if shape.cheek is None else _find_cheek_unbalance(shape.cheek, per_area)
     for hole, density in zip(shape.holes, shape.hole_densities, strict=True):
-        filled = _weigh(hole.moments, 1e3 * thickness * (density / 1e3 - table.density))
+        filled = _weigh_hole(hole, density, table)
         body = body.add(filled)
         if at_pin is not None and hole.x > 0:
             at_pin += filled.first
@@ -110,14 +130,37 @@ def _weigh(moments: Moments, per_area: float) -> Moments:
     return Moments(per_area * moments.area, per_area * moments.first, per_area * moments.polar)
 
 
+def _weigh_hole(hole: Circle, density: float, table: Web) -> Moments:
+    """Return mass, unbalance and inertia that a hole adds to a web; `density`: that of what fills
+    it, kg/m3.
+    """
+    return _weigh(hole.moments, MM * table.thickness * (density - 1e3 * table.density))
+
+
+def weigh_bare(table: Web, cheek: Cheek) -> complex:
+    """Return the unbalance of a web without the steel of its counterweight, kg m: that of its cheek
+    and of all its holes and slugs, also those in the counterweight.
+
+    Args:
+        table: Table of the web.
+        cheek: Its cheek.
+    """
+    unbalance = _find_cheek_unbalance(cheek, 1e3 * table.density * MM * table.thickness)
+    for hole in table.holes:
+        unbalance += _weigh_hole(_draw_hole(hole), 1e3 * hole.density, table).first
+    return unbalance
+
+
 def _find_cheek_unbalance(cheek: Cheek, per_area: float) -> complex:
     return per_area * find_moments(cheek.draw()).first
 
 
 # ------------------------------------------------------------------ shape
 def draw_web(table: Web, path: str, throw_mm: float, drawing: Drawing | None) -> WebShape:
-    """Return the outline and holes of a web, m; arguments and errors as for `describe_web`."""
-    holes = [Circle(MM * hole.x, MM * hole.y, MM * hole.diameter / 2) for hole in table.holes]
+    """Return the outline and holes of a web, m; arguments and errors as for `describe_web`, but the
+    holes may be anywhere.
+    """
+    holes = [_draw_hole(hole) for hole in table.holes]
     densities = [1e3 * hole.density for hole in table.holes]
     if drawing is not None:
         outline = [Vertex(MM * x, MM * y, bulge) for x, y, bulge in drawing.outline]
@@ -129,12 +172,26 @@ def draw_web(table: Web, path: str, throw_mm: float, drawing: Drawing | None) ->
         sector = find_sector(table, path, cheek)
         outline = cheek.draw(sector)
         shape = WebShape(tuple(outline), tuple(holes), tuple(densities), cheek, sector)
-    for hole in shape.holes:
-        if not holds_circle(shape.outline, hole):
-            place = f"x = {hole.x / MM:g}, y = {hole.y / MM:g}, diameter = {2 * hole.radius / MM:g}"
-            told = f"the hole at {place} mm is not within the outline of the web"
-            raise InputError([Problem(f"{path}.holes", f"{told}; move it or make it smaller")])
     return shape
+
+
+def refuse_stray_holes(shape: WebShape, path: str, outline: str) -> None:
+    """Raise InputError if a web has a hole that is not within its outline.
+
+    Args:
+        shape: Outline and holes.
+        path: Dotted name of the table of the web.
+        outline: What the outline is called.
+    """
+    for hole in shape.stray_holes:
+        place = f"x = {hole.x / MM:g}, y = {hole.y / MM:g}, diameter = {2 * hole.radius / MM:g}"
+        told = f"the hole at {place} mm is not within {outline}"
+        raise InputError([Problem(f"{path}.holes", f"{told}; move it or make it smaller")])
+
+
+def _draw_hole(hole: Hole) -> Circle:
+    """Return the circle of a hole, m."""
+    return Circle(MM * hole.x, MM * hole.y, MM * hole.diameter / 2)
 
 
 def _list_open_holes(drawing: Drawing, holes: Sequence[Circle]) -> list[Circle]:

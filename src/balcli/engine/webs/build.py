@@ -90,6 +90,10 @@ class Webs(NamedTuple):
         """Return the unbalance of the webs of a throw (index from 0) at crank angle 0, kg m."""
         return sum(web.device.forward for web in self.webs if web.throw == throw)
 
+    def find_nearest(self, z: float) -> CrankWeb:
+        """Return the web whose middle is nearest to a position along the crank, m."""
+        return min(self.webs, key=lambda web: abs(float(web.z) - z))
+
     @property
     def inertia(self) -> float | None:
         """Polar inertia of webs and pins about the crank axis, kg m2; None if that of a web is not
