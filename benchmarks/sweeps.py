@@ -13,7 +13,7 @@ from functools import partial
 import numpy as np
 
 from balcli.analysis.answer import analyze
-from balcli.bench.tasks import V8, find_force, time_run
+from balcli.bench.tasks import V8, find_force, time_runs
 from balcli.engine.build import build
 from balcli.engine.engine import Engine
 from balcli.engine.parse import parse
@@ -122,8 +122,9 @@ def compare_sweeps() -> None:
         "one throw of a V8": (V8, "crank.throws.2", one(40, 140, 100_000)),
     }
     for what, (text, path, values, *quantities) in cases.items():
-        seconds = time_run(partial(run_sweep, sweep_over(text, {path: values}, *quantities))).median
-        print(f"{seconds / len(values) * 1e6:10.3g}  µs a variant: {what}")
+        sweep = sweep_over(text, {path: values}, *quantities)
+        (times,) = time_runs([partial(run_sweep, sweep)])
+        print(f"{times.median / len(values) * 1e6:10.3g}  µs a variant: {what}")
     grid = {"layout.bank_angle": one(40, 240, 1024), "rod.ratio": one(0.2, 0.7, 512)}
     outer, share = outer_product(64, 512), 64 / 1024
     ratio = share * compare(partial(run_sweep, sweep_over(V8, grid)), outer)

@@ -8,8 +8,9 @@ import pytest
 from support.paths import DOCS
 
 from balcli.bench.methods import find_exactly, list_methods
-from balcli.bench.records import Bench, Block, Measured, OrderError, Times, find_unbeaten
-from balcli.bench.tasks import ORDERS, RATIOS, find_errors, list_engine_tasks
+from balcli.bench.records import ROUNDING, Bench, Block, Measured, OrderError, Times, list_unbeaten
+from balcli.bench.show import tell_unbeaten
+from balcli.bench.tasks import ORDERS, RATIOS, list_engine_tasks, measure_errors
 
 
 def coefficient(order: int, lam: float) -> mpmath.mpf:
@@ -33,13 +34,15 @@ def test_exact_values_are_exact(lam: float) -> None:
 
 
 def list_errors(lam: float) -> dict[str, dict[float | None, float]]:
-    return {method.name: dict(find_errors(method, lam)) for method in list_methods(ORDERS)}
+    methods = list(list_methods(ORDERS))
+    errors = measure_errors(methods, lam)
+    return {method.name: dict(each) for method, each in zip(methods, errors, strict=True)}
 
 
 def test_errors_are_those_of_the_methods() -> None:
     """Sixteen samples cannot tell order 2 from 14 and 18, nor find order 8; halving a time step quarters its error."""
     errors = list_errors(0.6)
-    assert max(errors["closed form"].values()) < 2e-15
+    assert max(errors["closed form"].values()) < ROUNDING
     folded = (coefficient(14, 0.6) + coefficient(18, 0.6)) / coefficient(2, 0.6)
     assert errors["FFT of 16 points"][2] == pytest.approx(abs(float(folded)), rel=0.01)
     assert errors["FFT of 16 points"][8] == 1
@@ -51,7 +54,7 @@ def test_errors_are_those_of_the_methods() -> None:
 
 
 def test_all_methods_take_variants_side_by_side() -> None:
-    many = np.linspace(0.2, 0.3, 4001)  # more than are sampled at once
+    many = np.linspace(0.2, 0.3, 4001)  # more than are computed at once
     for method in list_methods(ORDERS):
         together = method.find(many)
         assert together.shape == (len(ORDERS), 4001)
@@ -73,32 +76,46 @@ def test_what_balcli_does_is_exact_in_every_task() -> None:
 # ------------------------------------------------------------------ what no other method beats
 def make(method: str, seconds: float, *errors: float) -> Measured:
     orders = [OrderError(k, error) for k, error in enumerate(errors)]
-    return Measured(method, Times(seconds, seconds, seconds), tuple(orders))
+    return Measured(method, "samples", Times(seconds, seconds, seconds), tuple(orders))
+
+
+def find_unbeaten(*methods: Measured) -> list[str]:
+    return [method.method for method in list_unbeaten(methods)]
 
 
 def test_a_method_is_beaten_by_one_that_is_as_good_in_all_and_better_in_one() -> None:
     best = make("best", 1.0, 1e-9, 1e-6)
-    assert find_unbeaten([best, make("slow", 1.2, 1e-9, 1e-6)]) == ("best",)
-    assert find_unbeaten([best, make("coarse", 1.0, 1e-9, 3e-6)]) == ("best",)
-    assert find_unbeaten([best, make("other", 1.2, 1e-9, 1e-7)]) == ("best", "other")
-    assert find_unbeaten([best, make("quick", 0.5, 1e-3, 1e-3)]) == ("best", "quick")
+    assert find_unbeaten(best, make("slow", 1.2, 1e-9, 1e-6)) == ["best"]
+    assert find_unbeaten(best, make("coarse", 1.0, 1e-9, 5e-6)) == ["best"]
+    assert find_unbeaten(best, make("other", 1.2, 1e-9, 1e-7)) == ["other", "best"]  # the most exact first
+    assert find_unbeaten(best, make("quick", 0.5, 1e-3, 1e-3)) == ["best", "quick"]
 
 
-def test_little_differences_and_rounding_count_for_nothing() -> None:
+def test_of_methods_without_a_clear_difference_the_quickest_is_left() -> None:
     one = make("one", 1.0, 1e-9)
-    assert find_unbeaten([one, make("other", 1.05, 1e-9)]) == ("one", "other")
-    assert find_unbeaten([one, make("other", 1.0, 1.9e-9)]) == ("one", "other")
-    assert find_unbeaten([make("one", 1.0, 1e-15), make("other", 2.0, 1e-17)]) == ("one",)
+    assert find_unbeaten(one, make("other", 1.05, 1e-9)) == ["one"]
+    assert find_unbeaten(one, make("other", 0.95, 3e-9)) == ["other"]
+    assert find_unbeaten(one, make("other", 0.95, 5e-9)) == ["one"]  # a tenth of the time makes up for no error
+    assert find_unbeaten(one, make("other", 0.9, 5e-9)) == ["one", "other"]
+    assert find_unbeaten(make("one", 1.0, 3e-15), make("other", 2.0, 1e-17)) == ["one"]  # both are rounding
+
+
+def test_the_sentence_of_a_block_has_the_error_of_the_worst_order() -> None:
+    exact = make("exact", 9.0, 1e-16, 1e-15)
+    coarse = make("coarse", 3.0, 1e-16, 2e-5)
+    folded = make("folded", 1.0, 1e-16, 1.0)
+    expected = "No other method is both as quick and as exact as exact (rounding), coarse (error up to 2e-05) or folded (not every order)."
+    assert tell_unbeaten(Block("orders", (folded, coarse, exact), 1, 0.25)) == expected
 
 
 def test_rows_are_those_of_the_blocks() -> None:
-    block = Block("orders", (make("a", 2.0, 0.1, 0.2), make("b", 1.0, 0.3, 0.4)), 7, 0.25)
+    block = Block("orders", (make("a", 2.0, 0.1, 0.2), make("b", 1.0, 0.3, 0.9)), 7, 0.25)
     result = Bench.of([block], [])
     assert [(r.method, r.order, r.error, r.seconds) for r in result.rows] == [
         ("a", 0, 0.1, 2.0),
         ("a", 1, 0.2, 2.0),
         ("b", 0, 0.3, 1.0),
-        ("b", 1, 0.4, 1.0),
+        ("b", 1, 0.9, 1.0),
     ]
     assert {(r.task, r.variants, r.rod_ratio) for r in result.rows} == {("orders", 7, 0.25)}
     assert result.unbeaten[0].methods == ("a", "b")

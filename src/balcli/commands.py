@@ -173,8 +173,9 @@ def describe_document(name: str) -> Node:
 
 def bench(form: FormatOption = None, output: Output = None) -> None:
     """Measure error against run time of several methods, on this machine: orders of a cylinder,
-    peaks, gas torque, torsion, and a cold start. An output that ends in .svg, .png or .pdf is a
-    picture, in addition to the tables.
+    peaks, gas torque, torsion, and a cold start. Errors are relative to the exact value of the same
+    order; below 16 roundings they are "rounding". Times are processor times of one
+    variant. An output that ends in .svg, .png or .pdf is a picture, in addition to the tables.
 
     \b
     Examples:

@@ -58,7 +58,7 @@ def test_every_result_in_every_format(name, monkeypatch):
     """Text has no blanks at the ends of lines, tables of Markdown and rows of CSV are as wide as their heads, and JSON
     has one document a line; the command computes once.
     """
-    method = Measured("way", Times(1e-6, 1e-6, 2e-6), (OrderError(2, 1e-3),))
+    method = Measured("way", "exact", Times(1e-6, 1e-6, 2e-6), (OrderError(2, 1e-3),))
     measured = Bench.of([Block("task", (method,))], [Ratio(what="one to other", value=2.0)])
     monkeypatch.setattr(tasks, "measure", lambda: measured)
     calls = []

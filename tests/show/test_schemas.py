@@ -146,7 +146,7 @@ def test_field_and_a_chain_of_shafts() -> None:
 
 def test_a_bench() -> None:
     """Of a document as `bench` prints it: running it takes seconds."""
-    method = Measured("way", Times(1e-6, 1e-6, 2e-6), (OrderError(2, 1e-3), OrderError(None, 1e-3)))
+    method = Measured("way", "exact", Times(1e-6, 1e-6, 2e-6), (OrderError(2, 1e-3), OrderError(None, 1e-3)))
     blocks = [Block("task", (method,)), Block("task", (method,), 100, 0.25)]
     found = Bench.of(blocks, [Ratio(what="a / b", value=2.0)])
     check(json.dumps({"format": "", "version": __version__} | to_document(found)))

@@ -2,7 +2,8 @@
 
 The acceleration is r ω² (cos ψ + sum A_n cos n ψ), with the crank angle ψ from the cylinder's
 axis. λ is the crank radius over the rod length. All methods take many λ side by side (variants) and
-return the coefficients A_n of the wanted orders.
+return the coefficients A_n of the wanted orders. They take so many variants at once that their
+arrays stay in the processor's cache; larger ones would make each of them up to three times slower.
 
     series of two terms   cos ψ + λ cos 2ψ, the formula of textbooks
     closed form           what balcli uses (`core.mechanisms.closed_form`)
@@ -20,10 +21,11 @@ import numpy as np
 
 from ..core.mechanisms import closed_form
 from ..core.phasors import Array
+from .records import Approach
 
 POINTS = (16, 32, 64, 128, 256)
 STEPS_DEG = (5, 1)
-_AT_ONCE = 2000  # variants that are sampled together, so that their samples stay in the cache
+_AT_ONCE = 2**15  # numbers of an array: 256 KiB
 _DIGITS = 50  # of the exact values
 
 Find: TypeAlias = Callable[[Array], Array]  # λ (variants,) -> A_n (orders, variants)
@@ -34,22 +36,30 @@ class Method(NamedTuple):
 
     Attributes:
         name: Its name.
+        approach: How it computes.
         find: Function that returns the coefficients of the orders for which it was made.
     """
 
     name: str
+    approach: Approach
     find: Find
 
 
 def list_methods(orders: list[int]) -> Iterator[Method]:
     """Yield all methods for these orders."""
-    yield Method("series of two terms", _use_two_terms(orders))
-    yield Method("closed form", _use_closed_form(orders))
+    yield Method("series of two terms", "formula", _use_two_terms(orders))
+    yield Method("closed form", "exact", _use_closed_form(orders))
     for points in POINTS:
-        yield Method(f"FFT of {points} points", _sample_acceleration(orders, points))
+        find = _sample_acceleration(orders, points)
+        yield Method(f"FFT of {points} points", "samples", find)
     for step in STEPS_DEG:
-        degrees = "1 degree" if step == 1 else f"{step} degrees"
-        yield Method(f"time steps of {degrees}", _difference_position(orders, 360 // step))
+        find = _difference_position(orders, 360 // step)
+        yield Method(f"time steps of {tell_degrees(step)}", "steps", find)
+
+
+def tell_degrees(step: float) -> str:
+    """Return the words for a step of the crank angle."""
+    return "1 degree" if step == 1 else f"{step:g} degrees"
 
 
 def find_exactly(order: int, lam: float) -> float:
@@ -92,7 +102,8 @@ def _use_closed_form(orders: list[int]) -> Find:
     def find(lam: Array) -> Array:
         return closed_form.piston(orders, lam)
 
-    return find
+    terms = max(orders) // 2 + 1  # of the series of cos β
+    return _take_in_parts(find, len(orders), _AT_ONCE // terms)
 
 
 def _sample_acceleration(orders: list[int], points: int) -> Find:
@@ -110,15 +121,14 @@ def _sample_acceleration(orders: list[int], points: int) -> Find:
 
 
 def _difference_position(orders: list[int], steps: int) -> Find:
-    psi = 2 * np.pi * np.arange(steps) / steps
+    step = 2 * np.pi / steps
+    psi = step * np.arange(-1, steps + 1)  # one more on each side
     cos = np.cos(psi)
     sin_squared = np.sin(psi) ** 2
 
     def sample(lam: Array) -> Array:
-        place = cos + np.sqrt(1 - lam**2 * sin_squared) / lam
-        both = np.roll(place, -1, axis=-1) + np.roll(place, 1, axis=-1)
-        acceleration: Array = (2 * place - both) / (2 * np.pi / steps) ** 2
-        return acceleration
+        position = cos + np.sqrt(1 - lam**2 * sin_squared) / lam
+        return -np.diff(position, 2, axis=-1) / step**2
 
     return _transform(sample, orders, steps)
 
@@ -127,16 +137,26 @@ def _transform(sample: Find, orders: list[int], points: int) -> Find:
     """Return a method that samples the acceleration and transforms it; orders that the points
     cannot tell apart from others are 0.
     """
-    resolved = [order for order in orders if 2 * order < points]
 
     def find(lam: Array) -> Array:
-        coefficients = np.zeros((len(orders), *lam.shape))
-        for start in range(0, len(lam), _AT_ONCE):
-            part = slice(start, start + _AT_ONCE)
-            lines = np.fft.rfft(sample(lam[part, None])).real * (2 / points)
-            for row, order in enumerate(orders):
-                if order in resolved:
-                    coefficients[row, part] = lines[:, order]
+        coefficients = np.zeros((len(orders), len(lam)))
+        lines = np.fft.rfft(sample(lam[:, None])).real * (2 / points)
+        for row, order in enumerate(orders):
+            if 2 * order < points:
+                coefficients[row] = lines[:, order]
         return coefficients
 
-    return find
+    return _take_in_parts(find, len(orders), _AT_ONCE // points)
+
+
+def _take_in_parts(find: Find, orders: int, at_once: int) -> Find:
+    """Return the same method, which computes this number of variants at once."""
+
+    def find_all(lam: Array) -> Array:
+        coefficients = np.empty((orders, len(lam)))
+        for start in range(0, len(lam), at_once):
+            part = slice(start, start + at_once)
+            coefficients[:, part] = find(lam[part])
+        return coefficients
+
+    return find_all

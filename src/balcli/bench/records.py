@@ -4,9 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from typing import Annotated, Literal, NamedTuple, Self
+from typing import Annotated, Literal, NamedTuple, Self, TypeAlias
 
+from ..core.phasors import EPS
 from ..core.records import HIDDEN
+
+# How a method computes: by a formula that leaves terms out, exactly, from samples of the exact
+# curve, or from differences of positions.
+Approach: TypeAlias = Literal["formula", "exact", "samples", "steps"]
 
 
 class Times(NamedTuple):
@@ -25,11 +30,24 @@ class OrderError(NamedTuple):
 
 
 class Measured(NamedTuple):
-    """Name of a method, run time of one variant, and errors by order."""
+    """A method with its results.
+
+    Attributes:
+        method: Its name.
+        approach: How it computes.
+        seconds: Run time of one variant, s.
+        errors: Errors by order.
+    """
 
     method: str
+    approach: Approach
     seconds: Times
     errors: tuple[OrderError, ...]
+
+    @property
+    def worst(self) -> float:
+        """Error of the order that is the least exact; errors that are rounding are equal."""
+        return max(ROUNDING, *(error.error for error in self.errors))
 
 
 class Block(NamedTuple):
@@ -77,13 +95,13 @@ class Row:
 
 @dataclass(frozen=True, kw_only=True)
 class Unbeaten:
-    """Methods of a task that no other method beats (`find_unbeaten`).
+    """Methods of a task that no other method beats (`list_unbeaten`).
 
     Attributes:
         task: What is computed.
         rod_ratio: Crank radius over rod length; left out for tasks of whole engines.
         variants: Number of variants that are computed side by side.
-        methods: Names of the methods.
+        methods: Names of the methods, the most exact first.
     """
 
     task: str
@@ -135,7 +153,7 @@ class Bench:
                     task=block.task,
                     rod_ratio=block.rod_ratio,
                     variants=block.variants,
-                    methods=find_unbeaten(block.methods),
+                    methods=tuple(method.method for method in list_unbeaten(block.methods)),
                 )
             )
         return cls(rows=tuple(rows), unbeaten=tuple(unbeaten), ratios=tuple(ratios), blocks=every)
@@ -157,22 +175,22 @@ def _list_rows(block: Block) -> Iterator[Row]:
             )
 
 
-ROUNDING = 2e-15  # relative errors below it are equal
+ROUNDING = 16 * EPS  # relative errors below it are equal: order 16 has about 16 roundings
 _AS_QUICK = 1.1  # ratios of run times up to this one are no difference
-_AS_EXACT = 2.0  # ratios of errors up to this one are no difference
+_AS_EXACT = 4.0  # ratios of errors up to this one are no difference: rounding errors are random
 
 
-def find_unbeaten(methods: Iterable[Measured]) -> tuple[str, ...]:
-    """Return the names of the methods that no other method beats. A method is beaten by one that is
-    as quick and as exact at every order, and clearly quicker or more exact at some order.
+def list_unbeaten(methods: Iterable[Measured]) -> list[Measured]:
+    """Return the methods that no other method beats, the most exact first. A method is beaten by
+    one that is as quick and as exact at every order, and clearly quicker or more exact at some
+    order. Of methods without a clear difference, the quickest beats the others.
     """
     every = list(methods)
     unbeaten = []
     for measured in every:
-        others = [other for other in every if other is not measured]
-        if not any(_beats(other, measured) for other in others):
-            unbeaten.append(measured.method)
-    return tuple(unbeaten)
+        if not any(_beats(other, measured) for other in every):
+            unbeaten.append(measured)
+    return sorted(unbeaten, key=lambda method: (method.worst, method.seconds.median))
 
 
 def _beats(method: Measured, other: Measured) -> bool:
@@ -182,4 +200,6 @@ def _beats(method: Measured, other: Measured) -> bool:
         ratios.append(max(mine.error, ROUNDING) / max(theirs.error, ROUNDING))
     if slower > _AS_QUICK or max(ratios) > _AS_EXACT:
         return False
-    return slower < 1 / _AS_QUICK or min(ratios) < 1 / _AS_EXACT
+    if min(ratios) < 1 / _AS_EXACT:
+        return True
+    return slower < 1

@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from ..file.fields import join_words
 from ..show.formats import Renderer, Rows
 from ..show.sheet import Column, Grid, Sheet, capitalized, number
-from .records import ROUNDING, find_unbeaten
+from .records import ROUNDING, list_unbeaten
 
 if TYPE_CHECKING:
     from ..show.units import System
@@ -65,16 +64,36 @@ def _make_grid(block: Block) -> Grid:
 def name_block(block: Block) -> str:
     """Return the title of a block."""
     title = capitalized(block.task)
+    place = tell_place(block)
+    return f"{title}, {place}" if place else title
+
+
+def tell_place(block: Block) -> str:
+    """Return λ and the number of variants; empty for a task of whole engines."""
     if block.rod_ratio is None:
-        return title
+        return ""
     several = "one variant" if block.variants == 1 else f"{block.variants} variants"
-    return f"{title}, λ = {block.rod_ratio:g}, {several}"
+    return f"λ = {block.rod_ratio:g}, {several}"
 
 
 def tell_unbeaten(block: Block) -> str:
-    """Return a sentence that names the methods that no other method beats."""
-    names = join_words(list(find_unbeaten(block.methods)))
+    """Return a sentence that names the methods that no other method beats, with the error of the
+    order that is the least exact.
+    """
+    methods = []
+    for method in list_unbeaten(block.methods):
+        methods.append(f"{method.method} ({_tell_worst(method)})")
+    *front, last = methods
+    names = f"{', '.join(front)} or {last}" if front else last
     return f"No other method is both as quick and as exact as {names}."
+
+
+def _tell_worst(method: Measured) -> str:
+    if any(map(_is_missed, method.errors)):
+        return "not every order"
+    if method.worst <= ROUNDING:
+        return "rounding"
+    return f"error up to {method.worst:.0e}"
 
 
 def _tell_time(seconds: float) -> str:
@@ -86,9 +105,14 @@ def _tell_quartiles(row: Measured) -> str:
 
 
 def _tell_error(error: OrderError) -> str:
-    if error.order is not None and error.error > _NO_DIGIT:
+    if _is_missed(error):
         return "not found"
-    return "rounding" if error.error < ROUNDING else f"{error.error:.0e}"
+    return "rounding" if error.error <= ROUNDING else f"{error.error:.0e}"
+
+
+def _is_missed(error: OrderError) -> bool:
+    """Return whether a method does not find an order, whatever it returns."""
+    return error.order is not None and error.error > _NO_DIGIT
 
 
 RENDERER = Renderer(sheet=sheet, rows=rows)

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import os
 import time
 import timeit
-from collections.abc import Callable, Iterator
-from typing import NamedTuple
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -16,17 +18,20 @@ from ..engine.build import build
 from ..engine.engine import Engine
 from ..engine.parse import parse
 from ..torsional_vibration.answer import torsion
-from .methods import Method, find_exactly, list_methods
-from .records import Bench, Block, Measured, OrderError, Times
+from .methods import Method, find_exactly, list_methods, tell_degrees
+from .records import Approach, Bench, Block, Measured, OrderError, Times
 from .starts import compare_starts
 
 RATIOS = (0.25, 0.6, 0.95)
 ORDERS = [2, 8, 16]
 MANY = 100_000  # variants
-_SLICES = 20  # parts of the many variants, each of which is timed
-_REPEATS = 9
+_CLOCK = time.perf_counter if os.name == "nt" else time.process_time  # Windows' is too coarse
+_ROUNDS = 9
 _SHORTEST = 2e-3  # s: what is shorter is repeated within one measurement
-_NEAR = 1e-3  # relative range of the variants' λ
+_SHARES = 10  # of many variants, each of which is timed
+_NEAR = 1e-3  # relative range of the λ of many variants
+_NEIGHBOURS = 9  # λ at which an error is measured: a rounding error at one λ may be small by chance
+_STEP = 1e-6  # relative distance of neighbours
 
 V8 = """
 name = "72-degree V8, uneven throws"
@@ -90,61 +95,91 @@ excitation = [
 CHAIN_RPM = 2400.0
 
 
+Run: TypeAlias = Callable[[], object]
+Errors: TypeAlias = tuple[OrderError, ...]
+
+
 class Case(NamedTuple):
     """A method of a task, before its time is measured.
 
     Attributes:
         method: Its name.
+        approach: How it computes.
         run: What is timed.
         errors: Errors of its result.
     """
 
     method: str
-    run: Callable[[], object]
-    errors: tuple[OrderError, ...]
+    approach: Approach
+    run: Run
+    errors: Errors
 
 
 def measure() -> Bench:
     """Time every method and cold starts of the program; this takes about ten seconds."""
     blocks = [*_measure_orders()]
     for task, cases in list_engine_tasks().items():
-        methods = [Measured(case.method, time_run(case.run), case.errors) for case in cases]
-        blocks.append(Block(task, tuple(methods)))
+        times = time_runs([case.run for case in cases])
+        blocks.append(Block(task, _join(cases, times)))
     return Bench.of(blocks, compare_starts(V8))
+
+
+def _join(cases: list[Case], times: list[Times]) -> tuple[Measured, ...]:
+    """Return the methods with their run times."""
+    measured = []
+    for case, seconds in zip(cases, times, strict=True):
+        measured.append(Measured(case.method, case.approach, seconds, case.errors))
+    return tuple(measured)
 
 
 # ------------------------------------------------------------------ orders of one cylinder
 def _measure_orders() -> Iterator[Block]:
-    for variants in (1, MANY):
-        for lam in RATIOS:
-            measured = []
-            for method in list_methods(ORDERS):
-                seconds = _time_variants(method, lam, variants)
-                measured.append(Measured(method.name, seconds, find_errors(method, lam)))
-            yield Block("orders of one cylinder", tuple(measured), variants, lam)
+    task = "orders of one cylinder"
+    methods = list(list_methods(ORDERS))
+    cases = {lam: list(_list_cases(methods, lam)) for lam in RATIOS}
+    for lam in RATIOS:
+        times = time_runs([case.run for case in cases[lam]])
+        yield Block(task, _join(cases[lam], times), 1, lam)
+    for lam in RATIOS:
+        side_by_side = lam * (1 - _NEAR * np.arange(MANY) / MANY)
+        times = _time_shares(methods, side_by_side)
+        yield Block(task, _join(cases[lam], times), MANY, lam)
 
 
-def find_errors(method: Method, lam: float) -> tuple[OrderError, ...]:
-    """Return the errors of a method at every order, relative to this order."""
-    errors = []
-    for order, found in zip(ORDERS, method.find(np.array([lam]))[:, 0], strict=True):
-        exact = find_exactly(order, lam)
-        errors.append(OrderError(order, abs(float(found) - exact) / abs(exact)))
-    return tuple(errors)
+def _list_cases(methods: list[Method], lam: float) -> Iterator[Case]:
+    only = np.array([lam])
+    for method, errors in zip(methods, measure_errors(methods, lam), strict=True):
+        yield Case(method.name, method.approach, partial(method.find, only), errors)
 
 
-def _time_variants(method: Method, lam: float, variants: int) -> Times:
-    if variants == 1:
-        only = np.array([lam])
-        return time_run(lambda: method.find(only))
-    every = lam * (1 - _NEAR * np.arange(variants) / variants)
-    method.find(every[:1])
-    seconds = []
-    for part in np.array_split(every, _SLICES):
-        start = time.perf_counter()
-        method.find(part)
-        seconds.append((time.perf_counter() - start) / len(part))
-    return _find_quartiles(seconds)
+def measure_errors(methods: list[Method], lam: float) -> Iterator[Errors]:
+    """Yield the errors of each method at every order, relative to this order: the largest at
+    several λ that are almost the same.
+    """
+    near = [lam * (1 + _STEP * k) for k in range(_NEIGHBOURS)]
+    exact = np.empty((len(ORDERS), len(near)))
+    for row, order in enumerate(ORDERS):
+        exact[row] = [find_exactly(order, ratio) for ratio in near]
+    for method in methods:
+        relative = np.abs(method.find(np.array(near)) - exact) / np.abs(exact)
+        largest = relative.max(axis=1).tolist()
+        yield tuple(map(OrderError, ORDERS, largest))
+
+
+def _time_shares(methods: list[Method], lam: Array) -> list[Times]:
+    """Return the time of one of many variants for each method, s. The variants are computed in
+    equal shares, for which the methods take turns.
+    """
+    for method in methods:
+        method.find(lam[:1])  # what is prepared once is not counted
+    rounds = []
+    for share in np.array_split(lam, _SHARES):
+        seconds = []
+        for method in methods:
+            timer = timeit.Timer(partial(method.find, share), timer=_CLOCK)
+            seconds.append(timer.timeit(1) / len(share))
+        rounds.append(seconds)
+    return _find_quartiles(rounds)
 
 
 # ------------------------------------------------------------------ whole engines
@@ -166,16 +201,17 @@ def _list_peaks() -> Iterator[Case]:
         def search_grid(angles: Array = angles) -> float:
             return float(np.abs(find_force(engine, angles)).max())
 
-        yield _case(f"grid of {step:g} deg", search_grid, exact)
+        yield _case(f"grid of {tell_degrees(step)}", "samples", search_grid, exact)
 
     def ask() -> float:
         return analyze(engine, only="peak").peak.force.value
 
-    yield _case("analyze: maximum of the curve", ask, exact)
+    yield _case("analyze: maximum of the curve", "exact", ask, exact)
 
 
-def _case(method: str, run: Callable[[], float], exact: float) -> Case:
-    return Case(method, run, (OrderError(None, abs(run() - exact) / abs(exact)),))
+def _case(method: str, approach: Approach, run: Callable[[], float], exact: float) -> Case:
+    error = abs(run() - exact) / abs(exact)
+    return Case(method, approach, run, (OrderError(None, error),))
 
 
 def find_force(engine: Engine, angles: Array) -> Complex:
@@ -219,12 +255,12 @@ def _list_gas_orders() -> Iterator[Case]:
             return np.asarray(2 / len(angles) * waves @ curve.at(angles))
 
         name = f"{len(angles)} steps over the cycle"
-        yield Case(name, add_steps, _compare(add_steps(), exact))
+        yield Case(name, "samples", add_steps, _compare(add_steps(), exact))
 
     def add_pieces() -> Complex:
         return curve.harmonics(np.array(GAS_ORDERS) * 2)
 
-    yield Case("exact pieces", add_pieces, _compare(add_pieces(), exact))
+    yield Case("exact pieces", "exact", add_pieces, _compare(add_pieces(), exact))
 
 
 def _integrate(breaks: Array, at: Callable[[Array], Array]) -> Complex:
@@ -237,7 +273,7 @@ def _integrate(breaks: Array, at: Callable[[Array], Array]) -> Complex:
     return np.asarray(2 / (breaks[-1] - breaks[0]) * waves @ values)
 
 
-def _compare(found: Complex, exact: Complex) -> tuple[OrderError, ...]:
+def _compare(found: Complex, exact: Complex) -> Errors:
     shares = np.abs(found - exact) / np.abs(exact)
     return tuple(OrderError(n, float(e)) for n, e in zip(GAS_ORDERS, shares, strict=True))
 
@@ -249,13 +285,13 @@ def _list_torsion() -> Iterator[Case]:
     def add_amplitudes() -> float:
         return float(np.abs(_solve_chain()[1]).sum())
 
-    yield _case("sum of amplitudes, dense matrices", add_amplitudes, exact)
+    yield _case("sum of amplitudes, dense matrices", "formula", add_amplitudes, exact)
 
     def ask() -> float:
         response = torsion(CHAIN, [CHAIN_RPM]).response
         return float(response.shafts[0].half_peak_to_peak_Nm[0])
 
-    yield _case("torsion: synthesis of all orders", ask, exact)
+    yield _case("torsion: synthesis of all orders", "exact", ask, exact)
 
 
 def _climb_wave(orders: Array, torques: Complex) -> float:
@@ -287,13 +323,30 @@ def _solve_chain() -> tuple[Array, Complex]:
 
 
 # ------------------------------------------------------------------ run times
-def time_run(run: Callable[[], object]) -> Times:
-    """Return the time of a run, s: quartiles of several measurements of at least 2 ms."""
-    timer = timeit.Timer(run)
+def time_runs(runs: Sequence[Run]) -> list[Times]:
+    """Return the time of each run, s: quartiles of several measurements of at least 2 ms. The runs
+    take turns, so that what else the machine does slows all of them.
+    """
+    timers = [timeit.Timer(run, timer=_CLOCK) for run in runs]
+    numbers = [_count_repetitions(timer) for timer in timers]
+    rounds = []
+    for _ in range(_ROUNDS):
+        seconds = []
+        for timer, number in zip(timers, numbers, strict=True):
+            seconds.append(timer.timeit(number) / number)
+        rounds.append(seconds)
+    return _find_quartiles(rounds)
+
+
+def _count_repetitions(timer: timeit.Timer) -> int:
+    """Return how often a run is repeated in a measurement."""
     once = timer.timeit(1)
-    number = max(int(_SHORTEST / max(once, 1e-7)), 1)
-    return _find_quartiles([t / number for t in timer.repeat(_REPEATS, number)])
+    if once < _SHORTEST:  # the first run may have prepared something
+        once = timer.timeit(1)
+    return max(int(_SHORTEST / max(once, 1e-7)), 1)
 
 
-def _find_quartiles(seconds: list[float]) -> Times:
-    return Times(*(float(q) for q in np.quantile(seconds, [0.25, 0.5, 0.75])))
+def _find_quartiles(rounds: list[list[float]]) -> list[Times]:
+    """Return the quartiles of each column."""
+    quartiles = np.quantile(rounds, [0.25, 0.5, 0.75], axis=0)
+    return [Times(*column) for column in quartiles.T.tolist()]
