@@ -4,7 +4,7 @@ import mpmath as mp
 import numpy as np
 import pytest
 
-from balcli.core.piecewise import merged_breaks, polyline, resolved
+from balcli.core.piecewise import find_zero, find_zeros, merged_breaks, polyline, resolved
 
 RELATIVE = 1e-13
 TURN = 2 * np.pi
@@ -146,3 +146,54 @@ def test_nothing_but_rounding_errors_has_an_end():
 
     curve = resolved(noise, [0.0, 1.0])
     assert np.abs(curve.at(np.linspace(0, 1, 99))).max() < 1e-12
+
+
+# ---------------------------------------------------------------- several functions on the same panels
+def draw_peaks(angle, width=None):
+    """Peaks at 2 rad, one for each width, of sizes that differ by a hundred."""
+    widths = np.array([0.3, 1.0, 2.0])
+    each = np.array([1.0, 100.0, 10.0]) * np.exp(-(((np.asarray(angle)[..., None] - 2) / widths) ** 2)) - 0.5
+    return each if width is None else each[..., width]
+
+
+def test_a_curve_with_a_figure_is_each_of_its_functions():
+    breaks = [0, 1, TURN]
+    joint = resolved(draw_peaks, breaks, each=True)
+    angle = np.linspace(-3, 9, 60).reshape(4, 15)
+    orders = [0, 1, 2, 40]
+    lowest, highest = joint.find_range()
+    for k in range(3):
+        alone = resolved(lambda x, k=k: draw_peaks(x, k), breaks)
+        close = {"rel": 1e-12, "abs": 1e-13 * highest[k]}
+        assert joint.at(angle)[..., k] == pytest.approx(alone.at(angle), **close)
+        assert joint.integrals[k] == pytest.approx(alone.integral, **close)
+        assert joint.means[k] == pytest.approx(alone.mean, **close)
+        assert joint.harmonics(orders)[:, k] == pytest.approx(alone.harmonics(orders), **close)
+        assert [lowest[k], highest[k]] == pytest.approx([extreme.value for extreme in alone.extremes()], **close)
+        done = joint.antiderivative(0.25).within(angle)[..., k]
+        assert done == pytest.approx(alone.antiderivative(0.25).within(angle), **close)
+
+
+def test_each_member_of_a_figure_is_resolved_to_its_own_size():
+    """Compared with the largest of all, the small one is resolved badly on few panels."""
+
+    def draw(angle):
+        return np.stack([np.full(angle.shape, 1e9), np.exp(-((angle / 0.05) ** 2))], axis=-1)
+
+    exact = 0.05 * np.sqrt(np.pi)
+    both = [resolved(draw, [-3.0, 0.1, 3.0], each=each).integrals[1] for each in (False, True)]
+    assert both[1] == pytest.approx(exact, rel=1e-13)
+    assert both[0] != pytest.approx(exact, rel=1e-11)
+
+
+def test_zeros_of_several_functions():
+    """A line, a power, one that is 0 at 0, one whose zero is far beyond the guess, and a jump."""
+    wanted = np.array([3.0, 8.0, 0.0, 1e6, 5.0])
+
+    def exceed(number):
+        jump = np.where(number[4] < 2.0, -1.0, np.inf)
+        return np.array([*(number[:4] ** np.array([1, 3, 1, 1.5]) - wanted[:4]), jump])
+
+    found = find_zeros(exceed, np.ones(5), np.array([-3.0, -8.0, 0.0, -1e6, -1.0]))
+    assert found == pytest.approx([3.0, 2.0, 0.0, 1e4, 2.0], rel=1e-12)
+    assert find_zero(lambda x: x**3 - 8, 1.0, -8.0) == pytest.approx(2.0, rel=1e-13)

@@ -53,6 +53,13 @@ def compose(real: Array, imaginary: Array) -> Complex:
     return result
 
 
+def open_axes(values: NDArray[Any], further: tuple[int, ...]) -> NDArray[Any]:
+    """Return values with axes of length 1 added at the end, one for each of the `further` axes, so
+    that they broadcast with an array of shape (*values, *further).
+    """
+    return values.reshape(values.shape + (1,) * len(further))
+
+
 def put_together(forward: Array | Complex, backward: Array | Complex) -> Complex:
     """Return both vectors as one array, shape (2, *their common shape).
 
@@ -114,7 +121,7 @@ class Phasors:
             noise: Bound of the rounding error of each vector.
         """
         half = coefficients / 2
-        mean = _column(orders, half) == 0
+        mean = open_axes(orders, half.shape[1:]) == 0
         forward = np.where(mean, coefficients.real, half)
         backward = np.where(mean, 0, half.conj())
         return cls.of(orders, forward, backward, noise)
@@ -221,7 +228,7 @@ class Phasors:
         """Return the coefficients of the components along the axis that the factor turns onto x."""
         ahead = turn * self.forward
         against = turn * self.backward
-        mean = _column(self.orders, ahead) == 0
+        mean = open_axes(self.orders, ahead.shape[1:]) == 0
         c = np.where(mean, ahead.real, ahead + np.conj(against))
         return np.where(np.abs(c) <= 2 * self.noise, 0, c)
 
@@ -252,8 +259,3 @@ def join_places(parts: Sequence[Phasors]) -> Phasors:
     vectors = [p.vectors.reshape(2, len(p.orders), -1) for p in parts]
     noises = [np.broadcast_to(p.noise, p.vectors.shape[1:]) for p in parts]
     return Phasors(parts[0].orders, np.concatenate(vectors, axis=2), np.column_stack(noises))
-
-
-def _column(orders: Array, like: NDArray[np.generic]) -> Array:
-    """Return the orders as a column that broadcasts with `like`."""
-    return orders.reshape(-1, *(1,) * (like.ndim - 1))

@@ -6,6 +6,9 @@ series, computed from its values at the Gauss-Legendre nodes. Panels are halved 
 are small, so that sharp peaks are resolved as well. Mean, harmonics, integral and extremes follow
 from the series; no panel extends across a corner or a jump.
 
+A curve may have a figure, further axes at the end of its series, such as one for the variants of an
+engine. It is then several functions on the same panels, whose values have the axes of the figure.
+
 Forces in a plane that are smooth between common breakpoints are sampled at the nodes of the same
 panels. A sum of forces is then a sum of samples, so that each force is computed only once.
 """
@@ -23,7 +26,7 @@ from numpy.polynomial import legendre
 from numpy.typing import ArrayLike, NDArray
 
 from .peaks import Peak
-from .phasors import Array, Complex
+from .phasors import Array, Complex, Figure, open_axes
 
 Function: TypeAlias = Callable[[Array], Array]  # values at angles (rad), in the shape of the angles
 Number = TypeVar("Number", np.float64, np.complex128)
@@ -70,32 +73,47 @@ class PiecewiseCurve:
     Attributes:
         breaks: Rising angles that bound the panels, rad, shape (panels + 1,); the last is one
             period after the first.
-        series: Legendre coefficients on each panel, shape (terms, panels); for several functions,
-            shape (terms, panels, *figure), only `at` and `within` work.
+        series: Legendre coefficients on each panel, shape (terms, panels, *figure).
     """
 
     breaks: Array
     series: Array
 
     @property
+    def figure(self) -> tuple[int, ...]:
+        """Shape of the figure; empty for a single function."""
+        return self.series.shape[2:]
+
+    @property
     def period(self) -> float:
         """Length of one period, rad."""
         return float(self.breaks[-1] - self.breaks[0])
 
-    @cached_property
+    @property
     def integral(self) -> float:
-        """Integral over one period; 0 if panels cancel to rounding."""
-        panels = self.series[0] * np.diff(self.breaks)
-        total = float(np.sum(panels))
-        return 0.0 if abs(total) <= _ROUNDING * float(np.sum(np.abs(panels))) else total
+        """Integral over one period; 0 if panels cancel to rounding. The curve has no figure."""
+        return float(self.integrals)
 
     @property
     def mean(self) -> float:
-        """Mean value over one period."""
-        return self.integral / self.period
+        """Mean value over one period. The curve has no figure."""
+        return float(self.means)
+
+    @cached_property
+    def integrals(self) -> Array:
+        """Integral over one period, shape (*figure); 0 if panels cancel to rounding."""
+        panels = self.series[0] * open_axes(np.diff(self.breaks), self.figure)
+        total = panels.sum(axis=0)
+        noise = _ROUNDING * np.abs(panels).sum(axis=0)
+        return np.where(np.abs(total) <= noise, 0.0, total)
+
+    @property
+    def means(self) -> Array:
+        """Mean value over one period, shape (*figure)."""
+        return self.integrals / self.period
 
     def at(self, angle: ArrayLike) -> Array:
-        """Return values at any angles (rad), in the shape of the angles; at a jump, the value after
+        """Return values at any angles (rad), shape (*angle, *figure); at a jump, the value after
         it.
         """
         start = self.breaks[0]
@@ -110,8 +128,14 @@ class PiecewiseCurve:
         panel = np.clip(panel, 0, len(self.breaks) - 2)
         middle, half = _find_middles(self.breaks)
         x = np.clip((angle - middle[panel]) / half[panel], -1, 1)
-        x = x.reshape(x.shape + (1,) * (self.series.ndim - 2))
-        return np.asarray(legendre.legval(x, self.series[:, panel], tensor=False))
+        if not self.figure:
+            return np.asarray(legendre.legval(x, self.series[:, panel], tensor=False))
+        basis = legendre.legvander(x, len(self.series) - 1)
+        values = np.empty(x.shape + self.figure, self.series.dtype)
+        for k in set(panel.ravel().tolist()):
+            here = panel == k
+            values[here] = np.tensordot(basis[here], self.series[:, k], 1)
+        return values
 
     def repeated(self, times: int) -> PiecewiseCurve:
         """Return the curve repeated several times, as one period."""
@@ -120,18 +144,19 @@ class PiecewiseCurve:
 
     def harmonics(self, wanted: ArrayLike) -> Complex:
         """Return the coefficients c_k of `Re sum c_k e^{2 pi i k angle/period}` for the wanted
-        whole numbers k >= 0, shape (harmonics,); c_0 is the mean.
+        whole numbers k >= 0, shape (harmonics, *figure); c_0 is the mean.
         """
         numbers = np.asarray(wanted, int)
         unit = 2 * np.pi / self.period
         top = int(numbers.max(initial=0))
         nodes, weights = quadrature(cut(self.breaks, _REACH / (unit * max(top, 1))), _NODES)
-        angles = nodes.reshape(-1)
-        shares = (2 * self.within(nodes) * weights).reshape(-1)
         # e^(-i k angle) with k = high * stride + low is a product of two waves of few different k
         stride = math.isqrt(top) + 1
-        if numbers.size <= stride:
-            return np.where(numbers == 0, self.mean, _add_waves(unit * numbers, angles, shares))
+        if numbers.size <= stride or self.figure:
+            is_mean = open_axes(numbers == 0, self.figure)
+            return np.where(is_mean, self.means, self._add_waves(unit * numbers, nodes, weights))
+        angles = nodes.reshape(-1)
+        shares = (2 * self.within(nodes) * weights).reshape(-1)
         low = unit * np.arange(stride)
         high = unit * np.arange(0, top + 1, stride)
         every = np.zeros((len(low), len(high)), np.complex128)
@@ -141,28 +166,52 @@ class PiecewiseCurve:
             every += slow @ (fast * shares[part]).T
         return np.where(numbers == 0, self.mean, every[numbers % stride, numbers // stride])
 
+    def _add_waves(self, numbers: Array, nodes: Array, weights: Array) -> Complex:
+        """Return the sum over the nodes of `2 weight value e^(-i number angle)` for each number,
+        shape (numbers, *figure).
+
+        Args:
+            numbers: Numbers, shape (numbers,).
+            nodes: Angles, shape (nodes, panels).
+            weights: Weights, in the shape of the nodes.
+        """
+        total = np.zeros(numbers.shape + self.figure, np.complex128)
+        functions = math.prod(self.figure)
+        for part in _blocks(nodes.shape[1], len(nodes) * max(numbers.size, functions)):
+            angles = nodes[:, part]
+            shares = self.within(angles) * open_axes(2 * weights[:, part], self.figure)
+            waves = np.exp(-1j * np.multiply.outer(numbers, angles))
+            total += np.tensordot(waves, shares, 2)
+        return total
+
     def antiderivative(self, constant: float = 0.0) -> PiecewiseCurve:
         """Return the integral of `curve - constant` over the angle, from the first breakpoint on.
         It is periodic if the constant is the mean.
         """
-        half = np.diff(self.breaks) / 2
+        half = open_axes(np.diff(self.breaks) / 2, self.figure)
         series = self.series.copy()
         series[0] -= constant
         area = 2 * half * series[0]
         series = legendre.legint(series, lbnd=-1) * half
-        series[0] += np.cumsum(area) - area
+        series[0] += np.cumsum(area, axis=0) - area
         return PiecewiseCurve(self.breaks, series)
 
     def extremes(self) -> tuple[Extreme, Extreme]:
         """Return the lowest and the highest value, each at the first angle that has it; at a jump,
         the values on both sides count. An extreme below the rounding error of the curve's largest
-        absolute value becomes 0.
+        absolute value becomes 0. The curve has no figure.
         """
-        return self._find_top(-1), self._find_top(1)
+        lowest = self._find_tops(-1)
+        highest = self._find_tops(1)
+        return Extreme(*map(float, lowest)), Extreme(*map(float, highest))
+
+    def find_range(self) -> tuple[Array, Array]:
+        """Return the values of `extremes`, shape (*figure) each."""
+        return self._find_tops(-1)[1], self._find_tops(1)[1]
 
     def reversals(self) -> int:
         """Return the number of sign changes in a period; values below 1e-9 of the largest one have
-        no sign.
+        no sign. The curve must have no figure.
         """
         value = self._sample()[1].T.reshape(-1)
         signs = np.sign(value[np.abs(value) > _NO_SIGN * np.abs(value).max()])
@@ -170,18 +219,19 @@ class PiecewiseCurve:
 
     def _sample(self) -> tuple[Array, Array]:
         """Return points of a panel (both ends and the nodes), shape (points,), and the values there
-        on every panel, shape (points, panels).
+        on every panel, shape (points, panels, *figure).
         """
         points = np.concatenate([[-1.0], gauss(max(len(self.series), 2))[0], [1.0]])
-        return points, legendre.legvander(points, len(self.series) - 1) @ self.series
+        basis = legendre.legvander(points, len(self.series) - 1)
+        return points, np.tensordot(basis, self.series, 1)
 
-    def _find_top(self, sign: int) -> Extreme:
-        """Return the lowest (sign -1) or highest (sign 1) value, by Newton's method from the best
-        point of every panel.
+    def _find_tops(self, sign: int) -> tuple[Array, Array]:
+        """Return angle and value of the lowest (sign -1) or highest (sign 1) point, by Newton's
+        method from the best point of every panel, shape (*figure) each.
         """
         points, values = self._sample()
-        tie = _TIE * float(np.ptp(values))
-        noise = _ROUNDING * np.abs(values).max()
+        tie = _TIE * np.ptp(values, axis=(0, 1))
+        noise = _ROUNDING * np.abs(values).max(axis=(0, 1))
         heights = sign * values
         start = x = points[np.argmax(heights >= heights.max(axis=0) - tie, axis=0)]
         rate = legendre.legder(self.series)
@@ -192,26 +242,19 @@ class PiecewiseCurve:
         low, high = (sign * legendre.legval(p, self.series, tensor=False) for p in (start, x))
         x = np.where(high > low + noise, x, start)
         height = np.maximum(low, high)
-        first = int(np.argmax(height >= height.max() - tie))
-        top = float(height.max())
+        top = height.max(axis=0)
+        first = np.argmax(height >= top - tie, axis=0)
         middle, half = _find_middles(self.breaks)
-        angle = middle[first] + half[first] * x[first]
-        return Extreme(float(angle), sign * top if abs(top) > noise else 0.0)
+        within = np.take_along_axis(x, first[None], axis=0)[0]
+        angle = middle[first] + half[first] * within
+        return angle, np.where(np.abs(top) > noise, sign * top, 0.0)
 
 
-def _blocks(angles: int, waves: int) -> Iterator[slice]:
-    """Yield the parts of a row of angles at which this many waves take little memory."""
-    size = max(_MOST_WAVES // max(waves, 1), 1)
-    for start in range(0, angles, size):
+def _blocks(places: int, values: int) -> Iterator[slice]:
+    """Yield the parts of a row of places at each of which this many values take little memory."""
+    size = max(_MOST_WAVES // max(values, 1), 1)
+    for start in range(0, places, size):
         yield slice(start, start + size)
-
-
-def _add_waves(numbers: Array, angles: Array, shares: Array) -> Complex:
-    """Return the sum over the angles of `share * e^(-i number angle)` for each number."""
-    total = np.zeros(numbers.shape, np.complex128)
-    for part in _blocks(len(angles), numbers.size):
-        total += np.exp(-1j * np.multiply.outer(numbers, angles[part])) @ shares[part]
-    return total
 
 
 def join(curves: Sequence[PiecewiseCurve]) -> PiecewiseCurve:
@@ -221,7 +264,9 @@ def join(curves: Sequence[PiecewiseCurve]) -> PiecewiseCurve:
     return PiecewiseCurve(np.concatenate([*breaks, curves[-1].breaks[-1:]]), series)
 
 
-def resolved(function: Function, breaks: ArrayLike, widest: float = _WIDEST) -> PiecewiseCurve:
+def resolved(
+    function: Function, breaks: ArrayLike, widest: float = _WIDEST, *, each: bool = False
+) -> PiecewiseCurve:
     """Return the curve of a function that is smooth between the given breakpoints.
 
     A panel is halved until its last two coefficients are below 1e-12 of the function's largest
@@ -232,20 +277,23 @@ def resolved(function: Function, breaks: ArrayLike, widest: float = _WIDEST) -> 
             of the angles, or (*angles, *figure).
         breaks: Rising breakpoints, rad; the last one is a period after the first.
         widest: Largest width of a panel before any is halved, rad.
+        each: Whether the coefficients of each member of the figure are compared with its own
+            largest value, not with the largest value of all.
     """
     edges = cut(np.asarray(breaks, float), widest)
     low = edges[:-1]
     high = edges[1:]
-    size = 0.0
+    size: Figure = 0.0
     starts = []
     pieces = []
     for halvings in range(_HALVINGS + 1):
         middle = (low + high) / 2
         values = function(middle + (high - low) / 2 * gauss(_TERMS)[0][:, None])
         series = np.tensordot(values_to_series(_TERMS), values, 1)
-        size = max(size, float(np.abs(values).max()))
-        last = np.abs(series[-2:]).reshape(2, len(low), -1)
-        halve = last.max(axis=(0, 2)) > _RESOLVED * size
+        largest = np.abs(values).max(axis=(0, 1))
+        size = np.maximum(size, largest if each else largest.max())
+        last = np.abs(series[-2:]).max(axis=0)
+        halve = (last > _RESOLVED * size).reshape(len(low), -1).any(axis=1)
         halve &= halvings < _HALVINGS and len(low) < _EVERYWHERE * len(edges)
         starts.append(low[~halve])
         pieces.append(series[:, ~halve])
@@ -330,40 +378,55 @@ _ENOUGH = 1e-13  # a relative step of the secant below this ends the search
 
 
 def find_zero(rising: Callable[[float], float], guess: float, at_zero: float) -> float:
-    """Return the zero of a rising function of a positive number, by false position.
+    """Return the zero of a rising function of a positive number; see `find_zeros`."""
+
+    def rise(number: Array) -> Array:
+        return np.asarray(rising(float(number)))
+
+    return float(find_zeros(rise, np.asarray(guess), np.asarray(at_zero)))
+
+
+def find_zeros(rising: Callable[[Array], Array], guess: Array, at_zero: Array) -> Array:
+    """Return the zeros of several rising functions of positive numbers, by false position.
 
     Args:
-        rising: Rising function; if it jumps from below 0 to infinity, the result is just
-            below the jump.
-        guess: Positive number to start with.
-        at_zero: Value of the function at 0, negative.
+        rising: Function that computes all functions, each of a number of its own. If a function
+            jumps from below 0 to infinity, its zero is just below the jump.
+        guess: Positive number to start with, for each function.
+        at_zero: Value of each function at 0; the zero of a function that is not negative there is
+            0.
     """
-    low = 0.0
+    low = np.zeros_like(at_zero)
     below = at_zero
-    high = guess
-    while (above := rising(high)) < 0:
-        low = high
-        below = above
-        high = 2 * high
+    high = np.where(at_zero < 0, guess, 0.0)
+    above = rising(high)
+    while (short := (above < 0) & (at_zero < 0)).any():
+        low = np.where(short, high, low)
+        below = np.where(short, above, below)
+        high = np.where(short, 2 * high, high)
+        above = rising(high)
     tried = high
-    was_below = False
+    was_below = np.zeros(at_zero.shape, bool)
+    going = at_zero < 0
     for _ in range(_ROUNDS):
-        share = 0.5 if above == math.inf else below / (below - above)
-        last = tried
-        tried = low + (high - low) * share
-        value = rising(tried)
-        if value == 0 or abs(tried - last) <= _ENOUGH * tried:
+        if not going.any():
             break
-        if value < 0:
-            low = tried
-            below = value
-            above = above / 2 if was_below else above
-        else:
-            high = tried
-            above = value
-            below = below if was_below else below / 2
-        was_below = value < 0
-    return low if above == math.inf else tried
+        apart = np.where(going, below - above, -1.0)
+        share = np.where(np.isinf(above), 0.5, below / apart)
+        last = tried
+        tried = np.where(going, low + (high - low) * share, tried)
+        value = rising(tried)
+        going &= (value != 0) & (np.abs(tried - last) > _ENOUGH * tried)
+        is_below = value < 0
+        low = np.where(going & is_below, tried, low)
+        high = np.where(going & ~is_below, tried, high)
+        # A side that is kept twice in a row counts half.
+        kept_above = np.where(was_below, above / 2, above)
+        kept_below = np.where(was_below, below, below / 2)
+        above = np.where(going, np.where(is_below, kept_above, value), above)
+        below = np.where(going, np.where(is_below, value, kept_below), below)
+        was_below = is_below
+    return np.where(np.isinf(above), low, tried)
 
 
 # ------------------------------------------------------------------ forces in a plane
