@@ -1,5 +1,7 @@
 """Computed cycles against arithmetic of 50 digits (`oracle/gas.py`), and what they refuse."""
 
+from dataclasses import replace
+
 import mpmath as mp
 import numpy as np
 import pytest
@@ -8,7 +10,7 @@ from support.cases import cases
 from support.pistons import slider_crank_piston
 
 from balcli.core.cylinder_pressure import GasError, find_highest, press
-from balcli.core.gas_cycle import GOALS, Goal, Process, gas_cycle
+from balcli.core.gas_cycle import GOALS, Goal, Process, find_least_imep, gas_cycle
 
 OF_THE_LARGEST = 1e-12  # harmonics
 RELATIVE = 1e-12  # imep
@@ -138,3 +140,46 @@ def test_what_cannot_be_is_refused_by_the_name_of_the_value(burn, goal, value, p
     with pytest.raises(GasError) as caught:
         cycle_of(burn, goal, value, **process)
     assert f"{caught.value.field}: {caught.value}" == told
+
+
+# ---------------------------------------------------------------- variants
+JOINT = {
+    "mean pressures": (wiebe(-15, 50), ("imep", [5e5, 9e5, 14e5]), {}),
+    "heats, one of them none": (OTTO, ("heat", [0.0, 500.0, 900.0]), {"expansion_index": [1.32, 1.28, 1.28]}),
+    "pressures and ratios": (wiebe(-15, 50), ("max_pressure", [60e5, 55e5, 70e5]), {"compression_ratio": [9, 10, 11]}),
+    "an isothermal compression": (OTTO, ("imep", 9e5), {"compression_index": [1.0, 1.2, 1.4]}),
+    "all else": (
+        wiebe(-40, 30),
+        ("max_pressure", 70e5),
+        {"burn_shape": [0.0, 0.5, 2.0], "intake": [0.9e5, 1e5, 1.4e5], "exhaust": [1e5, 2e5, 3e5]},
+    ),
+    "the least mean pressure": (OTTO, ("imep", [None, 9e5, None]), {"compression_ratio": [8, 10, 12]}),
+}
+
+
+@pytest.mark.parametrize("case", JOINT)
+def test_variants_of_a_cycle_are_each_of_them(case):
+    burn, (name, values), given = JOINT[case]
+    process = Process(**{"compression_ratio": 10.0} | burn)
+    every = []
+    for k in range(3):
+        own = replace(process, **{key: float(each[k]) for key, each in given.items()})
+        value = values[k] if isinstance(values, list) else values
+        wanted = find_least_imep(PISTON, own) if value is None else value
+        every.append((wanted, gas_cycle(PISTON, own, Goal(name, wanted))))
+    arrays = {key: np.array(each, float) for key, each in given.items()}
+    joint = gas_cycle(PISTON, replace(process, **arrays), Goal(name, np.array([wanted for wanted, _ in every])))
+    angle = np.linspace(0, 4 * np.pi, 301)
+    for k, (_, alone) in enumerate(every):
+        pressure = alone.pressure.at(angle)
+        assert joint.heat[k] == pytest.approx(alone.heat, rel=1e-11, abs=1e-9)
+        assert joint.imep[k] == pytest.approx(alone.imep, rel=1e-12)
+        assert joint.pressure.at(angle)[:, k] == pytest.approx(pressure, rel=1e-12, abs=1e-12 * pressure.max())
+
+
+def test_the_first_impossible_variant_is_refused():
+    with pytest.raises(GasError, match=r"is 3 bar: this cycle has at least") as told:
+        cycle_of(OTTO, "max_pressure", np.array([60e5, 3e5, 1e5]))
+    assert told.value.field == "max_pressure"
+    with pytest.raises(GasError, match=r"is 0\.95: give more than 1"):
+        cycle_of(OTTO, "imep", 9e5, expansion_index=np.array([1.3, 0.95, 1.28]))

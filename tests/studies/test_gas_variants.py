@@ -9,11 +9,14 @@ import numpy as np
 import pytest
 from support.cases import cases
 from support.commands import refusal, run_here
-from support.engines import build_text
+from support.engines import RADIAL, build_text
 from support.gas_engines import PETROL_FOUR
-from support.paths import write
+from support.paths import ENGINES, write
 
+import balcli
+from balcli.engine.load import build_jointly
 from balcli.forces.spectrum import compute_spectra
+from balcli.studies.search.designs import NumbersJudge, parse_objective
 
 FOUR = PETROL_FOUR.replace("[rod]", "throw_mass = 0.8\n[rod]") + "[cylinder.2]\nrod_length = 151\n"
 NAMES = "torque.2.amplitude,torque.1.5.cos,gas.0.5.sin,roll_total.3.amplitude,torque_total.4.amplitude"
@@ -137,3 +140,83 @@ def test_a_search_puts_one_goal_in_place_of_another(tmp_path):
     done = run_here("search", path, *over, *minimise, "-f", "json")
     row = run_here("sweep", path, "--vary", "gas.heat=900", "-q", "torque.max").out.split()[1]
     assert json.loads(done.out)["results"][0]["objective"] == float(row.split(",")[1])
+
+
+# ------------------------------------------------------------------ variants that are computed together
+V8 = (ENGINES / "v8_crossplane.toml").read_text(encoding="utf-8")
+OTTO = '[gas]\ncycle = "otto"\ncompression_ratio = 9\nheat = 1500\n[cylinder.3]\ngas = 0.9\n'
+TWO_STROKE = PETROL_FOUR.replace("[layout]", "[layout]\nstrokes = 2").replace("[0, 180, 180, 0]", "[0, 90, 270, 180]")
+MASTER_ROD = RADIAL.replace("mass = 1.3", "mass = 1.3\nbore = 100").replace(
+    "radial = 7", "radial = 7\nfiring_order = [1, 3, 5, 7, 2, 4, 6]"
+)
+JOINT = {
+    "in line": (FOUR, {"gas.imep": [1, 4, 11], "gas.intake": [0.8, 1.5]}),
+    "in line, by peak pressure": (FOUR, {"gas.max_pressure": [50, 75], "gas.compression_index": [1, 1.3]}),
+    "vee": (V8 + OTTO, {"gas.heat": [0, 900, 2500], "gas.compression_ratio": [7, 11]}),
+    "two-stroke": (TWO_STROKE, {"gas.burn_shape": [0, 0.6, 3], "gas.expansion_index": [1.2, 1.35]}),
+    "master rod": (MASTER_ROD + OTTO, {"gas.exhaust": [1, 3], "gas.intake": [0.9, 1.1]}),
+    "with a mass and a length": (FOUR, {"piston.mass": [0.4, 0.6], "rod.length": [150, 160], "gas.imep": [8, 9, 12]}),
+}
+OF_CYCLE = "torque.max,torque.min,torque.mean"
+OF_ORDERS = "gas.0.cos,gas.0.5.sin,gas.3.amplitude,torque.2.cos,torque.6.sin,roll_total.1.amplitude,gas.24.amplitude"
+
+
+@pytest.mark.parametrize("case", JOINT)
+def test_variants_that_are_computed_together_are_each_of_them(case):
+    text, grid = JOINT[case]
+    engine = build_text(text)
+    variants = [dict(zip(grid, values, strict=True)) for values in product(*grid.values())]
+    assert any(build_jointly(engine.model, variants))
+    found = balcli.sweep(engine, grid, f"{OF_CYCLE},{OF_ORDERS}")
+    every = np.stack([found[name] for name in [*OF_CYCLE.split(","), *OF_ORDERS.split(",")]])
+    for place in np.ndindex(every.shape[1:]):
+        own = {path: values[k] for (path, values), k in zip(grid.items(), place, strict=True)}
+        alone = balcli.sweep(engine, own, f"{OF_CYCLE},{OF_ORDERS}")
+        expected = np.array([alone[name].item() for name in list(alone)[len(grid) :]])
+        here = every[(slice(None), *place)]
+        assert here == pytest.approx(expected, rel=1e-12, abs=1e-12 * np.abs(expected).max())
+
+
+def test_what_cannot_be_computed_together_is_left_out():
+    """Angles of the cycle, cycles that turn at angles of their own, single cylinders; and impossible variants."""
+
+    def group(text, *variants):
+        return [places for places, _ in build_jointly(build_text(text).model, variants)]
+
+    two = {"gas.imep": 8.0}, {"gas.imep": 9.0}
+    assert group(FOUR, *two) == [[0, 1]]
+    assert group(FOUR, *({**own, "piston.mass": mass} for mass in (0.4, 0.5) for own in two)) == [[0, 1], [2, 3]]
+    assert group(FOUR, *({**own, "gas.burn_start": -10.0 - k} for k, own in enumerate(two))) == []
+    assert group(FOUR.replace('"wiebe"', '"diesel"'), *two) == []
+    assert group(FOUR + "[cylinder.3]\nheat = 900\n", *two) == []
+    assert group(FOUR, *({**own, "cylinder.3.heat": 900.0} for own in two)) == []
+    some = [{"gas.imep": mean, "piston.mass": mass} for mass in (0.4, 0.5) for mean in (8.0, 9.0)]
+    assert group(FOUR, *some, {"gas.imep": -20.0, "piston.mass": 0.4}) == [[2, 3]]
+
+
+@pytest.mark.parametrize("quantity", ["torque.max", "gas.2.amplitude"])
+@pytest.mark.parametrize(
+    ("values", "told"),
+    [
+        ("gas.imep=8,-20,-30", "gas.imep = -20: 2 mistakes\n  gas.imep: is -20 bar: this cycle has at least"),
+        ("gas.compression_index=1.3,0.9", "gas.compression_index = 0.9: gas: has compression_index = 0.9; in a cycle"),
+        ("gas.expansion_index=1.2,0.9,0.8", "gas.expansion_index = 0.9: gas: has expansion_index = 0.9; in a cycle"),
+        ("gas.max_pressure=60,2,1", "gas.max_pressure = 2: gas.max_pressure: is 2 bar: this cycle has at least"),
+    ],
+)
+def test_the_first_impossible_variant_is_told(values, told, quantity, tmp_path):
+    path = write(tmp_path / "four.toml", FOUR)
+    assert refusal("sweep", path, "--vary", values, "-q", quantity).startswith(f"{path}: {told}")
+
+
+def test_a_search_judges_candidates_together_and_impossible_ones_as_infinitely_bad():
+    model = build_text(FOUR).model
+    told = []
+    judge = NumbersJudge(model, ["gas.imep"], parse_objective("torque.max"), False, told.append)
+    points = np.array([[8.0], [-20.0], [9.0], [10.0]])
+    costs = judge(points)
+    assert told[-1] == 4
+    assert str(judge.refused.file) == "gas.imep = -20"
+    assert np.isinf(costs).tolist() == [False, True, False, False]
+    alone = np.concatenate([judge(point[None]) for point in points])
+    assert costs[[0, 2, 3]] == pytest.approx(alone[[0, 2, 3]], rel=1e-12)

@@ -8,6 +8,9 @@ With c the cycle angle, x the piston's travel from its upper dead centre, and P 
 virtual work gives the torque `P dx/dc` for every mechanism; x' = -s', where s is the position of
 the piston pin (docs/theory.md).
 
+The pressures of several variants of a cylinder are a curve with a figure (`core.piecewise`), whose
+axes the torque and its harmonics then have as well.
+
 Pressures are absolute. They are measured (`engine.indicator`) or computed (`gas_cycle`). Tables of
 engine builders give only harmonics of the torque, without a pressure.
 """
@@ -17,7 +20,8 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import NamedTuple
+from functools import cached_property, reduce
+from operator import add
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -25,7 +29,7 @@ from numpy.typing import ArrayLike
 from .cylinders import Cylinders, find_travel
 from .mechanisms import slidercrank
 from .mechanisms.linkage import Articulated, Rotary
-from .phasors import Array, Complex
+from .phasors import Array, Complex, Figure, open_axes
 from .piecewise import Extreme, PiecewiseCurve, merged_breaks, resolved
 
 _SAME = 1e-8  # rad; a pressure peak this close to a breakpoint is placed at the breakpoint
@@ -107,16 +111,16 @@ class GasPiston:
         swept = end.area * (self.stroke - travel if end.is_crank_end else travel)
         return (end.clearance or 0.0) * end.swept + swept
 
-    def clearance(self, compression_ratio: float) -> float:
+    def clearance(self, compression_ratio: Figure) -> Figure:
         """Return the volume of the cylinder at the upper dead centre, m3."""
         return self.swept / (compression_ratio - 1)
 
-    def volume(self, angle: ArrayLike, compression_ratio: float) -> Array:
+    def volume(self, angle: ArrayLike, compression_ratio: Figure) -> Array:
         """Return the volume of the cylinder, m3, in the shape of the angles.
 
         Args:
             angle: Cycle angles, rad, any shape.
-            compression_ratio: Largest volume over smallest volume.
+            compression_ratio: Largest volume over smallest volume; it broadcasts to the angles.
         """
         travel = self.travel(np.asarray(angle, float))
         return self.clearance(compression_ratio) + self.area * travel
@@ -176,32 +180,50 @@ HEAD_END = "head"
 CRANK_END = "crank"
 
 
-class GasEnd(NamedTuple):
+@dataclass(frozen=True, eq=False)
+class GasEnd:
     """Gas in one end of a cylinder.
 
     Attributes:
         name: `HEAD_END` (away from the crank) or `CRANK_END`.
+        piston: Piston on which the gas acts.
         pressure: Absolute pressure over the cycle angle, Pa.
-        area: Area of the piston in this end, m2.
-        swept: Swept volume of this end, m3.
-        work: Work of the gas on the piston in one revolution of a compressor, or in one cycle of
-            any other end, J.
         volumetric_efficiency: Volume drawn in over swept volume; None unless the end compresses.
         clearance: Smallest volume of this end over swept volume; None if it is not known.
     """
 
     name: str
+    piston: GasPiston
     pressure: PiecewiseCurve
-    area: float
-    swept: float
-    work: float
     volumetric_efficiency: float | None = None
-    clearance: float | None = None
+    clearance: Figure | None = None
 
     @property
     def is_crank_end(self) -> bool:
         """Whether the end is the one towards the crank."""
         return self.name == CRANK_END
+
+    @property
+    def area(self) -> float:
+        """Area of the piston in this end, m2."""
+        return self.piston.back_area if self.is_crank_end else self.piston.area
+
+    @property
+    def swept(self) -> float:
+        """Swept volume of this end, m3."""
+        return self.area * self.piston.stroke
+
+    @cached_property
+    def work(self) -> float:
+        """Work of the gas on the piston in one revolution of a compressor, or in one cycle of any
+        other end, J.
+        """
+        sense = -1 if self.is_crank_end else 1
+
+        def find_rate(angle: Array) -> Array:
+            return sense * self.area * self.pressure.at(angle) * self.piston.rate(angle)
+
+        return resolved(find_rate, self.pressure.breaks).integral
 
     @property
     def turns(self) -> float:
@@ -255,13 +277,14 @@ class GasTorque:
 
     def harmonics(self, halves: ArrayLike) -> Complex:
         """Return the coefficients t_h, N m, of the torque `Re sum t_h e^{i h c/2}`, where c is the
-        cycle angle, shape (orders,). The whole number h is twice the order; t_0 is the mean
-        torque. In a two-stroke engine, t_h is 0 for odd h.
+        cycle angle, shape (orders, *figure). The whole number h is twice the order; t_0 is the
+        mean torque. In a two-stroke engine, t_h is 0 for odd h.
         """
         half_orders = np.asarray(halves)
         every = round(4 * np.pi / self.curve.period)
         found = self.curve.harmonics(half_orders // every)
-        return np.where(half_orders % every == 0, found, 0)
+        there = open_axes(half_orders % every == 0, self.curve.figure)
+        return np.where(there, found, 0)
 
 
 def press(
@@ -277,38 +300,10 @@ def press(
     """
 
     def torque(angle: Array) -> Array:
-        return piston.area * (pressure.at(angle) - crankcase) * piston.rate(angle)
+        arm = open_axes(piston.rate(angle), pressure.figure)
+        return piston.area * (pressure.at(angle) - crankcase) * arm
 
-    return GasTorque(piston, breaks, resolved(torque, breaks), pressure, crankcase)
-
-
-def make_end(
-    piston: GasPiston,
-    pressure: PiecewiseCurve,
-    *,
-    crank_end: bool = False,
-    volumetric_efficiency: float | None = None,
-    clearance: float | None = None,
-) -> GasEnd:
-    """Return the gas in one end of a cylinder.
-
-    Args:
-        piston: Piston on which the pressure acts.
-        pressure: Absolute pressure, Pa, over the cycle angle.
-        crank_end: Whether the end is the one towards the crank.
-        volumetric_efficiency: For a compressor, volume drawn in over swept volume.
-        clearance: Smallest volume of this end over swept volume; None if it is not known.
-    """
-    area = piston.back_area if crank_end else piston.area
-    sense = -1 if crank_end else 1
-
-    def work_rate(angle: Array) -> Array:
-        return sense * area * pressure.at(angle) * piston.rate(angle)
-
-    work = resolved(work_rate, pressure.breaks).integral
-    name = CRANK_END if crank_end else HEAD_END
-    swept = area * piston.stroke
-    return GasEnd(name, pressure, area, swept, work, volumetric_efficiency, clearance)
+    return GasTorque(piston, breaks, resolved(torque, breaks, each=True), pressure, crankcase)
 
 
 def press_both(
@@ -368,7 +363,7 @@ def blend(first: GasTorque, second: GasTorque, share: float) -> GasTorque:
     ends: tuple[GasEnd, ...] = ()
     if pressure:
         clearance = first.ends[0].clearance if first.ends else None
-        ends = (make_end(first.piston, pressure, clearance=clearance),)
+        ends = (GasEnd(HEAD_END, first.piston, pressure, clearance=clearance),)
     return replace(first, breaks=breaks, curve=curve, pressure=pressure, ends=ends)
 
 
@@ -390,12 +385,14 @@ def crank_torque(
 
     Args:
         cylinders: For each cylinder its gas torque, the crank angle (rad) of its firing dead
-            centre, and the factor by which its torque is multiplied (0 for a misfire).
+            centre, and the factor by which its torque is multiplied (0 for a misfire). The curves
+            of all torques have the same figure.
         period: Angle after which the sum repeats itself, rad.
     """
 
     def total(angle: Array) -> Array:
         each = (share * gas.curve.at(angle - fires) for gas, fires, share in cylinders)
-        return sum(each, np.zeros(angle.shape))
+        return reduce(add, each)
 
-    return resolved(total, merged_breaks([(g.breaks, fires) for g, fires, _ in cylinders], period))
+    breaks = merged_breaks([(gas.breaks, fires) for gas, fires, _ in cylinders], period)
+    return resolved(total, breaks, each=True)

@@ -14,6 +14,9 @@ that the gas gains from the start of the burn (1) to the opening of the exhaust 
 Compression is a polytrope, and pressures are constant while the valves are open, so imep has a
 closed form.
 
+Variants of a cycle are computed as one cycle whose figures are arrays. All laws then hold between
+the same cycle angles, so that figures that move these angles must be numbers.
+
 Sources: the ideal cycles are those of every textbook (Heywood, Internal Combustion Engine
 Fundamentals, 1988, 5.4); Wiebe's law is `x = 1 - exp(-6.908 xi^(m+1))` (1956): 99.9 % of the heat
 is released within the duration of the burn. x is the burnt share of the fuel, xi the elapsed share
@@ -23,14 +26,14 @@ of the duration.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import Literal, NamedTuple
+from dataclasses import dataclass, replace
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
 from .cylinder_pressure import GasError, GasPiston
-from .phasors import Array
-from .piecewise import Function, PiecewiseCurve, find_zero, join, resolved
+from .phasors import Array, Figure, open_axes
+from .piecewise import Function, PiecewiseCurve, find_zeros, join, resolved
 
 _BURNT = 6.908  # -ln 0.001
 
@@ -46,7 +49,8 @@ GOALS = {
 # ---------------------------------------------------------------- input and result
 @dataclass(frozen=True)
 class Process:
-    """Figures of a cycle except its heat: absolute pressures in Pa, cycle angles in deg.
+    """Figures of a cycle except its heat: absolute pressures in Pa, cycle angles in deg. Figures
+    other than angles may be arrays of variants (`align`).
 
     Attributes:
         cycle: Law of the burn: "otto", all heat at the dead centre; "diesel", at the constant
@@ -61,36 +65,52 @@ class Process:
         max_pressure: Highest pressure of a dual cycle.
     """
 
-    compression_ratio: float
+    compression_ratio: Figure
     cycle: str = "otto"
     strokes: int = 4
-    compression_index: float = 1.32
-    expansion_index: float = 1.28
-    intake: float = 1.0e5
-    exhaust: float = 1.05e5
+    compression_index: Figure = 1.32
+    expansion_index: Figure = 1.28
+    intake: Figure = 1.0e5
+    exhaust: Figure = 1.05e5
     exhaust_opens: float | None = None
     intake_closes: float | None = None
     burn_start: float = -15.0
     burn_duration: float = 50.0
-    burn_shape: float = 2.0
+    burn_shape: Figure = 2.0
     max_pressure: float | None = None
+
+    def align(self, shape: tuple[int, ...]) -> Process:
+        """Return the process with all figures that may vary as arrays of the shape of the variants;
+        as plain numbers, if the shape is empty.
+        """
+        aligned: dict[str, Any] = {}
+        for key in _VARYING:
+            aligned[key] = np.broadcast_to(getattr(self, key), shape)[()]
+        return replace(self, **aligned)
+
+
+_VARYING = (
+    *("compression_ratio", "compression_index", "expansion_index"),
+    *("intake", "exhaust", "burn_shape"),
+)
 
 
 class Goal(NamedTuple):
     """Figure that a cycle must reach: `imep` or `max_pressure` (Pa), `heat` supplied per cycle (J),
     or `cut_off`, the volume at the end of the burn at constant pressure divided by the volume at
-    the start of this burn.
+    the start of this burn. The value may be an array of variants.
     """
 
     name: Literal["imep", "heat", "max_pressure", "cut_off"]
-    value: float
+    value: Figure
 
 
 class GasCycle(NamedTuple):
-    """A computed cycle.
+    """A computed cycle, or several variants of it.
 
     Attributes:
-        pressure: Absolute pressure at cycle angles, Pa.
+        pressure: Absolute pressure at cycle angles, Pa; the figure of the curve has the shape of
+            the variants.
         breaks: Cycle angles between which the pressure is smooth, rad.
         heat: Heat supplied in a cycle, J.
         imep: Indicated mean effective pressure, Pa, pumping included.
@@ -98,8 +118,8 @@ class GasCycle(NamedTuple):
 
     pressure: PiecewiseCurve
     breaks: Array
-    heat: float
-    imep: float
+    heat: Figure
+    imep: Figure
 
 
 def gas_cycle(piston: GasPiston, process: Process, goal: Goal) -> GasCycle:
@@ -107,7 +127,8 @@ def gas_cycle(piston: GasPiston, process: Process, goal: Goal) -> GasCycle:
 
     Args:
         piston: Piston of the cylinder.
-        process: Laws of compression, combustion and expansion.
+        process: Laws of compression, combustion and expansion. Figures of an Otto or Wiebe cycle
+            may be arrays of variants.
         goal: Figure that the cycle must reach; it determines the heat.
 
     Raises:
@@ -115,13 +136,15 @@ def gas_cycle(piston: GasPiston, process: Process, goal: Goal) -> GasCycle:
             goal.
     """
     _check(piston, process, goal)
-    cycle = _Cycle(piston, process)
+    varying = (getattr(process, key) for key in _VARYING)
+    shape = np.broadcast_shapes(np.shape(goal.value), *map(np.shape, varying))
+    cycle = _Cycle(piston, process.align(shape))
     heat = cycle.find_heat(goal)
     breaks = [cycle.closes]
     curves = []
     for end, law in cycle.list_laws(heat):
         if end > breaks[-1]:
-            curves.append(resolved(law, [breaks[-1], end]))
+            curves.append(resolved(law, [breaks[-1], end], each=True))
             breaks.append(end)
     return GasCycle(join(curves), np.array(breaks), heat, cycle.find_imep(heat))
 
@@ -132,10 +155,10 @@ def find_least_imep(piston: GasPiston, process: Process) -> float:
 
     Args:
         piston: Piston of the cylinder.
-        process: Laws of compression, combustion and expansion.
+        process: Laws of compression, combustion and expansion, whose figures are numbers.
     """
     cycle = _Cycle(piston, process)
-    return cycle.find_imep(cycle.least)
+    return float(cycle.find_imep(cycle.least))
 
 
 # ---------------------------------------------------------------- checks
@@ -146,8 +169,9 @@ def _check(piston: GasPiston, process: Process, goal: Goal) -> None:
     if goal.name not in goals:
         hint = f"give {', '.join(goals[:-1])} or {goals[-1]}"
         raise GasError(goal.name, f"does not determine the {p.cycle} cycle: {hint}")
-    if not p.expansion_index > 1:
-        raise GasError("expansion_index", f"is {p.expansion_index:g}: give more than 1")
+    index = float(np.min(p.expansion_index))
+    if not index > 1:
+        raise GasError("expansion_index", f"is {index:g}: give more than 1")
     lowest = math.degrees(piston.bottom)
     burnt = p.burn_start + p.burn_duration
     if p.strokes == 2 and p.exhaust_opens is not None and p.exhaust_opens > lowest:
@@ -178,7 +202,11 @@ def _find_valves(piston: GasPiston, process: Process) -> tuple[float, float]:
 
 # ---------------------------------------------------------------- cycles
 class _Cycle:
-    """A cycle whose heat is not known yet."""
+    """A cycle whose heat is not known yet.
+
+    Laws are functions of cycle angles of any shape; their values have the axes of the angles, then
+    the axes of the variants (`variants`), if the process has arrays.
+    """
 
     def __init__(self, piston: GasPiston, process: Process) -> None:
         p = process
@@ -188,12 +216,13 @@ class _Cycle:
         self.start = math.radians(p.burn_start) if p.cycle == "wiebe" else 0.0
         self.opens, self.closes = _find_valves(piston, process)
         self.begins = min(self.start, 0.0)
+        self.variants = np.shape(p.compression_ratio)
         places = np.array([self.closes, self.begins, self.opens])
-        self.closed, self.charge, self.opened = self.find_volume(places).tolist()
+        self.closed, self.charge, self.opened = self.find_volume(places)
         self.pressure = p.intake * (self.closed / self.charge) ** p.compression_index
         self.constant = self.pressure * self.charge**self.index  # p V^n of the charge
-        self.least = 0.0
-        self.most = math.inf
+        self.least: Figure = 0.0
+        self.most: Figure = math.inf
         self.released = 1.0  # heat limits, J; released share
         self.grown = self.charge ** (self.index - 1)  # integral of V^(n-1) dx, x: burnt share
         self.limit = self.pressure if p.cycle == "diesel" else None
@@ -207,26 +236,27 @@ class _Cycle:
         if p.cycle == "wiebe":
             self.end = self.start + math.radians(p.burn_duration)
             self.released = -math.expm1(-_BURNT)
-            self.lost = resolved(self._widen, [self.start, self.end]).antiderivative()
-            self.grown = float(self._grow(np.array(self.end)))
+            self.lost = resolved(self._widen, [self.start, self.end], each=True).antiderivative()
+            self.grown = self._grow(np.array(self.end))
 
     def find_volume(self, angle: Array) -> Array:
         """Return the volume (m3) at cycle angles."""
-        return self.piston.volume(angle, self.process.compression_ratio)
+        angles = open_axes(angle, self.variants)
+        return self.piston.volume(angles, self.process.compression_ratio)
 
     # ------------------------------------------------------------ the burn
-    def burn(self, heat: float) -> float:
+    def burn(self, heat: Figure) -> Figure:
         """Return p V^n after the burn with this heat."""
         if self.limit is not None:
-            return float(self.limit * self._find_last(heat) ** self.index)
+            return self.limit * self._find_last(heat) ** self.index
         return self.constant + (self.index - 1) * self.grown * heat
 
-    def list_burning(self, heat: float) -> list[tuple[float, Function]]:
+    def list_burning(self, heat: Figure) -> list[tuple[float, Function]]:
         """Return the pressure laws from the start to the end of the burn, in the form of
         `list_laws`.
         """
         if self.limit is not None:
-            travel = (self._find_last(heat) - self.charge) / self.piston.area
+            travel = float((self._find_last(heat) - self.charge) / self.piston.area)
             return [(self.piston.angle_of(travel), _hold(self.limit))]
         if self.process.cycle != "wiebe":
             return []
@@ -235,18 +265,19 @@ class _Cycle:
             constant = self.constant + (self.index - 1) * heat * self._grow(angle)
             return constant / self.find_volume(angle) ** self.index
 
-        return [(self.start, self._expand(self.constant)), (self.end, burn)]
+        return [(self.start, self._expand(self.constant, self.index)), (self.end, burn)]
 
-    def _find_last(self, heat: float) -> float:
+    def _find_last(self, heat: Figure) -> Figure:
         """Return the volume at the end of the burn at constant pressure, m3."""
         return self.charge + (heat - self.least) / self.share
 
     def _find_burnt(self, angle: Array) -> Array:
-        xi = np.clip((angle - self.start) / (self.end - self.start), 0, 1)
+        elapsed = np.clip((angle - self.start) / (self.end - self.start), 0, 1)
+        xi = open_axes(elapsed, self.variants)
         return -np.expm1(-_BURNT * xi ** (self.process.burn_shape + 1))
 
     def _widen(self, angle: Array) -> Array:
-        rate = self.piston.area * self.piston.rate(angle)
+        rate = self.piston.area * self.piston.rate(open_axes(angle, self.variants))
         power = self.find_volume(angle) ** (self.index - 2)
         return (self.index - 1) * self._find_burnt(angle) * power * rate
 
@@ -260,7 +291,7 @@ class _Cycle:
         return self._find_burnt(at) * power - self.lost.within(at)
 
     # ------------------------------------------------------------ the whole cycle
-    def list_laws(self, heat: float) -> list[tuple[float, Function]]:
+    def list_laws(self, heat: Figure) -> list[tuple[float, Function]]:
         """Return the pressure laws in sequence from the start of compression on, as pairs: cycle
         angle (rad) at which the law ends, and the law (Pa, a function of cycle angles). A law may
         end where it begins.
@@ -271,30 +302,32 @@ class _Cycle:
         return [
             (self.begins, self._expand(closed, p.compression_index)),
             *self.list_burning(heat),
-            (self.opens, self._expand(self.burn(heat))),
+            (self.opens, self._expand(self.burn(heat), self.index)),
             *([(2 * math.pi, _hold(p.exhaust))] if p.strokes == 4 else []),
             (self.closes + period, _hold(p.intake)),
         ]
 
-    def _expand(self, constant: float, index: float | None = None) -> Function:
-        """Return the pressure law p V^n = `constant`."""
-        return lambda angle: constant / self.find_volume(angle) ** (index or self.index)
+    def _expand(self, constant: Figure, index: Figure) -> Function:
+        """Return the pressure law p V^n = `constant` with the index n."""
+        return lambda angle: constant / self.find_volume(angle) ** index
 
-    def find_imep(self, heat: float) -> float:
+    def find_imep(self, heat: Figure) -> Figure:
         """Return the indicated mean effective pressure with this heat, Pa."""
         p = self.process
         n = self.index
         gained = self.burn(heat) * self.opened ** (1 - n) - self.pressure * self.charge
         work = self.released * heat - gained / (n - 1)
-        over = p.compression_index - 1
-        steps = math.log(self.closed / self.charge)
-        work -= p.intake * self.closed * (math.expm1(over * steps) / over if over else steps)
+        over = np.asarray(p.compression_index - 1)
+        steps = np.log(self.closed / self.charge)
+        isothermal = over == 0
+        compressed = np.expm1(over * steps) / np.where(isothermal, 1.0, over)
+        work -= p.intake * self.closed * np.where(isothermal, steps, compressed)
         if p.strokes == 4:  # the ports of a two-stroke close at the volume at which they opened
             clearance = self.piston.clearance(p.compression_ratio)
             work += p.intake * (self.closed - clearance) - p.exhaust * (self.opened - clearance)
         return work / self.piston.swept
 
-    def find_goal(self, name: str, heat: float) -> float:
+    def find_goal(self, name: str, heat: Figure) -> Figure:
         """Return the value that the figure of a goal has in the cycle with this heat.
 
         Args:
@@ -309,37 +342,45 @@ class _Cycle:
             return self._find_last(heat) / self.charge
         if self.process.cycle == "otto":
             return self.burn(heat) / self.charge**self.index
-        burning = self._expand(self.burn(heat)) if self.end < 0 else self.list_burning(heat)[1][1]
-        breaks = [self.start, self.end] if self.end >= 0 else [self.end, 0.0]
-        return max(self.pressure, resolved(burning, breaks).extremes()[1].value)
+        burning = self.list_burning(heat)[1][1]
+        breaks = [self.start, self.end]
+        if self.end < 0:
+            burning = self._expand(self.burn(heat), self.index)
+            breaks = [self.end, 0.0]
+        _, highest = resolved(burning, breaks, each=True).find_range()
+        return np.maximum(self.pressure, highest)
 
-    def find_heat(self, goal: Goal) -> float:
+    def find_heat(self, goal: Goal) -> Figure:
         """Return the heat (J) with which the cycle reaches the goal."""
         name, value = goal
         lowest = self.find_goal(name, self.least)
-        highest = math.inf
-        if self.most < math.inf:
+        highest: Figure = math.inf
+        if self.limit is not None:
             highest = self.find_goal(name, self.most)
-        guess = min(self.constant * self.charge ** (1 - self.index), self.most - self.least)
-        if name == "imep" and self.find_imep(self.least + guess) <= lowest:
-            highest = lowest  # more heat does not raise imep
+        guess = np.minimum(self.constant * self.charge ** (1 - self.index), self.most - self.least)
+        if name == "imep":  # more heat may not raise it
+            rises = self.find_imep(self.least + guess) > lowest
+            highest = np.where(rises, highest, lowest)
         self._refuse_beyond(name, value, lowest, highest)
-        if value in (lowest, highest):
-            return self.least if value == lowest else self.most
-        return self.least + find_zero(
-            lambda above: self.find_goal(name, self.least + above) - value, guess, lowest - value
-        )
+        if np.all(value == highest) and np.all(value > lowest):
+            return self.most
 
-    def _refuse_beyond(self, name: str, value: float, lowest: float, highest: float) -> None:
+        def exceed(above: Array) -> Array:
+            return np.asarray(self.find_goal(name, self.least + above) - value)
+
+        return self.least + find_zeros(exceed, guess, np.asarray(lowest - value))
+
+    def _refuse_beyond(self, name: str, value: Figure, lowest: Figure, highest: Figure) -> None:
         """Raise GasError if a value is outside the range that the cycle can reach."""
         size, unit = (1e5, " bar") if name in ("imep", "max_pressure") else (1.0, "")
-        message = f"is {value / size:g}{unit}: this cycle has"
-        if value < lowest:
-            raise GasError(name, f"{message} at least {lowest / size:.4g}{unit}")
-        if value > highest:
-            raise GasError(name, f"{message} at most {highest / size:.4g}{unit}")
+        for wanted, least, most in np.broadcast(value, lowest, highest):
+            message = f"is {wanted / size:g}{unit}: this cycle has"
+            if wanted < least:
+                raise GasError(name, f"{message} at least {least / size:.4g}{unit}")
+            if wanted > most:
+                raise GasError(name, f"{message} at most {most / size:.4g}{unit}")
 
 
-def _hold(pressure: float) -> Function:
+def _hold(pressure: Figure) -> Function:
     """Return the law of constant pressure."""
-    return lambda angle: np.full(angle.shape, pressure)
+    return lambda angle: np.full(angle.shape + np.shape(pressure), pressure)

@@ -4,26 +4,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from functools import partial
+from collections.abc import Iterator, Mapping, Sequence
 
+import numpy as np
+
+from ..core.phasors import Array
 from ..engine.build import build
 from ..engine.engine import Engine
-from ..engine.load import FiguresOfVariants
+from ..engine.load import FiguresOfVariants, build_jointly
 from ..errors import BalcliError
 from ..file.model import EngineFile
 from ..forces.curves import find_constant_inertia, find_torque_curves
 from ..forces.quantity import TargetQuantity
 from .answer import torque
 
-_NAMES = ("torque.mean", "torque.max", "torque.min", "fluctuation")
+FLUCTUATION = "fluctuation"
+_NAMES = ("torque.mean", "torque.max", "torque.min", FLUCTUATION)
 NO_INERTIA = "fluctuation: the file gives no inertia; give inertia in [crank] or [flywheel]"
 
 
 def list_names(model: EngineFile) -> Iterator[str]:
     """Yield the names of the quantities of an engine with gas; `fluctuation` needs an inertia."""
     known = find_constant_inertia(build(model)) is not None
-    yield from (name for name in _NAMES if known or name != "fluctuation")
+    yield from (name for name in _NAMES if known or name != FLUCTUATION)
 
 
 def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> None:
@@ -36,6 +39,13 @@ def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> N
         raise BalcliError(f"{quantities[0].name}: the engine file has no [gas]")
 
 
+def _measure_torque(engine: Engine) -> dict[str, Array]:
+    """Return the means and extremes of the torque by name, with the trailing axes of the gas."""
+    curves = find_torque_curves(engine)
+    lowest, highest = curves.total.find_range()
+    return {"torque.mean": curves.gas.means, "torque.max": highest, "torque.min": lowest}
+
+
 def evaluate_engine(engine: Engine, quantities: Sequence[TargetQuantity]) -> list[float]:
     """Return the value of each quantity of one engine with gas.
 
@@ -44,19 +54,54 @@ def evaluate_engine(engine: Engine, quantities: Sequence[TargetQuantity]) -> lis
             stalls.
     """
     values = dict[str, float]()
-    if any(q.name != "fluctuation" for q in quantities):
-        curves = find_torque_curves(engine)
-        lowest, highest = curves.total.extremes()
-        values |= {"torque.mean": curves.gas.mean, "torque.max": highest.value}
-        values["torque.min"] = lowest.value
-    if any(q.name == "fluctuation" for q in quantities):
+    if any(q.name != FLUCTUATION for q in quantities):
+        values |= {name: float(value) for name, value in _measure_torque(engine).items()}
+    if any(q.name == FLUCTUATION for q in quantities):
         computed = torque(engine, [1])
         if not hasattr(computed, "flywheel"):
             raise BalcliError(NO_INERTIA)
         if not hasattr(computed.flywheel, "fluctuation"):
             raise BalcliError(computed.flywheel.stall or NO_INERTIA)
-        values["fluctuation"] = computed.flywheel.fluctuation
+        values[FLUCTUATION] = computed.flywheel.fluctuation
     return [values[q.name] for q in quantities]
 
 
-Variants = partial(FiguresOfVariants, evaluate_engine)
+class TorqueOfVariants(FiguresOfVariants[TargetQuantity]):
+    """Evaluator of means and extremes of the torque for the variants of an engine with gas.
+
+    Args:
+        model: Engine file.
+        quantities: Quantities to evaluate.
+    """
+
+    def __init__(self, model: EngineFile, quantities: Sequence[TargetQuantity]) -> None:
+        super().__init__(evaluate_engine, model, quantities)
+
+    def evaluate_jointly(self, variants: Sequence[Mapping[str, float]]) -> dict[int, list[float]]:
+        """Return the value of each quantity for the variants that can be computed together, by
+        their places among all variants.
+
+        Args:
+            variants: Varied figures of each variant, by dotted name.
+        """
+        names = [q.name for q in self._quantities]
+        rows = dict[int, list[float]]()
+        for places, engine in build_jointly(self._model, variants):
+            torques = _measure_torque(engine)
+            columns = np.stack([torques[name] for name in names])
+            rows |= dict(zip(places, columns.T.tolist(), strict=True))
+        return rows
+
+
+def Variants(
+    model: EngineFile, quantities: Sequence[TargetQuantity]
+) -> FiguresOfVariants[TargetQuantity]:
+    """Return an evaluator of quantities for the variants of an engine with gas.
+
+    Args:
+        model: Engine file.
+        quantities: Quantities to evaluate.
+    """
+    if any(q.name == FLUCTUATION for q in quantities):
+        return FiguresOfVariants(evaluate_engine, model, quantities)
+    return TorqueOfVariants(model, quantities)

@@ -71,6 +71,8 @@ def build(
             `crank.throws.2`). The arrays broadcast against each other. If a figure varies and the
             file gives throws, the firing order is ignored, unless the file has [gas] and all
             values are numbers.
+            Arrays of the figures of a computed gas cycle (`parts.list_joint_paths`) give only the
+            gas trailing axes, and count as numbers otherwise.
         rank: Minimum number of trailing axes (the last axes of each array, along which figures
             differ from variant to variant). A figure that does not vary along one of these axes
             has length 1 there; so has a result that depends only on such figures.

@@ -3,6 +3,9 @@
 The pressure in a cylinder is measured (an indicator diagram, `engine.indicator`) or computed from a
 cycle (`core.gas_cycle`). Instead of a pressure, tables of engine builders give harmonics of the
 torque. Cylinders with equal mechanism, diagram and heat share one torque curve.
+
+Some figures of [gas] may be arrays of variants (`list_together`), while all others are numbers. The
+curves of the gas then have a figure with the shape of the variants.
 """
 
 from __future__ import annotations
@@ -18,17 +21,18 @@ import numpy as np
 
 from ..core.compressor import Compression, compress
 from ..core.cylinder_pressure import (
+    CRANK_END,
+    HEAD_END,
     GasEnd,
     GasError,
     GasPiston,
     GasTorque,
     blend,
-    make_end,
     pistons,
     press_both,
 )
 from ..core.gas_cycle import GasCycle, Goal, Process, find_least_imep, gas_cycle
-from ..core.phasors import Array
+from ..core.phasors import Array, Figure
 from ..core.piecewise import resolved
 from ..errors import BalcliError, InputError, Problem
 from ..file.csv_columns import Head, NumberColumns, list_heads, locate_beside, read_columns
@@ -83,7 +87,7 @@ class _Source(NamedTuple):
     table: int
     path: str
     indicator: str | None
-    heat: float | None
+    heat: Figure | None
     heat_path: str
     share: float
 
@@ -96,6 +100,11 @@ class _Source(NamedTuple):
     def compresses(self) -> bool:
         """Whether the head end has a compressor cycle."""
         return self.indicator is None and self.gas.cycle == COMPRESSOR
+
+    @property
+    def burns_nothing(self) -> bool:
+        """Whether the cylinder compresses and expands its charge without heat."""
+        return self.heat is not None and not np.any(self.heat)
 
 
 def build_gas(parts: Parts) -> EngineGas:
@@ -361,7 +370,7 @@ def _vary_table(parts: Parts, path: str, table: Table) -> Table:
         return table
     displaced = {rival for key in varied for rival in table.rivals(key)}
     kept = {key: getattr(table, key) for key in table.model_fields_set - displaced}
-    changed = kept | {key: float(value) for key, value in varied.items()}
+    changed = kept | {key: np.asarray(value, float)[()] for key, value in varied.items()}
     return type(table).model_construct(**changed)
 
 
@@ -647,7 +656,8 @@ class _EndMaker(NamedTuple):
         cycle = _compute_cycle(gas, source, self.piston, self.strokes, at_least=at_least)
         self.overfed.extend(_doubt_heat(gas, source, self.piston, cycle))
         clearance = None if gas.compression_ratio is None else 1 / (gas.compression_ratio - 1)
-        return make_end(self.piston, cycle.pressure, clearance=clearance), cycle.breaks
+        end = GasEnd(HEAD_END, self.piston, cycle.pressure, clearance=clearance)
+        return end, cycle.breaks
 
     def make_crank_end(self, gas: Gas, source: _Source) -> list[GasEnd]:
         """Return the gas of the crank end in a list, which is empty for a single-acting cylinder.
@@ -681,13 +691,8 @@ class _EndMaker(NamedTuple):
         except GasError as error:
             raise InputError([Problem(f"{place}.{error.field}", str(error))]) from None
         efficiency = process.volumetric_efficiency
-        return make_end(
-            self.piston,
-            pressure,
-            crank_end=crank_end,
-            volumetric_efficiency=efficiency,
-            clearance=process.clearance,
-        )
+        name = CRANK_END if crank_end else HEAD_END
+        return GasEnd(name, self.piston, pressure, efficiency, process.clearance)
 
     def _read_end(self, gas: Gas, path: str, name: str, *, crank_end: bool) -> GasEnd:
         try:
@@ -715,7 +720,8 @@ class _EndMaker(NamedTuple):
         clearance = None
         if not crank_end and gas.compression_ratio is not None:
             clearance = 1 / (gas.compression_ratio - 1)
-        end = make_end(self.piston, pressure, crank_end=crank_end, clearance=clearance)
+        end_name = CRANK_END if crank_end else HEAD_END
+        end = GasEnd(end_name, self.piston, pressure, clearance=clearance)
         imep = end.work / end.swept
         doubts = list_doubts(gas, path, columns, pressure, imep, fires=self.fires)
         self.doubts.extend([*notes, *doubts])
@@ -733,8 +739,8 @@ def _compute_cycle(
     """
     process = _describe_process(gas, strokes)
     goal = _find_goal(gas, source.heat)
-    if source.heat == 0:  # expansion reverses compression
-        process = replace(process, cycle="otto", expansion_index=process.compression_index)
+    if source.heat is not None:
+        process = _reverse_without_heat(process, source.heat)
     try:
         if at_least and goal.name == "imep":
             if process.cycle == "dual" and goal.value < find_least_imep(piston, process):
@@ -745,16 +751,24 @@ def _compute_cycle(
         raise InputError([_locate(error, gas, source)]) from None
 
 
+def _reverse_without_heat(process: Process, heat: Figure) -> Process:
+    """Return a process whose expansion reverses its compression in variants without heat."""
+    burns = np.asarray(heat) != 0
+    index = np.where(burns, process.expansion_index, process.compression_index)[()]
+    cycle = process.cycle if burns.any() else "otto"
+    return replace(process, cycle=cycle, expansion_index=index)
+
+
 def _describe_process(gas: Gas, strokes: int) -> Process:
     """Return the process of a computed cycle, in SI units."""
     keys = [field.name for field in fields(Process) if field.name != "strokes"]
     given = {key: getattr(gas, key) for key in keys}
     for key in ("intake", "exhaust", "max_pressure"):
-        given[key] = given[key] and given[key] * BAR
+        given[key] = None if given[key] is None else given[key] * BAR
     return Process(strokes=strokes, **given)
 
 
-def _find_goal(gas: Gas, heat: float | None) -> Goal:
+def _find_goal(gas: Gas, heat: Figure | None) -> Goal:
     """Return the figure that a computed cycle has to reach: `heat` (J), or the figure of [gas] if
     `heat` is None.
     """
@@ -766,14 +780,15 @@ def _find_goal(gas: Gas, heat: float | None) -> Goal:
         return Goal("imep", gas.bmep * BAR / (gas.mechanical_efficiency or math.nan))
     if gas.imep is not None:
         return Goal("imep", gas.imep * BAR)
-    return Goal("max_pressure", (gas.max_pressure or 0.0) * BAR)
+    most = 0.0 if gas.max_pressure is None else gas.max_pressure
+    return Goal("max_pressure", most * BAR)
 
 
 def _locate(error: GasError, gas: Gas, source: _Source) -> Problem:
     """Return the mistake in a cylinder's cycle with its path in the file."""
     if error.field == "heat":
         return Problem(source.heat_path, str(error))
-    if error.field == "expansion_index" and source.heat == 0:
+    if error.field == "expansion_index" and source.burns_nothing:
         what = f"cylinder {source.number} burns nothing; its expansion has the same index"
         return Problem("gas.compression_index", f"{error}; {what}")
     if error.field == "imep" and gas.bmep is not None:
@@ -782,7 +797,9 @@ def _locate(error: GasError, gas: Gas, source: _Source) -> Problem:
 
 
 def _doubt_heat(gas: Gas, source: _Source, piston: GasPiston, cycle: GasCycle) -> Iterator[Doubt]:
-    """Yield a warning if the heat is more than the air of the charge can burn."""
+    """Yield a warning if the heat is more than the air of the charge can burn; none for arrays."""
+    if np.ndim(cycle.heat):
+        return
     ratio = gas.compression_ratio or math.nan
     charge = gas.intake * BAR * float(piston.volume(cycle.breaks[0], ratio))
     if cycle.heat > HEAT_MOST * charge:

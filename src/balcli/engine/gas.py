@@ -2,6 +2,9 @@
 
 The cycle angle of a cylinder is 0 at the upper dead centre at which it fires. In a four-stroke
 engine, the firing order determines in which of the two revolutions the cylinder fires.
+
+The gas of several variants of an engine has curves with a figure (`core.piecewise`), which has the
+shape of the variants; heat and compression ratio are then arrays of this shape.
 """
 
 from __future__ import annotations
@@ -16,7 +19,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..core.cylinder_pressure import GasEnd, GasPiston, GasTorque
-from ..core.phasors import Array
+from ..core.phasors import Array, Figure
 from ..core.piecewise import PiecewiseCurve, polyline, resolved
 from ..errors import BalcliError
 from ..file.doubt import Doubt
@@ -41,7 +44,7 @@ class CylinderGas(NamedTuple):
     torque: GasTorque
     nominal_deg: float
     share: float
-    heat: float | None
+    heat: Figure | None
     like: int
     compresses: bool = False
 
@@ -86,7 +89,7 @@ class EngineGas:
     cylinders: tuple[CylinderGas, ...]
     cycle_deg: int
     mechanical_efficiency: float | None = None
-    compression_ratio: float | None = None
+    compression_ratio: Figure | None = None
     doubts: tuple[Doubt, ...] = ()
     law: GasLaw | None = None
 
@@ -172,6 +175,11 @@ class EngineGas:
         the same at all speeds.
         """
         return () if self.law is None else self.law.nodes_rpm
+
+    @property
+    def variants(self) -> tuple[int, ...]:
+        """Shape of the variants; empty for the gas of one engine."""
+        return self.cylinders[0].torque.curve.figure
 
     def group_equal(self) -> list[tuple[GasTorque, list[int]]]:
         """Return each torque with the rows of the cylinders that have it."""

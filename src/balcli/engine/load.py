@@ -1,23 +1,28 @@
-"""Build the engine of tables, vary keys of its file, or build its variants one after the other."""
+"""Build the engine of tables, vary keys of its file, or build its variants, one after the other or
+those that differ only in their gas together.
+"""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from pathlib import Path
-from typing import TYPE_CHECKING, Generic, TypeVar
+from typing import TYPE_CHECKING, Generic, NamedTuple, TypeVar
 
 import numpy as np
 
+from ..core.phasors import Figure
 from ..core.records import Node
 from ..core.vibration import Real
-from ..errors import InputError, naming_file, wrong_type
+from ..errors import BalcliError, InputError, naming_file, wrong_type
 from ..file.model import EngineFile
 from ..file.plain_tables import change_tables
 from ..file.toml import name_file
 from .build import build
 from .engine import Engine, take_model
 from .parse import parse_dict
+from .parts import list_joint_paths
 
 if TYPE_CHECKING:
     from ..file.gas_tables import Gas
@@ -168,6 +173,45 @@ class EngineVariants:
             return engine
 
         return remember(self._engines, tuple(values.items()), make)
+
+
+class JointEngine(NamedTuple):
+    """Variants of an engine that differ at most in the figures of a computed gas cycle.
+
+    Attributes:
+        places: Their places among all variants.
+        engine: Engine whose gas is an array of these variants (`EngineGas.variants`).
+    """
+
+    places: list[int]
+    engine: Engine
+
+
+def build_jointly(
+    model: EngineFile, variants: Sequence[Mapping[str, float]]
+) -> Iterator[JointEngine]:
+    """Yield the variants of a file that can be computed together, in groups. Variants that differ
+    from all others in more than their gas are left out, and so are all members of a group in which
+    a variant is impossible.
+
+    Args:
+        model: Engine file.
+        variants: Varied figures of each variant, by dotted name; all variants have the same names.
+    """
+    paths = variants[0].keys()
+    joint = list_joint_paths(model, paths) & paths
+    groups: dict[Values, list[int]] = {}
+    for place, values in enumerate(variants):
+        own = tuple((path, value) for path, value in values.items() if path not in joint)
+        groups.setdefault(own, []).append(place)
+    for own, places in groups.items():
+        if not joint or len(places) == 1:
+            continue
+        varied: dict[str, Figure] = dict(own)
+        for path in joint:
+            varied[path] = np.array([variants[k][path] for k in places])
+        with suppress(BalcliError):
+            yield JointEngine(places, build(model, varied))
 
 
 class FiguresOfVariants(EngineVariants, Generic[Asked]):

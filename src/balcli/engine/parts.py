@@ -11,7 +11,7 @@ rotation.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from functools import cached_property
 from itertools import chain
 from typing import TYPE_CHECKING, NamedTuple, cast
@@ -452,13 +452,31 @@ def _hang_rods(parts: Parts, table: Articulation) -> Articulated:
 
 
 # ------------------------------------------------------------------ the stages together
+def list_joint_paths(model: EngineFile, varied: Iterable[str]) -> frozenset[str]:
+    """Return the names of figures of which arrays make only the gas an array of variants, while all
+    other stages have numbers.
+
+    Args:
+        model: Engine file.
+        varied: Names of the figures that vary.
+    """
+    if model.gas is None:
+        return frozenset()
+    if any(path.startswith("cylinder.") and path.endswith(".heat") for path in varied):
+        return frozenset()
+    if any(table.has("heat") or table.has("indicator") for table in model.cylinder.values()):
+        return frozenset()
+    return frozenset(f"gas.{key}" for key in model.gas.joint_keys)
+
+
 class Parts:
     """The parts of an engine, or of variants of it.
 
     Args:
         model: Engine file.
         varied: Arrays of variants that replace figures, by dotted name.
-        rank: Minimum number of trailing axes, the axes of the variants.
+        rank: Minimum number of trailing axes, the axes of the variants. Arrays of joint figures
+            (`list_joint_paths`) make no trailing axes: only the gas has them.
         known_gas: Gas of the cylinders, if it is already known; otherwise the rules of
             `engine.build` build it.
     """
@@ -487,7 +505,9 @@ class Parts:
         self.gas = known_gas
         self.figures = FileFigures(varied or {}, model)
         self.varies = bool(varied)
-        self.rank = max(rank, *map(np.ndim, (varied or {}).values()), 0)
+        joint = list_joint_paths(model, varied or {})
+        apart = [value for path, value in (varied or {}).items() if path not in joint]
+        self.rank = max(rank, *map(np.ndim, apart), 0)
         # -1 if the crank turns backwards, seen from a cylinder that turns about it.
         self.sense = -1 if model.layout.rotary else 1
         given = model.crank.throws is not None

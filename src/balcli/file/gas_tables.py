@@ -8,6 +8,7 @@ from collections.abc import Iterable, Iterator
 from itertools import pairwise
 from typing import Annotated, Any
 
+import numpy as np
 from pydantic import Field
 
 from ..limits import MOST_GAS_POINTS, MOST_LIST_VALUES
@@ -65,6 +66,13 @@ _CYCLE_KEYS = (
 COMPRESSOR = "compressor"  # value of `cycle`
 COMPRESSOR_KEYS = ("suction", "discharge", "clearance")
 _OF_COMBUSTION = ("compression_ratio", "imep", *_CYCLE_KEYS[2:])
+# Keys of Otto and Wiebe cycles that do not move the angles at which the laws of the cycle change.
+_JOINT_KEYS = frozenset(
+    {
+        *("compression_ratio", "compression_index", "expansion_index", "intake", "exhaust"),
+        *("burn_shape", "imep", "bmep", "max_pressure", "heat"),
+    }
+)
 _AT_DEAD_CENTRE = ("exhaust_opens", "intake_closes")  # keys whose default is lower dead centre
 
 
@@ -266,6 +274,14 @@ class Gas(GasKeys):
         """
         return tuple(key for key in _GOALS if key != "max_pressure" or self.cycle != "dual")
 
+    @property
+    def joint_keys(self) -> frozenset[str]:
+        """Keys whose values may be arrays of variants, which are then computed together; empty if
+        the gas is not that of one computed cycle at all speeds and in all cylinders.
+        """
+        apart = self.at or self.law or self.of or self.crank_end
+        return frozenset() if apart or self.cycle not in ("otto", "wiebe") else _JOINT_KEYS
+
     def rivals(self, key: str) -> tuple[str, ...]:
         goals = self.goals if key in self.goals else ()
         return (*super().rivals(key), *(goal for goal in goals if goal != key))
@@ -381,7 +397,7 @@ class Gas(GasKeys):
         if self.cycle is None or self.cycle == COMPRESSOR:
             return
         for key, least in (("compression_index", "at least"), ("expansion_index", "above")):
-            index = getattr(self, key)
+            index = float(np.min(getattr(self, key)))  # the least of all variants
             if index < 1 or (index == 1 and least == "above"):
                 yield f"has {key} = {index:g}; in a cycle with combustion it is {least} 1"
         wiebe = [key for key in WIEBE_KEYS if self.has(key)]

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from ..core.cylinders import find_travel
 from ..core.mechanisms import slidercrank as sc
 from ..core.mechanisms.motion import Motion
-from ..core.phasors import Array, Complex, unit
+from ..core.phasors import Array, Complex, open_axes, unit
 from ..core.piecewise import Function, PiecewiseCurve, resolved
 from ..engine.engine import CylinderNumber, Engine, find_row
 from ..errors import ArgumentError, BalcliError
@@ -183,7 +183,8 @@ def as_rows(values: Array) -> Array:
 
 # ------------------------------------------------------------------ gas and inertia over the cycle
 class TorqueCurves(NamedTuple):
-    """Torque on the crank at crank angles (rad) of one cycle, N m, at the mean speed.
+    """Torque on the crank at crank angles (rad) of one cycle, N m, at the mean speed. The curves
+    have the figure of the gas.
 
     Attributes:
         gas: Gas torque of all cylinders.
@@ -198,7 +199,7 @@ class TorqueCurves(NamedTuple):
 
 
 def find_torque_curves(engine: Engine) -> TorqueCurves:
-    """Return the torque of one engine, not of an array of variants, at constant speed.
+    """Return the torque of one engine at constant speed; only its gas may be an array of variants.
 
     Raises:
         BalcliError: The engine has no gas.
@@ -213,7 +214,11 @@ def find_torque_curves(engine: Engine) -> TorqueCurves:
     cylinders += [(c.torque, c.fires + c.torque.curve.period, 0.0) for c in twice]
     once = crank_torque(cylinders, gas.cycle / times)
     inertia = find_inertia_torque(engine)
-    total = resolved(lambda angle: once.at(angle) + inertia(angle), once.breaks)
+
+    def add(angle: Array) -> Array:
+        return once.at(angle) + open_axes(inertia(angle), once.figure)
+
+    total = resolved(add, once.breaks, each=True)
     return TorqueCurves(once.repeated(times), total.repeated(times), once)
 
 

@@ -31,7 +31,7 @@ from ..core.cylinders import Device
 from ..core.loads import LOADS, Loads, Turning, find_device_forces, find_needed_series
 from ..core.mechanisms.closed_form import select_cylinders
 from ..core.phases import ANGLE, SUM, Phases, SeparatePhases
-from ..core.phasors import EPS, Array, Complex, Phasors, join_orders, join_places, unit
+from ..core.phasors import EPS, Array, Complex, Phasors, join_orders, join_places, open_axes, unit
 from ..engine.engine import Engine, Placed
 from ..engine.figures import place_in_plane
 from ..errors import NO_GAS, BalcliError, NotComputedError, check_number, list_values, wrong_type
@@ -590,13 +590,14 @@ def follow_gas(engine: Engine, find: Callable[[Engine], Complex]) -> GasAtSpeeds
 
 
 def compute_gas_torque(engine: Engine, orders: Array, *, by_cylinder: bool = False) -> Phasors:
-    """Return the torque of the gas on the crank, N m; rounding errors are not yet set to 0.
+    """Return the torque of the gas on the crank, N m, with the trailing axes of the gas; rounding
+    errors are not yet set to 0.
 
     Args:
-        engine: One engine with gas, or an array of variants with `gas_of_variants`.
+        engine: Engine with gas, or an array of variants with `gas_of_variants`.
         orders: Multiples of 1/2, shape (orders,).
         by_cylinder: Whether to return the torque of each cylinder instead of the sum, shape
-            (orders, cylinders), in the order of `engine.numbers`.
+            (orders, cylinders, *trailing), in the order of `engine.numbers`.
 
     Raises:
         BalcliError: The engine has no gas.
@@ -605,17 +606,19 @@ def compute_gas_torque(engine: Engine, orders: Array, *, by_cylinder: bool = Fal
         return engine.gas_of_variants(orders)
     gas = take_gas(engine)
     halves = np.rint(2 * orders).astype(np.intp)
-    torques = np.empty((len(orders), len(gas.cylinders)), complex)
+    torques = np.empty((len(orders), len(gas.cylinders), *gas.variants), complex)
     errors = np.empty(torques.shape)
     for torque, rows in gas.group_equal():
         lowest = np.abs(torque.harmonics(np.arange(1, _LEAST + 1)))
         torques[:, rows] = torque.harmonics(halves)[:, None]
-        errors[:, rows] = _QUADRATURE * float(lowest.max())
-    torques *= gas.shares * np.stack([_turn(one, orders) for one in gas.cylinders], axis=1)
-    torque_phasors = Phasors.from_scalar(orders, torques, gas.shares * errors)
+        errors[:, rows] = _QUADRATURE * lowest.max(axis=0)
+    shares = open_axes(gas.shares, gas.variants)
+    turns = np.stack([_turn(one, orders) for one in gas.cylinders], axis=1)
+    torques *= shares * open_axes(turns, gas.variants)
+    torque_phasors = Phasors.from_scalar(orders, torques, shares * errors)
     if by_cylinder:
         return torque_phasors
-    rounding = SUM * len(gas.cylinders) + ANGLE * orders
+    rounding = open_axes(SUM * len(gas.cylinders) + ANGLE * orders, gas.variants)
     noise = torque_phasors.noise.sum(axis=1) + rounding * np.abs(torque_phasors.forward).sum(axis=1)
     return Phasors(orders, torque_phasors.vectors.sum(axis=2), noise)
 

@@ -15,7 +15,7 @@ from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from itertools import groupby
-from typing import Literal, Protocol, cast
+from typing import Literal, Protocol, cast, runtime_checkable
 
 import numpy as np
 
@@ -24,8 +24,8 @@ from ..engine.build import build
 from ..engine.engine import Engine
 from ..engine.figures import select_varied
 from ..engine.left_out import list_inferred
-from ..engine.load import concerns_gas
-from ..engine.parts import Parts
+from ..engine.load import JointEngine, build_jointly, concerns_gas
+from ..engine.parts import Parts, list_joint_paths
 from ..errors import BalcliError, naming_file
 from ..file.assumed import Assumed, join_assumed, select_assumed
 from ..file.fields import RIGID, suggest_nearest
@@ -54,6 +54,16 @@ class Variants(Protocol):
     def evaluate(self, values: Mapping[str, float]) -> list[float]:
         """Return the value of each quantity for one variant; `values` are its varied figures by
         path.
+        """
+
+
+@runtime_checkable
+class JointVariants(Variants, Protocol):
+    """Object that can also evaluate some variants together."""
+
+    def evaluate_jointly(self, variants: Sequence[Mapping[str, float]]) -> dict[int, list[float]]:
+        """Return the value of each quantity for the variants that can be computed together, by
+        their places in `variants`. Variants that are impossible are not among them.
         """
 
 
@@ -227,25 +237,35 @@ class _VariedGas:
 
     def __init__(self, model: EngineFile, figures: Mapping[str, Figure], rank: int) -> None:
         self._model = model
-        self._engines = list[Engine]()
+        self._groups = list[JointEngine]()
         self._figures = {k: value for k, value in figures.items() if concerns_gas(k, model.gas)}
         self._shape = np.broadcast_shapes((1,) * rank, *map(np.shape, self._figures.values()))
 
     def __call__(self, orders: Array) -> Phasors:
         """Return the torque at these orders; raise InputError for an impossible cycle."""
-        self._engines = self._engines or list(self._build())
-        torques = [compute_gas_torque(engine, orders) for engine in self._engines]
+        groups = self._groups or list(self._build())
+        self._groups = groups
+        count = math.prod(self._shape)
+        vectors = np.empty((2, len(orders), count), complex)
+        noise = np.empty((len(orders), count))
+        for places, engine in groups:
+            torque = compute_gas_torque(engine, orders)
+            vectors[:, :, places] = torque.vectors.reshape(2, len(orders), -1)
+            noise[:, places] = torque.noise.reshape(len(orders), -1)
         shape = (len(orders), *self._shape)
-        return Phasors(
-            orders,
-            np.stack([one.vectors for one in torques], axis=2).reshape(2, *shape),
-            np.stack([one.noise for one in torques], axis=1).reshape(shape),
-        )
+        return Phasors(orders, vectors.reshape(2, *shape), noise.reshape(shape))
 
-    def _build(self) -> Iterator[Engine]:
-        for own in _list_variants(self._figures, self._shape):
+    def _build(self) -> Iterator[JointEngine]:
+        """Yield the engines of all variants, those that can be computed together first."""
+        variants = list(_list_variants(self._figures, self._shape))
+        left = set(range(len(variants)))
+        for group in build_jointly(self._model, variants):
+            left.difference_update(group.places)
+            yield group
+        for place in sorted(left):
+            own = variants[place]
             with naming_file(tell_variant(own)):
-                yield build(self._model, own)
+                yield JointEngine([place], build(self._model, own))
 
 
 def _vary_gas(
@@ -286,6 +306,16 @@ class Evaluator:
         ]
         self.one_by_one = bool(self._chapters)
 
+    def computes_jointly(self, path: str, others: Iterable[str] = ()) -> bool:
+        """Return whether variants that differ only in one figure are computed together.
+
+        Args:
+            path: Dotted name of the figure.
+            others: Dotted names of other figures that vary.
+        """
+        joint = all(isinstance(chapter, JointVariants) for _, chapter in self._chapters)
+        return joint and path in list_joint_paths(self._model, (path, *others))
+
     def build(self, figures: Mapping[str, Array], rank: int) -> Engine:
         """Return all variants, with their gas, as one engine with `rank` trailing axes.
 
@@ -321,16 +351,25 @@ class Evaluator:
     def _evaluate_one_by_one(
         self, figures: Mapping[str, Array], shape: tuple[int, ...]
     ) -> dict[AnyQuantity, Array]:
+        variants = list(_list_variants(figures, shape))
+        joint = [_evaluate_jointly(chapter, variants) for _, chapter in self._chapters]
         rows: list[list[float]] = []
-        for own in _list_variants(figures, shape):
+        for place, own in enumerate(variants):
             values: list[float] = []
             with naming_variant(tell_variant(own)), naming_file(""):
-                for _, chapter in self._chapters:
-                    values += chapter.evaluate(own)
+                for known, (_, chapter) in zip(joint, self._chapters, strict=True):
+                    values += known.get(place) or chapter.evaluate(own)
             rows.append(values)
         quantities = [quantity for members, _ in self._chapters for quantity in members]
         columns = [column.reshape(shape) for column in np.array(rows).T]
         return dict(zip(quantities, columns, strict=True))
+
+
+def _evaluate_jointly(
+    chapter: Variants, variants: Sequence[Mapping[str, float]]
+) -> dict[int, list[float]]:
+    """Return what a chapter can evaluate together, as `JointVariants.evaluate_jointly`."""
+    return chapter.evaluate_jointly(variants) if isinstance(chapter, JointVariants) else {}
 
 
 # ------------------------------------------------------------------ lists of names

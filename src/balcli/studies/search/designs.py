@@ -1,8 +1,8 @@
 """Define the arrangements (designs) of a search and its objective, a weighted sum of quantities
 with limits; compute quantities and costs of candidates; write engine files with a design.
 
-If the quantities are sums over the cylinders, candidates are computed as arrays, otherwise one by
-one.
+If the quantities are sums over the cylinders, or if only a computed gas cycle varies, candidates
+are computed as arrays, otherwise one by one.
 """
 
 from __future__ import annotations
@@ -333,9 +333,18 @@ class NumbersJudge:
         """Return the costs of points, shape (points, numbers); infinite for points with an
         impossible engine.
         """
-        size = AT_ONCE if self.objective.is_sum_over_cylinders else 1
+        size = self._at_once
         parts = [self._judge(points[k : k + size]) for k in range(0, len(points), size)]
         return np.concatenate([np.empty(0), *parts])
+
+    @cached_property
+    def _at_once(self) -> int:
+        """Number of points that are computed together."""
+        if self.objective.is_sum_over_cylinders:
+            return AT_ONCE
+        paths = self.paths
+        joint = all(self._evaluator.computes_jointly(path, paths) for path in paths)
+        return AT_ONCE if joint else 1
 
     def _judge(self, points: Array) -> Array:
         columns = dict(zip(self.paths, points.T, strict=True))
