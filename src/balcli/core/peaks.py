@@ -372,20 +372,23 @@ def find_highest(
 
     Args:
         judge: The functions, as in `find_peaks_between`.
-        places: Rising places, shape (places,).
+        places: Rising places, shape (places,), or of each function, shape (places, functions).
         heights: Values of the functions at these places, shape (places, functions).
         level: Lowest height that matters, shape (functions,).
         near: Share of the level that a value at an end of a searched interval must reach.
     """
-    best = places[heights.argmax(axis=0)]
+    functions = np.arange(heights.shape[1])
+    places = np.broadcast_to(places.reshape(len(heights), -1), heights.shape)
+    best = places[heights.argmax(axis=0), functions]
     highest = heights.max(axis=0)
-    ends = np.maximum(heights[1:], heights[:-1])
+    higher = np.maximum(heights[1:], heights[:-1])
     rise = np.abs(np.diff(np.pad(heights, ((1, 1), (0, 0)), mode="edge"), axis=0))
     beside = np.maximum(np.maximum(rise[:-2], rise[1:-1]), rise[2:])
-    may = (ends >= near * level) & (ends + beside >= level) & (level > 0)
+    may = (higher >= near * level) & (higher + beside >= level) & (level > 0)
     at, which = np.nonzero(may)
     if len(at):
-        place, height = find_peaks_between(judge, places[at], places[at + 1], which)
+        ends = places[at, which], places[at + 1, which]
+        place, height = find_peaks_between(judge, *ends, which)
         _raise(best, highest, which, place, height)
     return best, highest
 

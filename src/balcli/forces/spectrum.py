@@ -550,10 +550,6 @@ class GasAtSpeeds(NamedTuple):
         """Return the gas with the torques of only some orders."""
         return self._replace(torque=lambda speeds_rpm: self.torque(speeds_rpm)[rows])
 
-    def combine(self, weights: Complex) -> GasAtSpeeds:
-        """Return the gas with sums of the torques of cylinders, with weights (sums, cylinders)."""
-        return self._replace(torque=lambda speeds_rpm: self.torque(speeds_rpm) @ weights.T)
-
     def spread_orders(self, rows: NDArray[np.intp], count: int) -> GasAtSpeeds:
         """Return the gas with its orders at these rows of `count` orders; it has no torque of the
         others.

@@ -523,9 +523,11 @@ def build_engine_system(
     shafts = [*leading[:front][::-1], *between, *leading[front:]]
     output = joints[-1].part.name if torsion.rear else throws[-1]
     means = _find_means(engine, shafts, [*map(gears.__getitem__, place)], front, place[output])
-    carried = set() if means is None else _name_carrying(shafts, means)
-    of_parts = [(path, part) for path, part, _ in joints]
-    if problems := list(node_torques.find_idle_limits(of_parts, carried)):
+    by_mean = [(path, part) for path, part, _ in joints if part.torque_limit == MEAN]
+    if by_mean:
+        carrying = set() if means is None else _name_carrying(shafts, means)
+        problems += node_torques.find_idle_limits(by_mean, carrying)
+    if problems:
         raise InputError(problems, name)
     rated_rpm = model.operation.speed if own_speed else None
     torques = tuple(node_torques.make_torques(torsion, place, gears, means, rated_rpm))

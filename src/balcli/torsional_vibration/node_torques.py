@@ -15,7 +15,7 @@ import numpy as np
 
 from ..core.vibration import Real
 from ..errors import Problem
-from ..file.torsion_tables import MEAN, NodeExcitation, Part, Torsion
+from ..file.torsion_tables import NodeExcitation, Part, Torsion
 from .chain_file import refuse_node
 from .means import MeanTorques
 from .system import NodeTorque
@@ -49,14 +49,14 @@ def find_mistakes(
 def find_idle_limits(
     parts: Sequence[tuple[str, Part]], carrying: Collection[str]
 ) -> Iterator[Problem]:
-    """Yield the parts whose limit is their mean torque, but whose shaft carries none.
+    """Yield the parts whose shaft carries no mean torque.
 
     Args:
-        parts: Paths and tables of the parts.
+        parts: Paths and tables of the parts whose limit is their mean torque.
         carrying: Names of the shafts that carry a mean torque.
     """
     for path, part in parts:
-        if part.torque_limit == MEAN and part.name not in carrying:
+        if part.name not in carrying:
             message = (
                 'is "mean", but its shaft carries no mean torque: that of the cylinders flows to '
                 "the last part of [[torsion.rear]], and needs [gas] with a mean; give a torque in "

@@ -13,7 +13,7 @@ stiffness, and their unit of time makes frequencies about 1.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -155,84 +155,154 @@ def _attach_rings(system: TorsionalSystem, order: float | None) -> tuple[Chain, 
     )
 
 
+class DrivenTerms(NamedTuple):
+    """Sizes of terms for an excitation.
+
+    Attributes:
+        steady: (systems, orders, terms) part that does not depend on the speed.
+        growing: (systems, orders, terms) part that is proportional to the square of the speed,
+            divided by this square, (s/rad)^2; None: there is no such part.
+        excitation: Excitation of a single system that depends on the speed in another way; it
+            replaces the two parts. None: it does not.
+        by_source: (sources, terms) size of each term for 1 N m of each source of this excitation.
+    """
+
+    steady: Complex
+    growing: Complex | None
+    excitation: Excitation | None
+    by_source: Complex
+
+    def at(self, speeds: Real, system: int | Indices) -> Complex:
+        """Return the sizes of the terms at speeds (places,), rad/s, shape (places or 1, orders,
+        terms).
+
+        Args:
+            speeds: Speeds.
+            system: Index of the system, or (places,) of the system of each place.
+        """
+        if self.excitation is not None:
+            torques = self.excitation.at(speeds)
+            return np.asarray((torques @ self.by_source).swapaxes(0, 1))
+        systems = np.atleast_1d(system)
+        steady = self.steady[systems]
+        if self.growing is None:
+            return steady
+        growing = self.growing[systems] * (speeds**2)[:, None, None]
+        return np.add(growing, steady, out=growing)
+
+
 @dataclass(frozen=True)
 class PoleSum:
     """Torques of elastic shafts and the swing of the free end as sums of terms: one for each pole,
-    and one for each rigid motion that nothing holds.
+    and one for each rigid motion that nothing holds. The systems are one or more variants of a
+    system, whose terms have the same meaning.
 
     The sums take a fraction of the time of `compute_curves` for some curves, or if each speed asks
     for another curve. They lose some digits where poles almost coincide.
 
     Attributes:
-        poles: Poles of the system, rad/s.
-        curves: Number of curves: the shafts and the free end.
-        spanned: (curves,) whether a curve is such a sum; rigid shafts are not.
-        unit: Frequency that counts as 1, rad/s.
-        mu: (poles,) eigenvalues.
-        excitation: Excitation of each term.
-        driven: (terms, nodes) size of each term for 1 N m on each node.
-        felt: (terms, curves) share of each term in each twist, and in the angle of the free end.
-        stiffness: (curves,) factor of this twist or angle, N m/rad.
-        dashpots: (curves,) factor of its rate, N m s/rad.
+        poles: Poles of each system, rad/s.
+        orders: (orders,) orders of the excitation.
+        spanned: (curves,) whether a curve is such a sum in all systems; rigid shafts are not.
+        unit: (systems,) frequency that counts as 1, rad/s.
+        mu: (systems, poles) eigenvalues.
+        driven: Size of each term for the excitation.
+        of_nodes: (systems, terms, nodes) size of each term for 1 N m on each node.
+        felt: (systems, curves, terms) share of each term in each twist, and in the angle of the
+            free end.
+        stiffness: (systems, curves) factor of this twist or angle, N m/rad.
+        dashpots: (systems, curves) factor of its rate, N m s/rad.
     """
 
-    poles: Complex
+    poles: tuple[Complex, ...]
+    orders: Real
     spanned: NDArray[np.bool_]
-    unit: float
+    unit: Real
     mu: Complex
-    excitation: Excitation
-    driven: Complex
+    driven: DrivenTerms
+    of_nodes: Complex
     felt: Complex
     stiffness: Complex
     dashpots: Real
 
+    def can_join(self, other: PoleSum) -> bool:
+        """Return whether the sums of both systems can be computed as one."""
+        mine = self.driven
+        others = other.driven
+        return (
+            mine.excitation is None
+            and others.excitation is None
+            and (mine.growing is None) == (others.growing is None)
+            and self.mu.shape[1:] == other.mu.shape[1:]
+            and self.felt.shape[1:] == other.felt.shape[1:]
+            and np.array_equal(self.orders, other.orders)
+            and np.array_equal(self.spanned, other.spanned)
+        )
+
     def drive(self, excitation: Excitation) -> PoleSum:
-        """Return the sums for another excitation."""
-        own = excitation.combine(self.driven[:, excitation.nodes])
-        return replace(self, excitation=own)
+        """Return the sums of a single system for another excitation."""
+        driven = _drive_terms(self.of_nodes, excitation)
+        return replace(self, orders=excitation.orders, driven=driven)
 
-    def find_curves(self, rpm: Real, which: Indices) -> Complex:
-        """Return phasors (orders, places) at speeds (places,), each of the curve in `which`."""
-        felt = self.felt.T
-        curves = []
+    def find_curves(self, rpm: Real, system: Indices, which: Indices) -> Complex:
+        """Return phasors (orders, places) at speeds (places,), each of the system and the curve
+        that the other two arguments name by their indices.
+        """
+        curves = np.empty((len(rpm), len(self.orders)), complex)
+        several = len(self.mu) > 1
         for some in self._divide(len(rpm)):
-            w, terms = self._respond(rpm[some])
-            twist = np.einsum("npt,pt->np", terms, felt[which[some]])
-            curves.append(twist * self._find_stiffness(w, which[some]))
-        return np.concatenate(curves, axis=1)
+            own = system[some] if several else 0
+            w, terms = self._respond(rpm[some], own)
+            named = system[some], which[some]
+            twist = (terms @ self.felt[named][..., None])[..., 0]
+            curves[some] = twist * self._find_stiffness(w, named)
+        return curves.T
 
-    def sum_amplitudes(self, rpm: Real, which: Indices) -> Real:
+    def sum_amplitudes(self, rpm: Real, which: Indices, system: int = 0) -> Real:
         """Return the sums of the amplitudes of all orders, shape (speeds, len(which))."""
-        sums = []
+        sums = np.empty((len(rpm), len(which)))
+        felt = self.felt[system, which].T
         for some in self._divide(len(rpm)):
-            w, terms = self._respond(rpm[some])
-            curves = terms @ self.felt[:, which] * self._find_stiffness(w[..., None], which)
-            sums.append(np.abs(curves).sum(axis=0))
-        return np.concatenate(sums)
+            w, terms = self._respond(rpm[some], system)
+            curves = terms @ felt
+            curves *= self._find_stiffness(w[..., None], (system, which))
+            sums[some] = np.abs(curves).sum(axis=1)
+        return sums
 
     def _divide(self, count: int) -> Iterator[slice]:
         """Yield consecutive parts of this number of places, few enough to be computed at once."""
-        terms = len(self.excitation.orders) * len(self.felt)
+        terms = len(self.orders) * self.felt.shape[-1]
         step = max(_AT_ONCE // max(terms, 1), 1)  # without a phase there may be no order at all
         for start in range(0, count, step):
             yield slice(start, start + step)
 
-    def _respond(self, rpm: Real) -> tuple[Real, Complex]:
-        """Return frequencies (orders, speeds), rad/s, and the terms (orders, speeds, terms)."""
+    def _respond(self, rpm: Real, system: int | Indices) -> tuple[Real, Complex]:
+        """Return frequencies (places, orders), rad/s, and the terms (places, orders, terms)."""
         speeds = rpm * RPM
-        w = np.multiply.outer(self.excitation.orders, speeds)
-        paced = w[..., None] / self.unit
-        terms = np.empty((*w.shape, len(self.felt)), complex)
-        of_poles, of_turns = np.split(terms, [len(self.mu)], axis=-1)
-        np.multiply(paced, 1j * self.mu, out=of_poles)
-        of_poles -= 1 + _SIGMA * self.mu
+        w = np.multiply.outer(speeds, self.orders)
+        paced = w / self.unit[system, None]
+        mu = self.mu[system][..., None, :]
+        terms = np.empty((*w.shape, self.felt.shape[-1]), complex)
+        poles = self.mu.shape[-1]
+        of_poles = terms[..., :poles]
+        np.multiply(paced[..., None], 1j * mu, out=of_poles)
+        of_poles -= 1 + _SIGMA * mu
         np.reciprocal(of_poles, out=of_poles)
-        of_turns[:] = 1 / (paced**2 - _HELD) - 1 / paced**2
-        terms *= self.excitation.at(speeds)
+        if terms.shape[-1] > poles:
+            paced_twice = paced**2
+            of_turns = 1 / (paced_twice - _HELD) - 1 / paced_twice
+            terms[..., poles:] = of_turns[..., None]
+        terms *= self.driven.at(speeds, system)
         return w, terms
 
-    def _find_stiffness(self, w: Real, which: Indices) -> Complex:
-        return np.asarray(self.stiffness[which] + 1j * w * self.dashpots[which])
+    def _find_stiffness(self, w: Real, named: tuple[int | Indices, Indices]) -> Complex:
+        """Return the factors of curves at frequencies w (places, orders, ...), rad/s."""
+        stiffness = self.stiffness[named]
+        dashpots = self.dashpots[named]
+        if w.ndim == 2:  # a curve for each place
+            stiffness = stiffness[:, None]
+            dashpots = dashpots[:, None]
+        return np.asarray(stiffness + 1j * w * dashpots)
 
 
 def expand_in_poles(system: TorsionalSystem) -> PoleSum | None:
@@ -272,16 +342,59 @@ def expand_in_poles(system: TorsionalSystem) -> PoleSum | None:
     felt = np.concatenate([vectors[:dof].T @ seen.T, turns @ seen.T])
     elastic = np.isfinite(system.chain.stiffness)
     stiffness = np.where(elastic, system.chain.stiffness, 0) * (1 + 1j * system.damping.loss)
-    excitation = system.require_excitation()
     of_nodes = np.asarray(driven / equations.scale, complex)
+    excitation = system.require_excitation()
     return PoleSum(
-        poles=poles,
+        poles=(poles,),
+        orders=excitation.orders,
         spanned=np.append(elastic, True),
-        unit=equations.unit,
-        mu=mu,
-        excitation=excitation.combine(of_nodes[:, excitation.nodes]),
-        driven=of_nodes,
-        felt=felt,
-        stiffness=np.append(stiffness, 1),
-        dashpots=np.append(system.damping.dashpots, 0),
+        unit=np.array([equations.unit]),
+        mu=mu[None],
+        driven=_drive_terms(of_nodes[None], excitation),
+        of_nodes=of_nodes[None],
+        felt=np.ascontiguousarray(felt.T, complex)[None],
+        stiffness=np.append(stiffness, 1)[None],
+        dashpots=np.append(system.damping.dashpots, 0)[None],
+    )
+
+
+def _drive_terms(of_nodes: Complex, excitation: Excitation) -> DrivenTerms:
+    """Return the sizes of the terms of a single system for an excitation."""
+    by_source = of_nodes[0][:, excitation.nodes].T
+    if excitation.gas is not None or excitation.further:
+        none = np.zeros((1, 0, len(by_source)), complex)
+        return DrivenTerms(none, None, excitation, by_source)
+    steady = excitation.steady @ by_source
+    growing = excitation.growing @ by_source if np.any(excitation.growing) else None
+    return DrivenTerms(steady[None], None if growing is None else growing[None], None, by_source)
+
+
+def join_sums(sums: Sequence[PoleSum | None]) -> PoleSum | None:
+    """Return the sums of several variants of a system as one; None if there are none, or if their
+    terms differ.
+    """
+    known = [own for own in sums if own is not None]
+    if len(known) < len(sums):
+        return None
+    first, *others = known
+    if not others:
+        return first
+    if not all(first.can_join(own) for own in known):
+        return None
+    growing = [own.driven.growing for own in known if own.driven.growing is not None]
+    driven = first.driven._replace(
+        steady=np.concatenate([own.driven.steady for own in known]),
+        growing=np.concatenate(growing) if growing else None,
+    )
+    return PoleSum(
+        poles=tuple(poles for own in known for poles in own.poles),
+        orders=first.orders,
+        spanned=first.spanned,
+        unit=np.concatenate([own.unit for own in known]),
+        mu=np.concatenate([own.mu for own in known]),
+        driven=driven,
+        of_nodes=np.concatenate([own.of_nodes for own in known]),
+        felt=np.concatenate([own.felt for own in known]),
+        stiffness=np.concatenate([own.stiffness for own in known]),
+        dashpots=np.concatenate([own.dashpots for own in known]),
     )

@@ -64,7 +64,7 @@ class _Shares:
         self.system = system
         self.limits = limits
         self.columns = np.array([limit.column for limit in limits])
-        self.swings = Columns(system)
+        self.swings = Columns([system])
 
     def find_factors(self, rpm: Real) -> Real:
         """Return the share of each limit for a curve of 1 N m or 1 rad, shape (speeds, limits)."""

@@ -86,8 +86,6 @@ class Excitation(NamedTuple):
         gas: Gas torque by cylinder as a function of the speed, which replaces `steady`; None: the
             gas torque does not depend on the speed.
         further: Further torques, whose phases are known.
-        mixed: (sources, further) share of further torques in each source; None: each is a source of
-            its own.
     """
 
     orders: Real
@@ -96,7 +94,6 @@ class Excitation(NamedTuple):
     growing: Complex
     gas: GasAtSpeeds | None = None
     further: tuple[NodeTorque, ...] = ()
-    mixed: Complex | None = None
 
     def at(self, speeds: Real) -> Complex:
         """Return the torques (orders, speeds, sources), N m, at speeds (speeds,), rad/s."""
@@ -112,7 +109,7 @@ class Excitation(NamedTuple):
         for source, torque in enumerate(self.further):
             row = np.searchsorted(self.orders, torque.order)
             of_others[row, :, source] = torque.at(speeds)
-        return self._join(of_cylinders, of_others)
+        return np.concatenate([of_cylinders, of_others], axis=-1)
 
     def at_own(self, speeds: Real) -> Complex:
         """Return the torques (*, orders, sources), N m, at speeds (*, orders), rad/s, of which each
@@ -130,27 +127,7 @@ class Excitation(NamedTuple):
         for source, torque in enumerate(self.further):
             row = np.searchsorted(self.orders, torque.order)
             of_others[..., row, source] = torque.at(speeds[..., row])
-        return self._join(of_cylinders, of_others)
-
-    def _join(self, of_cylinders: Complex, of_others: Complex) -> Complex:
-        """Return the torques of all sources from those of cylinders and further ones."""
-        if self.mixed is not None:
-            return np.asarray(of_cylinders + of_others @ self.mixed.T)
         return np.concatenate([of_cylinders, of_others], axis=-1)
-
-    def combine(self, weights: Complex) -> Excitation:
-        """Return the excitation whose sources are sums of these, with weights (sums, sources)."""
-        of_cylinders, of_further = np.split(weights, [self.steady.shape[1]], axis=1)
-        gas = None if self.gas is None else self.gas.combine(np.asarray(of_cylinders, complex))
-        return Excitation(
-            orders=self.orders,
-            nodes=np.arange(len(weights)),
-            steady=self.steady @ of_cylinders.T,
-            growing=self.growing @ of_cylinders.T,
-            gas=gas,
-            further=self.further,
-            mixed=of_further,
-        )
 
     def only(self, orders: Real) -> Excitation:
         """Return the excitation restricted to some orders."""
