@@ -7,8 +7,10 @@ import pytest
 from support.chains import KINDS, chain_of, no_damping, random_chain, random_damping
 
 from balcli.torsional_vibration.chain import Damping
+from balcli.torsional_vibration.columns import Columns
 from balcli.torsional_vibration.motion import compute_curves
-from balcli.torsional_vibration.poles import expand_in_poles
+from balcli.torsional_vibration.poles import expand_in_poles, join_sums
+from balcli.torsional_vibration.response import find_largest, find_largest_of_each
 from balcli.torsional_vibration.system import Excitation, Pendulums, TorsionalSystem, ViscousRing
 
 RPM = np.linspace(500, 9000, 7)
@@ -84,3 +86,35 @@ def test_there_is_no_sum_where_it_would_fail():
         long = chain_of(np.ones(nodes), np.full(nodes - 1, 1e6))
         damping = Damping(np.full(nodes - 1, 0.02), np.full(nodes - 1, 10.0), np.zeros(nodes))
         assert (expand_in_poles(system_of(long, damping)) is not None) == exists
+
+
+def vary(kind: str) -> list[TorsionalSystem]:
+    """Variants of a chain, the last of which differs in a way of its own."""
+    damping = Damping(np.full(2, 0.02), np.full(2, 5.0), np.zeros(3))
+    systems = [system_of(chain_of([0.1, 0.2, 0.5 + more], [1e5, 2e5]), damping) for more in (0.0, 0.1, 0.2)]
+    if kind == "sums":
+        return systems
+    last = {
+        "rigid": system_of(chain_of([0.1, 0.2, 0.5], [np.inf, 2e5]), damping),
+        "steady": replace(
+            systems[0], excitation=systems[0].excitation._replace(growing=0 * systems[0].excitation.growing)
+        ),
+        "orders": replace(systems[0], excitation=systems[0].excitation._replace(orders=np.array([0.5, 1.5, 4.0]))),
+    }
+    return [*systems[:2], last[kind]]
+
+
+@pytest.mark.parametrize("kind", ["sums", "rigid", "steady", "orders"])
+@pytest.mark.parametrize("weights", [None, np.array([0.0, 2.0]), np.zeros(2)], ids=["all", "one shaft", "none"])
+def test_variants_are_searched_together_as_each_alone(kind, weights):
+    systems = vary(kind)
+    speeds = [np.linspace(500, 9000, 40), np.linspace(400, 9000, 40), np.linspace(500, 8000, 31)]
+    sums = [expand_in_poles(system) for system in systems]
+    assert None not in sums
+    assert (join_sums(sums) is not None) == Columns(systems).are_sums == (kind == "sums")
+    assert join_sums([*sums[:2], None]) is None
+    together = find_largest_of_each(systems, speeds, weights)
+    for system, rpm, found in zip(systems, speeds, together, strict=True):
+        for alone, values in zip(find_largest(system, rpm, weights), found, strict=True):
+            assert values == pytest.approx(alone, rel=1e-12)
+            assert values.shape == alone.shape
