@@ -80,11 +80,17 @@ def test_inertias_in_kg_m2_are_asked_back(more, told):
 
 def test_loss_factors_in_percent_are_asked_back():
     more = TWIST.replace("[torsion]\n", "[torsion]\nloss = 3.5\n", 1)
-    told = "where at most 1 is usual; {} % is {}, and a relative damping psi is a loss factor of"
+    told = "where at most 0.5 is usual; {} % is {}, and a relative damping psi is a loss factor of"
     assert list_doubts(changed(more=more + "loss = 1.13\n")) == [
         f"torsion.loss: 3.5, {told.format(3.5, 0.035)} psi/(2 pi)",
         f"torsion.rear.1.loss: 1.13, {told.format(1.13, 0.0113)} psi/(2 pi)",
     ]
+
+
+@pytest.mark.parametrize(("loss", "doubted"), [(0.5, False), (0.51, True)])
+def test_relative_dampings_as_loss_factors_of_shafts_are_asked_back(loss, doubted):
+    more = TWIST.replace("[torsion]\n", f"[torsion]\nloss = {loss}\n", 1)
+    assert any(told.startswith("torsion.loss: 0.51,") for told in list_doubts(changed(more=more))) is doubted
 
 
 def test_a_flywheel_that_torsion_lacks():

@@ -119,10 +119,25 @@ def test_the_page_has_the_figures_of_the_command(page):
 
 def test_limits_dampers_and_conventions_in_words(page):
     shafts = read_section(page, "mass-elastic")
+    assert "bore, mm loss" in shafts
     assert "M68: tensile strength 500 N/mm², c_K 0.5, rated 2300 rpm" in shafts
     assert "90, 80 N·m at 2000, 2400 rpm" in shafts
     assert "hub: viscous damper, ring 0.009 kg·m², damping 4 N·m·s/rad." in read_section(page, "dampers")
     assert "IACS UR M68, revisions 2 and 3" in read_section(page, "conventions")
+
+
+def test_dimensions_from_which_stiffnesses_follow_are_listed():
+    """Of a throw, and of a plain shaft; a page without them has no column of lengths."""
+    bearing = "bearing = { pin_diameter = 50, pin_bore = 18, pin_length = 32, main_diameter = 60, main_length = 34 }\n"
+    text = ENGINE.replace("[torsion]\n", f"{bearing}[torsion]\nweb_thickness = 21\nweb_width = 88\n")
+    text = text.replace("throw_stiffness = 3.4e5\n", "").replace("stiffness = 3e5", "diameter = 48\nlength = 410")
+    page = run_here("torsion", "-", *SPEEDS, "--format", "html", stdin=text).out
+    throw = read_section(page, "throw")
+    assert "crank radius 45 mm main journal diameter 60 mm, 34 mm long crank pin diameter 50 mm, bore 18 mm," in throw
+    assert "web 21 mm thick, 88 mm wide shear modulus 79.3 GPa" in throw
+    shafts = read_section(page, "mass-elastic")
+    assert "bore, mm length, mm loss" in shafts
+    assert re.search(r"fan \S+ 48 0 410 0.03", shafts)
 
 
 def test_the_amplitude_of_each_order_is_that_of_one_cylinder(cases):
@@ -142,6 +157,8 @@ def test_pictures_have_curves_of_both_cases_and_limits(cases):
     (figure,) = make_limits(drawn)
     rule, table = figure.axes
     assert [len(ax.lines) for ax in (rule, table)] == [4, 3]  # M68 has a transient limit
+    named = [[text.get_text() for text in ax.get_legend().get_texts()] for ax in (rule, table)]
+    assert named == [["firing", "misfire", "limit", "transient limit"], ["firing", "misfire", "limit"]]
     continuous, transient = rule.lines[2:]
     factor = cases.firing.system.limits[0].limit.transient
     assert transient.get_ydata() == pytest.approx(factor * continuous.get_ydata())

@@ -9,6 +9,7 @@ from support.diesel import write_diesel
 from support.paths import write
 
 from balcli import load, torque, torsion
+from balcli.file.assumed import Assumed
 from balcli.torsional_vibration.means import Link, share_out
 
 GAS = '[gas]\ncycle = "wiebe"\ncompression_ratio = 16\nimep = 15\n'
@@ -107,6 +108,16 @@ def test_laws_of_an_amplitude(law, exponent):
 def test_the_rated_speed_of_a_law_is_that_of_the_file():
     found = run(entry(node="flywheel", order=2, amplitude=50.0, law="propeller"), [1000.0])
     assert found.response.excitations[0].amplitude_Nm == pytest.approx([50 / 4])
+    assert Assumed("torsion.excitation.rated_speed", 2000.0, "rpm") in found.assumed
+
+
+@pytest.mark.parametrize("rated", ["", ", rated_speed = 1900"])
+def test_the_rated_speed_of_a_rule_is_that_of_the_file(rated):
+    """The speed that is taken is listed, for the limit depends on it."""
+    rule = f'limit = {{ rule = "M68", tensile = 400, ck = 0.5{rated} }}\n'
+    found = run(GEARED.replace('name = "propeller"\n', 'name = "propeller"\n' + rule), [1000.0])
+    taken = Assumed("torsion.rear.limit.rated_speed", 2000.0, "rpm")
+    assert (taken in (found.assumed or ())) is (rated == "")
 
 
 @pytest.mark.parametrize(("node", "gear"), [("flywheel", 1.0), ("propeller", 0.4)])

@@ -19,6 +19,7 @@ from .parts import Parts
 
 if TYPE_CHECKING:
     from ..file.gas_tables import Gas
+    from ..file.torsion_tables import Torsion
 
 # Largest bank angle of a vee with one head, whose cylinder axes pass beside the crank axis.
 NARROW_DEG = 30.0
@@ -162,6 +163,7 @@ def list_chapter_defaults(model: EngineFile) -> Iterator[Assumed]:
                 yield assume(f"torsion.{end}.shear_modulus", part, part.shear_modulus)
         if not (torsion.has("loss") or torsion.has("damping")):
             yield assume("torsion.loss", torsion, torsion.loss)
+        yield from _list_rated_speeds(torsion, model.operation.speed)
     if body is not None and not body.has("gravity"):
         yield assume("body.gravity", body, body.gravity)
     if body is not None and model.has_gas and not body.has("carries_load"):
@@ -172,3 +174,19 @@ def list_chapter_defaults(model: EngineFile) -> Iterator[Assumed]:
     as_static = [mount for mount in model.mount if not mount.has("dynamic_factor")]
     if as_static:
         yield assume("mount.dynamic_factor", as_static[0], as_static[0].dynamic_factor)
+
+
+def _list_rated_speeds(torsion: Torsion, speed_rpm: float) -> Iterator[Assumed]:
+    """Yield the speed of the file as the rated speed of rules and laws that name none."""
+    from ..file.torsion_tables import StressLimit  # loaded only for files with [torsion]
+
+    for end, parts in (("front", torsion.front), ("rear", torsion.rear)):
+        for part in parts:
+            limit = part.limit
+            if isinstance(limit, StressLimit) and limit.rule and limit.rated_speed is None:
+                yield assume(f"torsion.{end}.limit.rated_speed", limit, speed_rpm)
+                break
+    for entry in torsion.excitation:
+        if entry.law is not None and entry.rated_speed is None:
+            yield assume("torsion.excitation.rated_speed", entry, speed_rpm)
+            break

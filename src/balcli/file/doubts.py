@@ -71,8 +71,10 @@ UNBALANCE = 5.0  # largest unbalance / (all moving masses x crank radius); balan
 # Least inertia of a crankshaft or flywheel / inertia of rods and pistons at the crank radius:
 # engines have more than 1. A slip from kg m^2 to kg mm^2 is a factor of a million.
 TURNING = 0.01
-# Largest loss factor: steel has 0.01 to 0.05, rubber up to 0.5. Figures in percent are above 1.
-LOSS = 1.0
+# Largest loss factors: steel has 0.01 to 0.05, rubber up to 0.5. Figures in percent are above 1;
+# relative dampings of couplings, 0.8 to 2, are above 0.5.
+LOSS_OF_MOUNTS = 1.0
+LOSS_OF_SHAFTS = 0.5
 WHEEL_LOAD = 1000  # smallest load of a wheel on its rail, N; only models have less
 SAME_UNIT = "are both in the same unit?"
 DEGREES = (
@@ -109,7 +111,7 @@ def find_suspicious(model: EngineFile) -> list[Doubt]:
         *_find_missing(model),
         *_doubt_piston_rods(model),
         *doubt_figures(figures),
-        *doubt_losses(walk_figures("torsion", list_tables(model.torsion))),
+        *doubt_losses(walk_figures("torsion", list_tables(model.torsion)), LOSS_OF_SHAFTS),
     ]
     doubted = {doubt.path for doubt in doubts}
     for path, value in find_radians(model):
@@ -137,15 +139,17 @@ def doubt_drifting(model: EngineFile) -> Iterator[Doubt]:
         yield Doubt(f"{first}.ratio", message, tuple(others))
 
 
-def doubt_losses(figures: Iterable[tuple[str, Any, Any]]) -> Iterator[Doubt]:
-    """Yield warnings for impossibly large loss factors, which are probably given in percent.
+def doubt_losses(figures: Iterable[tuple[str, Any, Any]], most: float) -> Iterator[Doubt]:
+    """Yield warnings for loss factors that are too large. They are probably percentages or relative
+    dampings.
 
     Args:
         figures: Result of `walk_figures`; each key `loss` is checked.
+        most: Largest usual loss factor.
     """
     hint = "{0:g} % is {1:g}, and a relative damping psi is a loss factor of psi/(2 pi)"
     yield from doubt_figures(
-        Figure(place, loss, 0, LOSS, "", hint.format(loss, loss / 100))
+        Figure(place, loss, 0, most, "", hint.format(loss, loss / 100))
         for place, key, loss in figures
         if key == "loss"
     )

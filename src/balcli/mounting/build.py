@@ -22,7 +22,7 @@ from ..engine.load import build_named
 from ..engine.parse import join_engines
 from ..errors import InputError, Problem
 from ..file.doubt import Doubt, walk_figures
-from ..file.doubts import doubt_losses
+from ..file.doubts import LOSS_OF_MOUNTS, doubt_losses
 from ..file.fields import printable, shorten
 from ..file.model import EngineFile
 from ..file.mount_tables import Mount, Point
@@ -324,4 +324,4 @@ def _find_doubts(model: EngineFile) -> Iterator[Doubt]:
             f"{SAG_MOST:g} mm is usual; {ask_unit('N/mm', '250 kN/m')}"
         )
         yield Doubt("mount.stiffness", message, ("body.mass",))
-    yield from doubt_losses(walk_figures("mount", list_tables(mounts)))
+    yield from doubt_losses(walk_figures("mount", list_tables(mounts)), LOSS_OF_MOUNTS)

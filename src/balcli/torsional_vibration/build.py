@@ -166,6 +166,7 @@ def assemble_system(
         ),
         stress_by_torque=stress_by_torque,
         sections=tuple(map(_find_section, tables)),
+        lengths=tuple((table.length or 0.0) / 1e3 for table in tables),
         limits=limits,
         unknown_stress=tuple(
             k

@@ -53,6 +53,7 @@ from .modes import sum_phases
 from .permitted import M68, LimitTable, MeanLimit, ShaftLimit
 from .plot import DrawnCase, make_limits, make_torsion
 from .system import TorsionalSystem
+from .throw_stiffness import ThrowSize
 from .verdicts import LimitVerdict
 
 _STYLE = Path(__file__).parent / "assets" / "sheet.css"
@@ -211,7 +212,7 @@ def _list_sections(
     yield Section("inputs", "Inputs", [_show_inputs(firing, source, file, system)])
     nodes = _show_nodes(firing, system)
     yield Section("mass-elastic", "Mass-elastic system", [nodes, _show_shafts(firing, system)])
-    yield Section("throw", "Throw stiffness", [_show_throw(firing, system)])
+    yield Section("throw", "Throw stiffness", list(_show_throw(firing, system)))
     shapes = [show.show_modes(firing), show.show_shapes(firing, system)]
     yield Section("modes", "Natural frequencies and modes", shapes)
     yield Section("holzer", "Holzer's tables", list(_show_holzer(firing, system)))
@@ -309,8 +310,10 @@ def _show_shafts(result: TorsionAnalysis, system: System) -> Grid | Text:
         Column(f"k, {stiffness.name}"),
         Column(f"diameter, {length.name}"),
         Column(f"bore, {length.name}"),
-        Column("loss"),
     ]
+    if any(own.lengths):
+        heads.append(Column(f"length, {length.name}"))
+    heads.append(Column("loss"))
     if np.any(dashpots):
         heads.append(Column(f"dashpot, {system.torsional_damping.name}"))
     heads.append(Column("limit", words=True))
@@ -322,13 +325,17 @@ def _show_shafts(result: TorsionAnalysis, system: System) -> Grid | Text:
             number(stiffness.of(shaft.stiffness_Nm_per_rad), 6).replace("inf", "rigid"),
             number(length.of(outer or math.nan), 6),
             number(length.of(inner)) if outer else UNKNOWN,
-            number(float(own.damping.loss[k])),
         ]
+        if any(own.lengths):
+            row.append(number(length.of(own.lengths[k] or math.nan), 6))
+        row.append(number(float(own.damping.loss[k])))
         if np.any(dashpots):
             row.append(number(system.torsional_damping.of(float(dashpots[k]))))
         row.append(_name_limits(own, k, system) or UNKNOWN)
         rows.append(row)
-    return Grid.of_rows("Shafts", heads, rows, _name_node_damping(own, system))
+    notes = ["With a length: a plain shaft, whose k follows from it."] if any(own.lengths) else []
+    notes.append(_name_node_damping(own, system))
+    return Grid.of_rows("Shafts", heads, rows, " ".join(notes).strip())
 
 
 def _name_limits(own: TorsionalSystem, shaft: int, system: System) -> str:
@@ -365,11 +372,36 @@ def _name_node_damping(own: TorsionalSystem, system: System) -> str:
     return f"Damping against ground, {unit.name}: {', '.join(parts)}." if parts else ""
 
 
-def _show_throw(result: TorsionAnalysis, system: System) -> Part:
-    """Return the stiffness of the throws by both formulas."""
-    if result.throw is None:
-        return _say("The stiffness of the throws is given; the file has no dimensions of a throw.")
-    return show.show_throw(result, result.throw, system)
+def _show_throw(result: TorsionAnalysis, system: System) -> Iterator[Part]:
+    """Yield the dimensions of a throw, and its stiffness by both formulas."""
+    if result.throw is None or result.system.throw is None:
+        yield _say("The stiffness of the throws is given; the file has no dimensions of a throw.")
+        return
+    yield _show_throw_size(result.system.throw.size, system)
+    yield show.show_throw(result, result.throw, system)
+
+
+def _show_throw_size(throw: ThrowSize, system: System) -> Facts:
+    """Return the dimensions of a throw."""
+    length = system.length
+    journal = throw.journal_diameter, throw.journal_bore, throw.journal_length
+    pin = throw.pin_diameter, throw.pin_bore, throw.pin_length
+    web = f"{size_text(throw.thickness, length)} thick, {size_text(throw.width, length)} wide"
+    pairs = [
+        ("crank radius", size_text(throw.radius, length)),
+        ("main journal", _tell_cylinder(*journal, system)),
+        ("crank pin", _tell_cylinder(*pin, system)),
+        ("web", web),
+        ("shear modulus", f"{number(throw.shear_modulus / 1e9)} GPa"),
+    ]
+    return Facts(tuple(pairs))
+
+
+def _tell_cylinder(diameter: float, bore: float, length: float, system: System) -> str:
+    """Return the dimensions of a journal or pin, m, in words."""
+    hollow = f", bore {size_text(bore, system.length)}" if bore else ""
+    outside = size_text(diameter, system.length)
+    return f"diameter {outside}{hollow}, {size_text(length, system.length)} long"
 
 
 # ------------------------------------------------------------------ modes and excitation

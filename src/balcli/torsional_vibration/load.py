@@ -12,7 +12,7 @@ from ..engine.load import build_named
 from ..engine.parse import parse
 from ..errors import ArgumentError
 from ..file.doubt import Doubt, walk_figures
-from ..file.doubts import doubt_losses
+from ..file.doubts import LOSS_OF_SHAFTS, doubt_losses
 from ..file.messages import CHAIN, ENGINE, refuse_other_kind
 from ..file.model import EngineFile
 from ..file.plain_tables import list_tables
@@ -73,7 +73,7 @@ def make_chain_source(
 ) -> Source:
     """Return the source for the tables of a chain file."""
     figures = list(walk_figures("", list_tables(model)))
-    doubts = *doubt_losses(figures), *_doubt_units(figures)
+    doubts = *doubt_losses(figures, LOSS_OF_SHAFTS), *_doubt_units(figures)
     dampers = {node.name: node.damper for node in model.node}
     return Source(text, doubts, partial(build_chain, model, name, orders), dampers)
 

@@ -287,15 +287,21 @@ def _draw_torque(ax: Axes, result: TorsionAnalysis, curves: _Curves, system: Sys
     _finish(ax, result, curves, title, unit.name)
 
 
-def _draw_limit(ax: Axes, limit: Limit, rpm: Real, unit: ShownUnit, colour: str) -> None:
-    """Draw a limit as a thin line, and the transient limit of a rule as a dashed one."""
+def _draw_limit(
+    ax: Axes, limit: Limit, rpm: Real, unit: ShownUnit, colour: str, *, labelled: bool = False
+) -> None:
+    """Draw a limit as a thin line, and the transient limit of a rule as a dashed one; `labelled`:
+    the legend names both.
+    """
+    labels = ("limit", "transient limit") if labelled else (None, None)
     corners = [corner for corner in limit.corners if rpm[0] < corner < rpm[-1]]
     speeds = np.union1d(np.linspace(rpm[0], rpm[-1], _LIMIT_POINTS), corners)
     heights = limit.at(speeds) / unit.size
-    ax.plot(speeds, heights, color=colour, linewidth=0.8)
+    ax.plot(speeds, heights, color=colour, linewidth=0.8, label=labels[0])
     transient = getattr(limit, "transient", None)
     if transient is not None:
-        ax.plot(speeds, heights * transient, color=colour, linewidth=0.8, linestyle=(0, (4, 3)))
+        (line,) = ax.plot(speeds, heights * transient, color=colour, linewidth=0.8, label=labels[1])
+        line.set_linestyle((0, (4, 3)))
 
 
 class DrawnCase(NamedTuple):
@@ -348,7 +354,7 @@ def _draw_judged(
     for case, of_case, heights, look in zip(cases, curves, values, _OF_CASES, strict=False):
         line, colour = look
         ax.plot(of_case.rpm, heights / unit.size, line, color=colour, label=case.name)
-    _draw_limit(ax, limit.limit, rpm, unit, INK)
+    _draw_limit(ax, limit.limit, rpm, unit, INK, labelled=True)
     name = fit_name(cases[0].result.shafts[limit.column].name, 24)
     ax.set(xlim=(float(rpm[0]), float(rpm[-1]) + 1e-9), ylim=(0, None))
     ax.set(xlabel="rpm", ylabel=f"± {unit.name}")

@@ -166,6 +166,7 @@ class TorsionalSystem:
         damping: Losses of shafts and nodes.
         stress_by_torque: (shafts,) shear stress at the surface for 1 N m, Pa; 0 without a diameter.
         sections: Outer and inner diameter of each shaft, m; 0 where they are not given.
+        lengths: Length of each plain shaft, m; 0 where the stiffness is given.
         rings: Viscous dampers, which are not nodes of the chain.
         pendulums: Pendulums, which are not nodes of the chain.
         excitation: Torques by order; None: no excitation.
@@ -194,6 +195,7 @@ class TorsionalSystem:
     damping: Damping
     stress_by_torque: Real
     sections: tuple[tuple[float, float], ...] = ()
+    lengths: tuple[float, ...] = ()
     rings: tuple[ViscousRing, ...] = ()
     pendulums: tuple[Pendulums, ...] = ()
     excitation: Excitation | None = None

@@ -115,6 +115,7 @@ class ThrowStiffness(NamedTuple):
         used: Used stiffness; None if the file gives several.
         source: What the used stiffness is: a formula, the mean of both, or the file's.
         shafts: Indices of the shafts between throws.
+        size: Dimensions from which both formulas follow.
     """
 
     ker_wilson: float | None
@@ -122,6 +123,7 @@ class ThrowStiffness(NamedTuple):
     used: float | None
     source: Used
     shafts: Indices
+    size: ThrowSize
 
     @property
     def spread(self) -> float | None:
@@ -241,7 +243,7 @@ def find_throw_stiffness(
     else:
         source = "mean"
         used = None if ker_wilson is None else (ker_wilson + carter) / 2
-    return ThrowStiffness(ker_wilson, carter, used, source, shafts)
+    return ThrowStiffness(ker_wilson, carter, used, source, shafts, size)
 
 
 def find_problems(model: EngineFile, engine: Engine, throws: str) -> Iterator[Problem]:
