@@ -10,6 +10,11 @@ from support.commands import ask, refusal, run_here
 from support.diesel import write_diesel
 from support.paths import write
 
+import balcli
+from balcli.errors import BalcliError
+from balcli.forces.quantity import TargetQuantity
+from balcli.torsional_vibration.quantity import Variants
+
 GAS = '[gas]\ncycle = "wiebe"\ncompression_ratio = 16\nimep = 15\n'
 
 
@@ -73,3 +78,22 @@ def test_files_without_torsion_have_none(tmp_path):
     assert refusal("scatter", path, "-q", "torsion.1.Hz").startswith(told)
     asked = ("--vary", "rod.length=200,210", "-q", "torsion.1.Hz")
     assert refusal("sweep", path, *asked).startswith(f"{path}: {told}")
+
+
+LAW = '[gas]\ncycle = "wiebe"\ncompression_ratio = 16\nat = [{ speed = 1000, imep = 8 }, { speed = 2000, imep = 15 }]\n'
+
+
+@pytest.mark.parametrize("gas", [GAS, LAW, ""], ids=["gas", "gas by speed", "inertia alone"])
+def test_variants_together_are_those_one_by_one(gas):
+    """Impossible variants are left to the evaluation of each alone, which tells why."""
+    model = balcli.load(write_diesel(extra=gas)).model
+    names = ["shaft.flywheel.stress", "torsion.2.Hz", "shaft.throw 3-4.torque"]
+    variants = Variants(model, [TargetQuantity(name) for name in names])
+    figures = [{"torsion.loss": loss, "piston.mass": 2.0 + loss} for loss in (0.01, -1.0, 0.03, 0.05)]
+    together = variants.evaluate_jointly(figures)
+    assert list(together) == [0, 2, 3]
+    for place, values in together.items():
+        assert values == pytest.approx(variants.evaluate(figures[place]), rel=1e-12)
+    assert together[0] != together[3]
+    with pytest.raises(BalcliError):
+        variants.evaluate(figures[1])

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 import numpy as np
 
@@ -12,6 +12,7 @@ from ..core.phasors import Array
 from ..engine.build import build
 from ..engine.engine import Engine
 from ..engine.load import FiguresOfVariants, build_jointly
+from ..engine.parts import list_joint_paths
 from ..errors import BalcliError
 from ..file.model import EngineFile
 from ..forces.curves import find_constant_inertia, find_torque_curves
@@ -76,6 +77,12 @@ class TorqueOfVariants(FiguresOfVariants[TargetQuantity]):
 
     def __init__(self, model: EngineFile, quantities: Sequence[TargetQuantity]) -> None:
         super().__init__(evaluate_engine, model, quantities)
+
+    def joins(self, path: str, others: Iterable[str]) -> bool:
+        """Return whether variants that differ only in one figure are computed together; see
+        `studies.quantities.JointVariants`.
+        """
+        return path in list_joint_paths(self._model, (path, *others))
 
     def evaluate_jointly(self, variants: Sequence[Mapping[str, float]]) -> dict[int, list[float]]:
         """Return the value of each quantity for the variants that can be computed together, by

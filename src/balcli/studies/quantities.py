@@ -61,6 +61,14 @@ class Variants(Protocol):
 class JointVariants(Variants, Protocol):
     """Object that can also evaluate some variants together."""
 
+    def joins(self, path: str, others: Iterable[str]) -> bool:
+        """Return whether variants that differ only in one figure are computed together.
+
+        Args:
+            path: Dotted name of the figure.
+            others: Dotted names of other figures that vary.
+        """
+
     def evaluate_jointly(self, variants: Sequence[Mapping[str, float]]) -> dict[int, list[float]]:
         """Return the value of each quantity for the variants that can be computed together, by
         their places in `variants`. Variants that are impossible are not among them.
@@ -313,8 +321,12 @@ class Evaluator:
             path: Dotted name of the figure.
             others: Dotted names of other figures that vary.
         """
-        joint = all(isinstance(chapter, JointVariants) for _, chapter in self._chapters)
-        return joint and path in list_joint_paths(self._model, (path, *others))
+        if not self._chapters:
+            return path in list_joint_paths(self._model, (path, *others))
+        return all(
+            isinstance(chapter, JointVariants) and chapter.joins(path, others)
+            for _, chapter in self._chapters
+        )
 
     def build(self, figures: Mapping[str, Array], rank: int) -> Engine:
         """Return all variants, with their gas, as one engine with `rank` trailing axes.

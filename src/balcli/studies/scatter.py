@@ -43,6 +43,7 @@ from .quantity_names import ENGINE, MOUNTS, TORSION
 RANDOM_ENGINES = 100_000
 RANDOM_SINGLES = 500
 CHUNK = 8_192
+SINGLES = 64  # number of slow variants at once, if some of them can be computed together
 AT_ONCE = 400_000  # most samples, and most (samples x parts), at once
 _EQUAL = 1e-8  # effects that differ by less than this share of the largest are equal
 _ROUNDING = 1e-12  # changes below this share of the nominal value are rounding errors
@@ -209,6 +210,7 @@ class Variants:
         paths = [path for source in self.sources for path in source.figures]
         of_gas = any(q.kind in GAS_KINDS for q in of_engine)
         self._slow = self._evaluator.one_by_one or (of_gas and any(map(concerns_gas, paths)))
+        self._joint = all(self._evaluator.computes_jointly(path, paths) for path in paths)
         self.usual = RANDOM_SINGLES if self._slow else RANDOM_ENGINES
 
     def evaluate(self, deviations: Array) -> Array:
@@ -289,7 +291,9 @@ class Variants:
         random = np.random.default_rng(seed)
         tolerances = np.array([source.tolerance for source in self.sources])
         least = [_LEAST if source.is_relative else -np.inf for source in self.sources]
-        at_once = 1 if self._slow else min(CHUNK, max(AT_ONCE // len(tolerances), 1))
+        at_once = min(CHUNK, max(AT_ONCE // len(tolerances), 1))
+        if self._slow:
+            at_once = SINGLES if self._joint else 1
         for start in range(0, samples, at_once):
             size = min(at_once, samples - start), len(tolerances)
             if shape == "uniform":

@@ -4,7 +4,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
+from typing import NamedTuple
 
 import numpy as np
 
@@ -19,10 +21,11 @@ from ..forces.quantity import TargetQuantity, refuse_stranger
 from .build import build_engine_system, excite_engine, require_torsion
 from .measured import MeasuredPoints, compare_measured, read_measured
 from .modes import find_chain_modes
-from .response import find_largest
+from .response import find_largest_of_each
 from .system import Excitation, TorsionalSystem
 
 MISFIT = "torsion.misfit"
+_AT_ONCE = 32  # number of variants whose shafts are searched together; more save nothing
 
 
 def list_names(model: EngineFile) -> Iterator[str]:
@@ -65,9 +68,23 @@ def _require_measured(model: EngineFile) -> None:
         )
 
 
+class _Variant(NamedTuple):
+    """A variant of a file.
+
+    Attributes:
+        system: Torsional system.
+        speeds: Speeds over which the largest load of a shaft is found, rpm.
+        measured: Measured curve with which the system is compared; None: it is not compared.
+    """
+
+    system: TorsionalSystem
+    speeds: Real
+    measured: MeasuredPoints | None
+
+
 class Variants:
-    """Evaluator of quantities, one variant of a file after the other. Results that do not change
-    from variant to variant are computed once.
+    """Evaluator of quantities for variants of a file. Results that do not change from variant to
+    variant are computed once.
 
     Args:
         model: Engine file with [torsion].
@@ -88,6 +105,32 @@ class Variants:
         Raises:
             InputError, BalcliError: The variant is impossible.
         """
+        return self._evaluate([self._build(values)])[0]
+
+    def joins(self, path: str, others: Iterable[str]) -> bool:
+        """Return whether variants that differ only in one figure are computed together; see
+        `studies.quantities.JointVariants`.
+        """
+        return True
+
+    def evaluate_jointly(self, variants: Sequence[Mapping[str, float]]) -> dict[int, list[float]]:
+        """Return the value of each quantity for the variants that are possible, by their places in
+        `variants`.
+        """
+        built: dict[int, _Variant] = {}
+        for place, values in enumerate(variants):
+            with suppress(BalcliError):
+                built[place] = self._build(values)
+        rows = dict[int, list[float]]()
+        places = list(built)
+        for start in range(0, len(places), _AT_ONCE):
+            some = places[start : start + _AT_ONCE]
+            with suppress(BalcliError):  # the variant that is impossible is not known
+                of_some = self._evaluate([built[place] for place in some])
+                rows |= dict(zip(some, of_some, strict=True))
+        return rows
+
+    def _build(self, values: Mapping[str, float]) -> _Variant:
         own = {path: value for path, value in values.items() if not path.startswith("torsion.")}
         engine = self._engines.build(own)
         excitation = remember(
@@ -95,28 +138,48 @@ class Variants:
         )
         varied = change_figures(self._model, values, {"torsion", "bearing"})
         system = build_engine_system(varied, engine, excitation)
-        figures = dict[str, float]()
-        if any(q.kind == "torsion" for q in self._quantities):
-            hertz = _find_frequencies(system)
-            figures |= {f"torsion.{k}.Hz": each for k, each in enumerate(hertz.tolist(), 1)}
+        points = None
         if MISFIT in self._names:
             points = remember(
                 self._measured, tuple(own.items()), lambda: read_measured(self._model, engine)
             )
-            if points is not None:
-                figures[MISFIT] = compare_measured(system, points).rms_deg
-        looked_at = [q.target for q in self._quantities if q.kind == "shaft"]
-        if looked_at:
-            speeds = choose_speeds(engine, values, choose_torsion_speeds)
-            weights = np.isin(system.shafts, looked_at).astype(float)
-            _, torques = find_largest(system, speeds, weights)
-            of_shafts = zip(system.shafts, torques, system.stress_by_torque, strict=False)
-            for shaft, torque, stress in of_shafts:
-                figures |= {
-                    f"shaft.{shaft}.torque": torque,
-                    f"shaft.{shaft}.stress": torque * stress,
-                }
-        return [float(figures[q.name]) for q in self._quantities]
+        return _Variant(system, choose_speeds(engine, values, choose_torsion_speeds), points)
+
+    def _evaluate(self, variants: Sequence[_Variant]) -> list[list[float]]:
+        """Return the value of each quantity for each variant."""
+        systems = [variant.system for variant in variants]
+        shafts = [q.target for q in self._quantities if q.kind == "shaft"]
+        of_shafts: Sequence[dict[str, float]] = [{}] * len(variants)
+        if shafts:
+            weights = np.isin(systems[0].shafts, shafts).astype(float)
+            speeds = [variant.speeds for variant in variants]
+            largest = find_largest_of_each(systems, speeds, weights)
+            torques = [values for _, values in largest]
+            of_shafts = list(map(_name_loads, systems, torques))
+        rows = []
+        for variant, figures in zip(variants, of_shafts, strict=True):
+            known = figures | self._find_figures(variant)
+            rows.append([float(known[q.name]) for q in self._quantities])
+        return rows
+
+    def _find_figures(self, variant: _Variant) -> dict[str, float]:
+        """Return natural frequencies and the misfit of a variant by name, if they are asked for."""
+        figures = dict[str, float]()
+        if any(q.kind == "torsion" for q in self._quantities):
+            hertz = _find_frequencies(variant.system)
+            figures |= {f"torsion.{k}.Hz": each for k, each in enumerate(hertz.tolist(), 1)}
+        if variant.measured is not None:
+            figures[MISFIT] = compare_measured(variant.system, variant.measured).rms_deg
+        return figures
+
+
+def _name_loads(system: TorsionalSystem, torques: Real) -> dict[str, float]:
+    """Return torques (N m) and stresses (Pa) of shafts by name."""
+    figures = dict[str, float]()
+    for shaft, torque, stress in zip(system.shafts, torques, system.stress_by_torque, strict=False):
+        figures[f"shaft.{shaft}.torque"] = torque
+        figures[f"shaft.{shaft}.stress"] = torque * stress
+    return figures
 
 
 def _find_frequencies(system: TorsionalSystem) -> Real:
