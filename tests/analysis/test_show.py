@@ -16,7 +16,7 @@ from balcli.analysis import show as analysis
 from balcli.analysis.answer import EXTRAS, QUANTITIES, UNASKED, analyze
 from balcli.file.assumed import Assumed
 from balcli.shell.options import parse_parts
-from balcli.show.sheet import IN_BRIEF, Facts, Grid, View
+from balcli.show.sheet import Facts, Grid, View
 from balcli.show.units import SYSTEMS
 
 
@@ -80,7 +80,10 @@ def test_strokes_and_reasons_as_rows():
 WIDE = [0, 72, 144, 216, 288]
 
 
-def parts(subject, view=IN_BRIEF, **options):
+BRIEF = View()
+
+
+def parts(subject, view=BRIEF, **options):
     """Titles of a sheet's parts, and the first cells of its first table."""
     found = analysis.sheet(analyze(subject, only=[*UNASKED, "ladder"], **options), SYSTEMS["si"], view).parts
     first = next(part for part in found if isinstance(part, Grid))

@@ -172,7 +172,7 @@ def test_the_study_of_factors_takes_planes_alone():
 def test_the_page_of_the_ladder_has_the_loci_of_all_steps():
     """Each with its name and its largest value; `small` says which steps there are."""
     three = changed(("throws = [0, 180, 180, 0]", "throws = [0, 240, 120]"), ("firing_order = [1, 3, 4, 2]", ""))
-    for small, last in ((None, "4 shafts at +2 and -2"), (0.3, "3 shaft at -1")):
+    for small, last in ((None, "4: shafts at +2 and -2"), (0.3, "3: shaft at -1")):
         subject = PageSubject(compute_study(build_text(three), "ladder", options=SchemeOptions(small=small)))
         *_, step = find_ladder(build_text(three), small or SMALL).steps
         assert list(subject.study.steps)[-1] == last

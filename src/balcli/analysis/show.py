@@ -19,8 +19,8 @@ from ..show.engine_facts import engine_facts, speed_facts, tell_pivot
 from ..show.figures import FigureRow, figure_rows, record_rows
 from ..show.formats import Columns, Renderer, Rows
 from ..show.sheet import (
-    IN_BRIEF,
     NAMELESS,
+    WITHOUT_HINTS,
     Facts,
     Grid,
     Sheet,
@@ -70,7 +70,8 @@ def sheet(result: Analysis, system: System, view: View | None = None) -> Sheet:
     Args:
         result: Analysis to show.
         system: System of units.
-        view: Tables and orders to show; default: those that the analysis was asked for.
+        view: Tables and orders to show; default, for the library: those that the analysis was
+            asked for, without names of options.
     """
     if view is None:
         view = _choose_view(result)
@@ -81,8 +82,8 @@ def _choose_view(result: Analysis) -> View:
     """Return the view in brief, or, if some kinds were not asked for, that of the other kinds."""
     computed = frozenset(result.spectra.kinds)
     if computed.issuperset(KINDS):
-        return IN_BRIEF
-    return View(parts=computed)
+        return WITHOUT_HINTS
+    return View(parts=computed, hints=False)
 
 
 def _parts(result: Analysis, system: System, view: View) -> Iterator[Part]:

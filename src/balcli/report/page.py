@@ -48,7 +48,7 @@ from ..mounting.rigid_body import PROJECTION, find_corners
 from ..show.engine_facts import engine_facts, tell_pivot
 from ..show.figures import clean
 from ..show.plot_style import inline_svg, save_figure
-from ..show.sheet import NAMELESS, ON_A_PAGE, Facts, Grid, Text
+from ..show.sheet import NAMELESS, WITHOUT_HINTS, Facts, Grid, Text
 from ..show.units import SI, System
 from ..sizing.ladder import find_ladder
 from ..sizing.options import SchemeOptions
@@ -259,7 +259,7 @@ def lay_out(result: Analysis, balanced: Balance, system: System) -> PageParts:
     engine = result.engine
     pivot = tell_pivot(engine)
     every = hasattr(balanced, "every_order") and balanced.every_order
-    view = ON_A_PAGE._replace(every_order=every)
+    view = WITHOUT_HINTS._replace(every_order=every)
     ladder = getattr(balanced, "ladder", None) or find_ladder(engine)
     usual = balanced.remedy.scheme == "auto"
     return PageParts(

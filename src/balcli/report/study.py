@@ -108,7 +108,7 @@ def analyze_steps(
     analyses = {}
     for k, step in enumerate(ladder.steps):
         balanced = fit_devices(engine, step.remedy)
-        analyses[f"{k} {step.step}"] = analyze(balanced, orders, kinds)
+        analyses[f"{k}: {step.step}"] = analyze(balanced, orders, kinds)
     return analyses
 
 

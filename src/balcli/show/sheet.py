@@ -293,8 +293,7 @@ class View(NamedTuple):
     hints: bool = True
 
 
-IN_BRIEF = View()
-ON_A_PAGE = View(hints=False)
+WITHOUT_HINTS = View(hints=False)
 
 
 class NamedResult(NamedTuple, Generic[R]):

@@ -34,7 +34,7 @@ const Page = (() => {
   const listChoices = () => [...figures.ladder.steps, ...figures.page.extra];
   const isStep = (k) => k < figures.ladder.steps.length;
   const valueOf = (k) => isStep(k) ? String(k) : listChoices()[k].step.split(/[ :]/)[0];
-  const labelOf = ({ step }, k) => isStep(k) ? `${k} ${step}` : step;
+  const labelOf = ({ step }, k) => isStep(k) ? `${k}: ${step}` : step;
   const nameChoice = (k) => isStep(k) ? `step ${k}` : listChoices()[k].step.replace("default: ", "");   // in a sentence
   const isScheme = ({ step }) => step.startsWith("scheme ");
   const tellSteps = () => `step: this engine has steps 0 to ${figures.ladder.steps.length - 1}`;
@@ -292,14 +292,14 @@ const Page = (() => {
       cure: isBalanced(before) ? "" : tellCure(kind, bar, unit),
     };
   }
-  // What cancels the parts of an order: "counterweights 2270, shaft at -1 464.4".
+  // What cancels the parts of an order: "counterweights: 2270, shaft at -1: 464.4".
   function tellCure(kind, { order, before: [ahead, against] }, unit) {
     const finding = figures.verdict.matter.find((other) => other.order === order);
-    if (!finding || !finding.large.includes(kind)) return "small: left";
+    if (!finding || !finding.large.includes(kind)) return "too small for a device";
     const { cures } = finding;
     const hasParts = order <= 2 && cures?.length && !cures.some((cure) => cure.takes_back);
     if (!hasParts) return Tables.tellCures(figures, order);
-    const parts = cures.map((cure) => `${Tables.nameCure(cure)} ${number((cure.ratio > 0 ? ahead : against) / unit.size)}`);
+    const parts = cures.map((cure) => `${Tables.nameCure(cure)}: ${number((cure.ratio > 0 ? ahead : against) / unit.size)}`);
     return parts.join(", ");
   }
   // Keeps the room of the most bars that an engine had, so that bars that go move nothing below them.
