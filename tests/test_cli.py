@@ -6,8 +6,6 @@ import re
 import signal
 import subprocess
 import sys
-from collections.abc import Iterable
-from functools import cache
 from pathlib import Path
 
 import pytest
@@ -321,58 +319,49 @@ def test_any_locale_and_code_page_gets_utf_8(encoding):
 # ------------------------------------------------------------------ what is imported
 HEAVY = {"numpy", "pydantic", "rich", "matplotlib", "tomli_w", "tomlkit", "jinja2", "scipy"}
 PROBE = """
-import atexit, sys
-from balcli.__main__ import main
-atexit.register(lambda: sys.stderr.write(" ".join(sys.modules)))
-main()
-"""
-
-
-@cache
-def modules_of(*args: object) -> frozenset[str]:
-    """All modules that a command has imported when it ends."""
-    return frozenset(run_python("-c", PROBE, *args).stderr.split())
-
-
-def packages(modules: Iterable[str]) -> set[str]:
-    return {name.partition(".")[0] for name in modules}
-
-
-@pytest.mark.parametrize(
-    ("args", "allowed"),
-    [
-        (["--help"], set()),
-        (["new", "single"], {"pydantic"}),  # typer itself checks arguments with it
-        (["analyze", V8, "--format", "json"], {"numpy", "pydantic"}),
-        (["analyze", V8], {"numpy", "pydantic"}),
-        (["check", I4], {"numpy", "pydantic"}),
-    ],
-    ids=lambda value: " ".join(Path(word).name for word in value) if type(value) is list else "",
-)
-def test_only_what_is_needed_is_imported(args, allowed):
-    loaded = packages(modules_of(*args))
-    assert loaded & HEAVY <= allowed
-    assert "balcli" in loaded
-
-
-def test_the_help_of_a_command_needs_no_library():
-    """One process asks all of them, one after the other, and tells what was there after each."""
-    code = f"""
+import json
+import os
 import sys
 from balcli.cli import main
-for command in {list(COMMANDS)}:
-    sys.argv = ["balcli", command, "--help"]
+told = sys.stderr
+sys.stdout = open(os.devnull, "w")
+for command in json.loads(sys.argv[1]):
+    sys.argv = ["balcli", *command]
     try:
         main()
     except SystemExit as end:
-        packages = sorted({{name.partition(".")[0] for name in sys.modules}})
-        print(command, end.code, *packages, file=sys.stderr)
+        packages = sorted({name.partition(".")[0] for name in sys.modules})
+        print(json.dumps([end.code or 0, packages]), file=told)
 """
-    lines = [line.split() for line in run_python("-c", code).stderr.splitlines()]
-    assert [line[:2] for line in lines] == [[command, "0"] for command in COMMANDS]
-    first = next((line for line in lines if {*line} & (HEAVY - {"pydantic"})), None)
-    assert first is None
-    assert all("balcli" in line for line in lines)
+
+
+def list_packages(commands: list[list[str]]) -> list[set[str]]:
+    """The packages that are there after each of these commands, which one process runs one after the other."""
+    lines = run_python("-c", PROBE, json.dumps(commands)).stderr.splitlines()
+    ends = [json.loads(line) for line in lines]
+    assert [status for status, _ in ends] == [0] * len(commands)
+    return [{*packages} for _, packages in ends]
+
+
+NEEDED = [  # what a command may load beside what those before it may
+    (["--help"], set()),
+    (["new", "single"], {"pydantic"}),  # typer itself checks arguments with it
+    (["analyze", V8, "--format", "json"], {"numpy", "pydantic"}),
+    (["analyze", V8], {"numpy", "pydantic"}),
+    (["check", I4], {"numpy", "pydantic"}),
+]
+
+
+def test_only_what_is_needed_is_imported():
+    for (command, allowed), loaded in zip(NEEDED, list_packages([command for command, _ in NEEDED]), strict=True):
+        assert loaded & HEAVY <= allowed, command
+        assert "balcli" in loaded
+
+
+def test_the_help_of_a_command_needs_no_library():
+    for command, loaded in zip(COMMANDS, list_packages([[name, "--help"] for name in COMMANDS]), strict=True):
+        assert not loaded & (HEAVY - {"pydantic"}), command
+        assert "balcli" in loaded
 
 
 # ------------------------------------------------------------------ the end of the process
@@ -415,7 +404,8 @@ main()
 @unix
 def test_settings_of_matplotlib_in_the_working_folder_are_ignored(tmp_path):
     (tmp_path / "matplotlibrc").write_bytes(b"\xff\xfe")
-    done = run_command("plot", I4, "-o", "x.svg", cwd=tmp_path, env={"MPLBACKEND": "qt4agg"}, timeout=60)
+    asked = ("plot", I4, "--what", "polar", "-o", "x.svg")
+    done = run_command(*asked, cwd=tmp_path, env={"MPLBACKEND": "qt4agg"}, timeout=60)
     assert (done.returncode, done.stderr) == (0, "")
     assert (tmp_path / "x.svg").exists()
 
@@ -447,20 +437,22 @@ def test_too_little_memory_is_no_fault_of_ours():
     assert done.stderr.startswith("balcli: there is not enough memory for this (Unable to allocate")
 
 
-@pytest.mark.parametrize("options", [[], ["-X", "dev"]], ids=" ".join)
-def test_an_internal_error_is_told_as_one(options):
+@pytest.mark.parametrize(
+    ("options", "env", "whole"),
+    [([], {}, True), (["-X", "dev"], {}, False), ([], {"BALCLI_TRACEBACK": "1"}, False)],
+    ids=["plain", "dev", "traced"],
+)
+def test_an_internal_error_is_told_as_one(options, env, whole):
     code = (
         "import balcli.cli; from balcli.__main__ import main\n"
         "def fails(**_): raise ZeroDivisionError('by nought')\n"
         "balcli.cli.app = fails; main()"
     )
-    plain = run_python(*options, "-c", code)
-    traced = run_python("-c", code, env={"BALCLI_TRACEBACK": "1"})
-    assert (plain.returncode, traced.returncode) == (70, 70)
-    for told, whole in ((plain.stderr, not options), (traced.stderr, False)):
-        assert told.endswith(FAULT)
-        assert (told == FAULT) is whole
-        assert ("Traceback" in told) is not whole
+    done = run_python(*options, "-c", code, env=env)
+    assert done.returncode == 70
+    assert done.stderr.endswith(FAULT)
+    assert (done.stderr == FAULT) is whole
+    assert ("Traceback" in done.stderr) is not whole
 
 
 @pytest.mark.parametrize(

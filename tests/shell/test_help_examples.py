@@ -64,9 +64,20 @@ OFFERED = {
 }
 
 
+def ask_as_bash(typed: str) -> dict[str, str]:
+    """What bash puts into the environment to ask for words."""
+    asked = {"_BALCLI_COMPLETE": "complete_bash", "COMP_WORDS": f"balcli {typed}"}
+    return asked | {"COMP_CWORD": str(typed.count(" ") + 1)}
+
+
 @pytest.mark.parametrize("typed", OFFERED)
-def test_tab_offers(typed: str) -> None:
-    """Asked as bash asks it, in a process of its own."""
-    words = {"COMP_WORDS": f"balcli {typed}", "COMP_CWORD": str(typed.count(" ") + 1)}
-    done = run_python("-m", "balcli", env={"_BALCLI_COMPLETE": "complete_bash", **words})
-    assert ({*done.stdout.split()}, done.stderr) == (OFFERED[typed], "")
+def test_tab_offers(typed: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    for name, value in ask_as_bash(typed).items():
+        monkeypatch.setenv(name, value)
+    done = run_here()
+    assert ({*done.out.split()}, done.err) == (OFFERED[typed], "")
+
+
+def test_tab_offers_in_a_process_of_its_own() -> None:
+    done = run_python("-m", "balcli", env=ask_as_bash("tables liu-"))
+    assert ({*done.stdout.split()}, done.stderr) == (OFFERED["tables liu-"], "")

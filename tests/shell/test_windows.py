@@ -14,17 +14,31 @@ from balcli.shell import output
 I4 = ENGINES / "i4.toml"
 
 
+RUN_ALL = """
+import sys
+from balcli.cli import main
+for command in {commands}:
+    sys.argv = ["balcli", *command]
+    try:
+        main()
+    except SystemExit as end:
+        if end.code:
+            raise
+"""
+
+
 def test_every_file_is_opened_with_its_encoding(tmp_path):
     """Python itself tells where one is left to the machine."""
-    code = "-X", "warn_default_encoding", "-W", "error::EncodingWarning", "-m", "balcli"
-    for args in (
-        ("analyze", I4, "-o", "a.json"),
-        ("sweep", I4, "--vary", "rod.ratio=0.3", "-o", "s.csv"),
-        ("check", I4),
-        ("new", "torsion", "chain.toml"),
-    ):
-        done = run_python(*code, *args, cwd=tmp_path)
-        assert (done.returncode, done.stderr) == (0, "")
+    commands = [
+        ["analyze", str(I4), "-o", "a.json"],
+        ["sweep", str(I4), "--vary", "rod.ratio=0.3", "-o", "s.csv"],
+        ["check", str(I4)],
+        ["new", "torsion", "chain.toml"],
+    ]
+    strict = ("-X", "warn_default_encoding", "-W", "error::EncodingWarning")
+    done = run_python(*strict, "-c", RUN_ALL.format(commands=commands), cwd=tmp_path)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert {path.name for path in tmp_path.iterdir()} == {"a.json", "s.csv", "chain.toml"}
     assert b"\r" not in (tmp_path / "s.csv").read_bytes()
 
 
