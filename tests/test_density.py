@@ -5,22 +5,21 @@ the third one in a statement, and several assignments in one line.
 """
 
 import ast
-from collections.abc import Iterator
-from pathlib import Path
+from collections.abc import Iterable, Iterator
 
 import pytest
 from support.paths import PACKAGE
+from support.trees import list_nodes
 
-FILES = sorted(PACKAGE.rglob("*.py"))
 COUNTED = (ast.ListComp, ast.SetComp, ast.DictComp, ast.GeneratorExp, ast.IfExp, ast.Lambda)
 STATEMENTS = (ast.Assign, ast.AnnAssign, ast.AugAssign, ast.Return, ast.Expr, ast.Raise)
 LISTINGS = (ast.List, ast.Tuple, ast.Set, ast.Dict, ast.Call)
 MOST_IN_A_PART = 2
 
 
-def list_dense(source: str) -> Iterator[str]:
+def list_dense(nodes: Iterable[ast.AST]) -> Iterator[str]:
     """Yield line and remedy of each statement that does too much."""
-    for node in ast.walk(ast.parse(source)):
+    for node in nodes:
         if isinstance(node, STATEMENTS) and count_expressions(node) > MOST_IN_A_PART:
             yield f"{node.lineno}: give a part of the expression a name"
         if isinstance(node, ast.Assign) and assigns_several(node):
@@ -75,14 +74,9 @@ def assigns_several(node: ast.Assign) -> bool:
     ],
 )
 def test_crowded_statements_are_those_with_three_expressions_in_a_part(statement, clear):
-    assert (list(list_dense(statement)) == []) is clear
+    assert (list(list_dense(ast.walk(ast.parse(statement)))) == []) is clear
 
 
-def name_module(file: Path) -> str:
-    return file.relative_to(PACKAGE).as_posix()
-
-
-@pytest.mark.parametrize("file", FILES, ids=name_module)
-def test_a_statement_does_one_thing(file):
-    dense = list(list_dense(file.read_text(encoding="utf-8")))
+def test_a_statement_does_one_thing():
+    dense = [f"{file.relative_to(PACKAGE)}:{line}" for file, nodes in list_nodes() for line in list_dense(nodes)]
     assert dense == []
