@@ -2,6 +2,7 @@
 
 import json
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -49,10 +50,17 @@ position = 90
 ORDERS = np.array([0.0, 0.5, 1.0, 1.5, 2.0, 4.5, 12.0, 40.0])
 
 
+@cache
 def draw(seed):
     """Two cylinders at least, with devices on shaft and block."""
     found = draw_engine(seed, more=DEVICES)
     return found if len(found.throws_m) > 1 else draw(seed + 100)
+
+
+@cache
+def find_loads(seed):
+    """The loads of the drawn engine, with gas."""
+    return compute_loads_with_gas(draw(seed), ORDERS)
 
 
 def solve_statics(found, angles):
@@ -98,7 +106,7 @@ def integrate(found, function, orders):
 @pytest.mark.parametrize("seed", [1, 4])
 def test_orders_are_those_of_statics_load_by_load(seed):
     found = draw(seed)
-    loads = compute_loads_with_gas(found, ORDERS)
+    loads = find_loads(seed)
     wanted = integrate(found, lambda angles: solve_statics(found, angles), ORDERS)
     for name, (forward, backward) in wanted.items():
         phasors = getattr(loads, name).phasors
@@ -111,7 +119,7 @@ def test_orders_are_those_of_statics_load_by_load(seed):
 @pytest.mark.parametrize("seed", [1, 4])
 def test_largest_values_are_on_the_curves(seed):
     found = draw(seed)
-    loads = compute_loads_with_gas(found, ORDERS)
+    loads = find_loads(seed)
     fine = np.radians(np.arange(0, 720, 0.2))
     for name, curves in solve_statics(found, fine).items():
         sizes = np.abs(curves)

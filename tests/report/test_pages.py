@@ -237,13 +237,19 @@ LONG = ["main", "piston", "stars"]  # more than a second each
 SHORT = [what for what in (*OF_GAS, *OF_PARTS) if what not in LONG]
 
 
+def lay_out(page) -> FigureCanvasAgg:
+    """The canvas of a page on which everything has found its place, as when the page is saved."""
+    canvas = FigureCanvasAgg(page)
+    with style.in_our_style():
+        canvas.draw()
+    return canvas
+
+
 @pytest.mark.parametrize("what", [*SHORT, *slow(*LONG)])
 def test_no_label_is_cut_off_by_the_edge_of_a_page(what):
     text = WITH_WEBS if what == "webs" else GAS_FOUR + WIEBE
     page = make_page(PageSubject(Study(analyze(build_text(text)))), what)
-    style.save_figure(page, "png")
-    canvas = FigureCanvasAgg(page)
-    canvas.draw()
+    canvas = lay_out(page)
     labels = [ax.xaxis.label for ax in page.axes] + [ax.yaxis.label for ax in page.axes]
     labels += [ax.get_legend() for ax in page.axes if ax.get_legend()]
     labels += [text for ax in page.axes for text in (ax.title, ax._left_title, *ax.texts)]
@@ -267,9 +273,7 @@ def test_angles_are_written_where_they_touch_nothing():
     """At most eight on a curve, away from the curve and from each other, in inches as drawn."""
     fired = build_text(GAS_FOUR + WIEBE)
     page = make_page(PageSubject(Study(analyze(fired))), "pin")
-    style.save_figure(page, "png")
-    canvas = FigureCanvasAgg(page)
-    canvas.draw()
+    canvas = lay_out(page)
     for ax in page.axes:
         texts = [text for text in ax.texts if "°" in text.get_text()]
         assert 4 <= len(texts) <= 8

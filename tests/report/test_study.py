@@ -1,6 +1,7 @@
 """Studies over the balance factor and the bank angle: what books say of them, and their pictures."""
 
 import re
+from functools import cache
 
 import numpy as np
 import pytest
@@ -77,8 +78,13 @@ def test_its_own_bank_angle_is_the_engine_as_it_is():
     assert found.banks.order == 2
 
 
+@cache
+def study_factors(text):
+    return compute_study(build_text(text), "factor")
+
+
 def test_half_the_reciprocating_mass_balances_a_cross_plane_vee_eight():
-    rows = compute_study(build_text(CROSS), "factor").factors
+    rows = study_factors(CROSS).factors
     best = min(rows, key=lambda row: row.peak_moment_Nm)
     assert [row.factor for row in rows] == pytest.approx(np.linspace(0, 1, 51))
     assert best.factor == 0.5
@@ -100,7 +106,7 @@ def test_only_a_vee_has_a_bank_angle(text, reason):
 def test_the_page_of_factors_tells_the_best_and_by_what():
     """Pins of a cross-plane crank balance each other: a factor changes the moment alone."""
     for text, by in ((CROSS, r"moment [\d.]+ N·m"), (SINGLE, r"[\d.]+ k?N")):
-        page = draw_page(PageSubject(compute_study(build_text(text), "factor")), "factor", "svg")
+        page = draw_page(PageSubject(study_factors(text)), "factor", "svg")
         assert re.search(rf"best at 0\.\d+ \({by}\)", page.decode())
 
 
@@ -116,7 +122,7 @@ def test_the_best_factor_of_one_cylinder_is_found_between_the_steps():
     """The force is that of piston and small end along the cylinder, less the factor's share of
     their mass on the other side of the pin: a peak over a fine grid of both, by hand.
     """
-    rows = compute_study(build_text(SINGLE), "factor").factors
+    rows = study_factors(SINGLE).factors
     best = min(rows, key=lambda row: row.peak_force_N)
     r = 0.045
     rod = 0.160
@@ -154,10 +160,8 @@ def test_a_scheme_compares_before_and_after():
 
 def test_the_study_of_factors_takes_planes_alone():
     """In the planes of the end throws the same unbalance of order 1 is left as at every throw."""
-    free, ends = (
-        compute_study(build_text(CROSS), "factor", options=SchemeOptions(planes=planes)).factors
-        for planes in (None, "ends")
-    )
+    free = study_factors(CROSS).factors
+    ends = compute_study(build_text(CROSS), "factor", options=SchemeOptions(planes="ends")).factors
     assert [row.peak_moment_Nm for row in ends] == pytest.approx([row.peak_moment_Nm for row in free], abs=1)
     assert ends[0].counterweight_kg_m > 1.02 * free[0].counterweight_kg_m
     for asked, reason in (

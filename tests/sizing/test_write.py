@@ -11,18 +11,16 @@ from balcli.analysis.answer import analyze
 from balcli.balancing.answer import insert_remedy
 from balcli.errors import BalcliError
 from balcli.file.edit import format_value
+from balcli.forces.spectrum import compute_spectra
 from balcli.sizing.options import SCHEMES
 from balcli.sizing.remedy import Remedy, fit_devices
 from balcli.sizing.sizing import size
 
 
 def figures(engine):
-    found = analyze(engine, range(1, 13), ["force", "moment", "couple", "torque", "roll", "peak"])
-    return (
-        [(p.forward.tolist(), p.backward.tolist()) for _, p in found.spectra.items()],
-        found.peak.force,
-        found.peak.moment,
-    )
+    """Every phasor, of as many orders as the largest force and moment are made of."""
+    found = compute_spectra(engine, range(1, 41), ["force", "moment", "couple", "torque", "roll"])
+    return [(p.forward.tolist(), p.backward.tolist()) for _, p in found.items()]
 
 
 def check(text: bytes, remedy: Remedy) -> None:

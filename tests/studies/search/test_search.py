@@ -42,7 +42,7 @@ def test_in_line_four() -> None:
         ([0, 100, 250, 190, 20, 300], ""),
         ([0, 120, 240, 240, 120, 0], "bank_angle = 60\nstagger = 20"),
         ([0, 90, 270, 180], "bank_angle = 90\nnumbering = [[5, 6, 7, 8], [1, 2, 3, 4]]"),
-        ([0, 60, 120, 180, 240, 300, 30, 40, 50], ""),
+        ([0, 60, 120, 180, 240, 300, 30, 40], ""),
     ],
 )
 def test_branch_and_bound_finds_what_trying_all_finds(throws: list[float], layout: str) -> None:
@@ -169,9 +169,11 @@ def test_firing_orders_are_those_that_an_engine_file_may_have(layout: str, splay
             ("[piston]\n", "[piston]\noffset = 5\n"),
         )
 
+    first = load(text(tuple(range(1, count + 1)), f"firing_intervals = {even}\n"))
+
     def fits(order: tuple[int, ...]) -> bool:
         try:
-            build(load(text(order, f"firing_intervals = {even}\n")))
+            build(first.with_table("layout", firing_order=order))
         except InputError:
             return False
         return True
