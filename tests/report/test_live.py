@@ -519,15 +519,18 @@ def test_changed_numbers_stand_beside_the_title(show, address, changes):
     assert sorted(found) == sorted(changes)
 
 
+LARGEST = "document.getElementById('live-largest').textContent"
+
+
 @live
 @pytest.mark.parametrize("piston", [0.5, 0.8])
 def test_the_largest_force_and_moment_are_spoken(show, piston):
     """A moment after the last change; a table that changes is not."""
     page = show(GOOD + f"[cylinder.1]\npiston_mass = {piston}\n", "#crank.stroke=80")
-    page.run("new Promise(done => setTimeout(done, 500))")
     peak = figures(page)["peak"]
     moment = size_text(peak["moment_Nm"], SI.moment) if piston > 0.5 else "balanced"
     told = f"Largest over a revolution: force {size_text(peak['force_N'], SI.force)}, moment {moment}."
+    page.wait_for(f"{LARGEST} === {json.dumps(told)}")
     assert page.read("live-largest") == told
     loud = "[...document.querySelectorAll('[aria-live], [role=alert], [role=status]')].map(part => part.id)"
     assert page.run(loud) == ["live-wrong", "live-largest", "live-done"]
@@ -536,7 +539,7 @@ def test_the_largest_force_and_moment_are_spoken(show, piston):
 @live
 def test_moments_that_are_not_known_are_said_to_be_unknown(show):
     page = show(GOOD.replace("spacing = 100\n", ""))
-    page.run("new Promise(done => setTimeout(done, 500))")
+    page.wait_for(LARGEST)
     assert "moment" not in page.read("live-largest").partition(".")[0]
     assert page.read("live-largest").endswith(sentence(MOMENTS_UNKNOWN))
 
@@ -552,7 +555,9 @@ def test_roll_with_gas_is_headed_as_of_inertia(browser, play):
 
 
 def copy_command(page):
-    page.run(f"{PRESS.format('Copy command')}, {WAIT}")
+    done = "document.getElementById('live-done').textContent"
+    page.run(f"{done} = '', {PRESS.format('Copy command')}")
+    page.wait_for(done)
     return page.read("live-done")
 
 
@@ -698,6 +703,7 @@ def test_explore_shows_the_page_in_a_frame(browser, tmp_path):
         frame = load_example("vtwin45").explore()._repr_html_()
     browser.open(write(tmp_path / "notebook.html", f"<!doctype html><body>{frame}"))
     inside = "document.querySelector('iframe').contentDocument"
-    browser.run("new Promise(done => setTimeout(done, 300))")
+    shown = f"{inside}.getElementById('figures').textContent"
+    browser.wait_for(f"{inside}.getElementById('figures') && {shown}")
     assert browser.complaints == []
-    assert '"force_N"' in browser.run(f"{inside}.getElementById('figures').textContent")
+    assert '"force_N"' in browser.run(shown)

@@ -37,22 +37,24 @@ def test_nothing_serious_is_found_before_and_after_a_change(browser, pages, name
     assert (before, browser.run(AUDIT)) == ([], [])
 
 
+HARMS = {  # each by what is then found
+    "no name: button#link": "document.getElementById('link').textContent = ''",
+    "contrast": "document.getElementById('facts').style.color = '#999'",
+    "a header without scope": "document.querySelector('#orders-table th').removeAttribute('scope')",
+    "skips a level": "document.querySelector('h2').outerHTML = '<h4>x</h4>'",
+    "no name: svg#end": "document.getElementById('end').removeAttribute('aria-label')",
+    "id twice: verdict": "document.getElementById('ladder').id = 'verdict'",
+}
+
+
 @live
-@pytest.mark.parametrize(
-    ("harm", "found"),
-    [
-        ("document.getElementById('link').textContent = ''", "no name: button#link"),
-        ("document.getElementById('facts').style.color = '#999'", "contrast"),
-        ("document.querySelector('#orders-table th').removeAttribute('scope')", "a header without scope"),
-        ("document.querySelector('h2').outerHTML = '<h4>x</h4>'", "skips a level"),
-        ("document.getElementById('end').removeAttribute('aria-label')", "no name: svg#end"),
-        ("document.getElementById('ladder').id = 'verdict'", "id twice: verdict"),
-    ],
-)
-def test_the_audit_finds_what_is_wrong(browser, pages, harm, found):
+def test_the_audit_finds_what_is_wrong(browser, pages):
+    """All at once, on a page on which it found nothing."""
     browser.open(pages["i4_mounts"])
-    browser.run(f"{harm}, 0")
-    assert any(line.startswith(found) for line in browser.run(AUDIT))
+    for harm in HARMS.values():
+        browser.run(f"{harm}, 0")
+    lines = browser.run(AUDIT)
+    assert [found for found in HARMS if not any(line.startswith(found) for line in lines)] == []
 
 
 @live
@@ -105,8 +107,8 @@ new Promise(async (done) => {
   look.observe({ type: "layout-shift", buffered: true });
   for (const name of ["rod.length", "piston.mass", "operation.speed"]) {
     const first = Live.numbers[name];
-    for (let k = 1; k <= 5; k++) {
-      Live.change(name, first * (1 + 0.07 * k));
+    for (let k = 1; k <= 3; k++) {
+      Live.change(name, first * (1 + 0.12 * k));
       await new Promise((next) => setTimeout(next, 30));
     }
   }

@@ -8,26 +8,34 @@ import zlib
 
 import pytest
 from support.browser import live
-from support.engines import GOOD, RADIAL
+from support.engines import GOOD, RADIAL, build_text
 
 from balcli import load_example
 from balcli.report.live import explain_still
+from balcli.sizing.ladder import find_ladder
 
 WAIT = "new Promise(done => setTimeout(done, {}))"
 KEEP = "window.sent = '', Object.defineProperty(navigator, 'clipboard', { value: { writeText: async (text) => { sent = text; } } }), 0"
 
 
-@pytest.fixture
+@pytest.fixture(scope="module")
 def page(report):
     """The page of a four."""
     return report(GOOD)
+
+
+@pytest.fixture(scope="module")
+def link(browser, page):
+    """The hash of the address that this page copies."""
+    browser.open(page)
+    return copy_link(browser)
 
 
 def copy_link(browser):
     """The hash of the address that the page copies."""
     browser.run(KEEP)
     browser.run("document.getElementById('link').click()")
-    browser.run(WAIT.format(100))
+    browser.wait_for("sent")
     address = browser.run("sent")
     assert re.match(r"https://[^#]+/play\.html#toml=", address)
     return "#" + address.partition("#")[2]
@@ -63,11 +71,9 @@ def test_a_link_from_a_file_gives_the_same_engine_on_the_site(browser, page, pla
 @pytest.mark.parametrize(
     "damage", [lambda link: link[:-9], lambda link: link[:20], lambda link: "#toml=", lambda link: "#toml=%22x"]
 )
-def test_a_damaged_link_says_so_and_the_page_shows_its_first_engine(browser, page, play, damage):
-    browser.open(page)
-    address = damage(copy_link(browser))
-    browser.open(play, address=address)
-    browser.run(WAIT.format(100))
+def test_a_damaged_link_says_so_and_the_page_shows_its_first_engine(browser, link, play, damage):
+    browser.open(play, address=damage(link))
+    browser.wait_for("document.getElementById('live-wrong').textContent")
     assert browser.read("live-wrong") == "the link is incomplete"
     assert browser.run("document.querySelector('h1').textContent") == "in-line three"
     assert browser.complaints == []
@@ -87,8 +93,7 @@ def test_a_long_file_has_to_be_sent_itself(browser, report, more, fits):
 def test_a_step_that_the_engine_does_not_have_is_an_error(browser, report, text):
     """Also on a page without sliders, whose steps are in its address, too."""
     file = report(text)
-    browser.open(file)
-    steps = browser.run("document.querySelectorAll('#ladder-table tbody tr').length")
+    steps = len(find_ladder(build_text(text)).steps)
     browser.open(file, address="#step=9")
     assert browser.read("live-wrong") == f"step: this engine has steps 0 to {steps - 1}"
     browser.open(file, address="#step=0")

@@ -116,6 +116,16 @@ class Browser:
             raise RuntimeError(str(answer["exceptionDetails"]))
         return answer["result"].get("value")
 
+    def wait_for(self, condition: str, most: float = 5) -> None:
+        """Wait until an expression in the page is true; whoever waits so looks at the page himself afterwards.
+
+        Args:
+            condition: the expression.
+            most: seconds after which nothing more is waited for.
+        """
+        look = f"const look = () => ({condition}) || performance.now() > end ? done() : setTimeout(look, 5)"
+        self.run(f"new Promise(done => {{ const end = performance.now() + {1000 * most}; {look}; look(); }})")
+
     def read(self, name: str) -> str:
         """Text of the element with this id."""
         return str(self.run(f"document.getElementById('{name}').textContent"))
