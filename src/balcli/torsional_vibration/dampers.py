@@ -62,8 +62,7 @@ _HEAVIER = 1.1  # margin on the next mass: swing is only about inversely proport
 _MOST_AT_ONCE = 3.0  # largest factor from one tried mass to the next, without the margin
 _MOST_PENDULUM = 0.5  # largest inertia of pendulums, as a share of the inertia of their node
 _PLACES = 13  # number of grid points of the search, which then refines each valley
-# Expected number of computed responses; the last two are with and without the best damper.
-_RESPONSES = _PLACES + 10 + 2
+_RESPONSES = _PLACES + 10 + 1  # expected number of computed responses; the last has the best damper
 _END = 0.99  # an optimum beyond this share of the (logarithmic) range counts as at an end
 _HARDLY = 0.99  # a damper that leaves more than this share of the largest stress is useless
 _HEAVY = 10.0  # a damper with more than this multiple of the inertia of its node is too large
@@ -161,10 +160,10 @@ def size_damper(
     own = source.dampers[node]
     bare = source.system({node: None})
     place = bare.nodes.index(node)
-    mode, order = _find_mode_to_damp(bare, speeds, place)
+    target = _find_mode_to_damp(bare, speeds, place)
     own = own if own is not None and own.kind == asked.kind else None
     radius = None if source.engine is None else float(source.engine.throw_radii_m[0])
-    first = _propose(asked, own, bare, place, mode, order, radius)
+    first = _propose(asked, own, bare, place, target, radius)
     figure = FIGURES[first.kind]
     width = math.log(_WIDTH[first.kind])
     start = float(getattr(first, figure))
@@ -173,12 +172,12 @@ def size_damper(
     if free:
         first = _limit_swing(source, speeds, node, first, float(bare.chain.inertia[place]))
 
-    def judge(damper: Damper | None) -> float:
+    def judge(damper: Damper) -> float:
         """Return the largest stress or torque with a damper; inf if this has no bound, or if
         pendulums swing too far and their inertia was not requested.
         """
         tell(min(next(tried) / _RESPONSES, 1.0))
-        if free and damper and _find_pendulum_swing(source, node, damper, speeds) > WIDE_SWING:
+        if free and _find_pendulum_swing(source, node, damper, speeds) > WIDE_SWING:
             return math.inf
         try:
             return _find_hardest(source.system({node: damper}), speeds)[2]
@@ -191,7 +190,7 @@ def size_damper(
     damper = first.model_copy(update={figure: float(f"{start * math.exp(farther):.6g}")})
     damper = min(damper, first, key=judge) if free else damper
     measure, unit = ("stress", "Pa") if any(bare.stress_by_torque) else ("torque", "Nm")
-    before = judge(None)
+    before = target.largest
     after = judge(damper)
     tell(1.0)
     figures: dict[str, Any] = {f"before_{unit}": before, f"after_{unit}": after}
@@ -201,7 +200,7 @@ def size_damper(
     sized = SizedDamper(
         node=node,
         kind=damper.kind,
-        mode=mode.number,
+        mode=target.mode.number,
         heat_rpm=float(speeds[0]),
         damper=damper,
         start=start,
@@ -235,7 +234,7 @@ def _find_carrier(source: Source, asked: DamperAsked, speeds: Real) -> str:
         for name, own in carriers.items():
             if own is not None and own.kind == asked.kind:
                 return name
-        mode, _ = _find_mode_to_damp(system, speeds, system.ends[0])
+        mode = _find_mode_to_damp(system, speeds, system.ends[0]).mode
         return max(source.throws, key=lambda throw: abs(mode.shape[system.nodes.index(throw)]))
     parts = [name for name in carriers if name not in source.throws]
     return system.free_end if system.free_end in parts or not parts else parts[0]
@@ -319,14 +318,29 @@ def _minimise(judge: Callable[[float], float], width: float) -> float:
         find_least_smooth(judge, places[max(k - 1, 0)], places[min(k + 1, _PLACES - 1)])
         for k in bottoms
     ]
+    if len(minima) == 1:
+        return minima[0]
     return min(minima, key=judge, default=-width)
 
 
 # ------------------------------------------------------------------ start of the search
-def _find_mode_to_damp(
-    system: TorsionalSystem, speeds: Real, node: int
-) -> tuple[NaturalMode, float]:
-    """Return the mode that a damper on a node should damp, and the order that drives it.
+class _Target(NamedTuple):
+    """Mode that a damper should damp.
+
+    Attributes:
+        mode: The mode.
+        order: Order that drives it.
+        largest: Largest stress (Pa) or torque (N m) of the range of speeds without the damper; inf:
+            it has no bound.
+    """
+
+    mode: NaturalMode
+    order: float
+    largest: float
+
+
+def _find_mode_to_damp(system: TorsionalSystem, speeds: Real, node: int) -> _Target:
+    """Return the mode that a damper on a node should damp.
 
     The largest stress of the range occurs in one shaft at one speed. The order with the largest
     torque in this shaft at this speed is returned. Of the modes in which the node moves, the mode
@@ -337,8 +351,9 @@ def _find_mode_to_damp(
     if not modes:
         raise ArgumentError("{damper}: the system has no mode that could be damped")
     try:
-        worst, rpm, _ = _find_hardest(system, speeds)
+        worst, rpm, largest = _find_hardest(system, speeds)
     except BalcliError:  # nothing damps a resonance
+        largest = math.inf
         loss = np.maximum(system.damping.loss, _LOSS)
         system = replace(system, damping=system.damping._replace(loss=loss))
         worst, rpm, _ = _find_hardest(system, speeds)
@@ -349,7 +364,8 @@ def _find_mode_to_damp(
     heavy = [_find_inertia_in(mode, system, node) for mode in modes]
     moving = [mode for mode, own in zip(modes, heavy, strict=True) if own <= _MOVES * whole]
     best = moving or [modes[int(np.argmin(heavy))]]
-    return min(best, key=lambda mode: abs(math.log(mode.omega / (order * rpm * RPM)))), order
+    nearest = min(best, key=lambda mode: abs(math.log(mode.omega / (order * rpm * RPM))))
+    return _Target(nearest, order, largest)
 
 
 def _find_inertia_in(mode: NaturalMode, system: TorsionalSystem, node: int) -> float:
@@ -363,8 +379,7 @@ def _propose(
     own: Damper | None,
     system: TorsionalSystem,
     node: int,
-    mode: NaturalMode,
-    order: float,
+    target: _Target,
     crank_radius: float | None,
 ) -> Damper:
     """Return a damper of the requested inertia with the optimal tuning for a system with one degree
@@ -374,6 +389,7 @@ def _propose(
         ArgumentError: The node is at rest in the mode, the radius of pendulums is unknown, or the
             tuning is impossible.
     """
+    mode = target.mode
     if mode.shape[node] == 0:
         raise ArgumentError(
             "{damper}: {node} does not move in mode {mode}",
@@ -399,7 +415,7 @@ def _propose(
                 "{example}",
                 example='{ kind = "pendulum", mass = 2, radius = 60, length = 5 }',
             )
-        length = radius * (system.gears[node] / order) ** 2
+        length = radius * (system.gears[node] / target.order) ** 2
         mass = float(f"{inertia / (radius + length) ** 2:.4g}")
         if asked.inertia is None:
             mass = given.get("mass", mass)
