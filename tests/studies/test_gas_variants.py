@@ -156,6 +156,10 @@ JOINT = {
     "two-stroke": (TWO_STROKE, {"gas.burn_shape": [0, 0.6, 3], "gas.expansion_index": [1.2, 1.35]}),
     "master rod": (MASTER_ROD + OTTO, {"gas.exhaust": [1, 3], "gas.intake": [0.9, 1.1]}),
     "with a mass and a length": (FOUR, {"piston.mass": [0.4, 0.6], "rod.length": [150, 160], "gas.imep": [8, 9, 12]}),
+    "masses and speeds": (FOUR, {"cylinder.2.piston_mass": [0.4, 0.9], "operation.speed": [900, 5000]}),
+    "masses that balance": (FOUR.replace("rod_length = 151", ""), {"piston.mass": [0.0, 0.5], "gas.imep": [8, 9]}),
+    "masses of a diesel": (FOUR.replace('"wiebe"', '"diesel"'), {"rod.mass": [0.4, 0.9], "piston.mass": [0.3, 0.4]}),
+    "master rod, with a mass": (MASTER_ROD + OTTO, {"piston.mass": [1, 2], "gas.heat": [900, 1200]}),
 }
 OF_CYCLE = "torque.max,torque.min,torque.mean"
 OF_ORDERS = "gas.0.cos,gas.0.5.sin,gas.3.amplitude,torque.2.cos,torque.6.sin,roll_total.1.amplitude,gas.24.amplitude"
@@ -178,20 +182,23 @@ def test_variants_that_are_computed_together_are_each_of_them(case):
 
 
 def test_what_cannot_be_computed_together_is_left_out():
-    """Angles of the cycle, cycles that turn at angles of their own, single cylinders; and impossible variants."""
+    """Angles of the cycle, cycles that turn at angles of their own, single cylinders, linkages; impossible variants."""
 
     def group(text, *variants):
         return [places for places, _ in build_jointly(build_text(text).model, variants)]
 
     two = {"gas.imep": 8.0}, {"gas.imep": 9.0}
     assert group(FOUR, *two) == [[0, 1]]
-    assert group(FOUR, *({**own, "piston.mass": mass} for mass in (0.4, 0.5) for own in two)) == [[0, 1], [2, 3]]
+    masses = [{**own, "piston.mass": mass} for mass in (0.4, 0.5) for own in two]
+    lengths = [{**own, "rod.length": length} for length in (150.0, 160.0) for own in two]
+    assert group(FOUR, *masses) == [[0, 1, 2, 3]]
+    assert group(FOUR, *lengths) == [[0, 1], [2, 3]]
+    assert group(MASTER_ROD + OTTO, *({**own, "gas.heat": 900.0 + k} for k, own in enumerate(masses))) == []
     assert group(FOUR, *({**own, "gas.burn_start": -10.0 - k} for k, own in enumerate(two))) == []
     assert group(FOUR.replace('"wiebe"', '"diesel"'), *two) == []
     assert group(FOUR + "[cylinder.3]\nheat = 900\n", *two) == []
     assert group(FOUR, *({**own, "cylinder.3.heat": 900.0} for own in two)) == []
-    some = [{"gas.imep": mean, "piston.mass": mass} for mass in (0.4, 0.5) for mean in (8.0, 9.0)]
-    assert group(FOUR, *some, {"gas.imep": -20.0, "piston.mass": 0.4}) == [[2, 3]]
+    assert group(FOUR, *lengths, {"gas.imep": -20.0, "rod.length": 150.0}) == [[2, 3]]
 
 
 @pytest.mark.parametrize("quantity", ["torque.max", "gas.2.amplitude"])

@@ -11,8 +11,7 @@ import numpy as np
 from ..core.phasors import Array
 from ..engine.build import build
 from ..engine.engine import Engine
-from ..engine.load import FiguresOfVariants, build_jointly
-from ..engine.parts import list_joint_paths
+from ..engine.load import FiguresOfVariants, build_jointly, find_joint_figures
 from ..errors import BalcliError
 from ..file.model import EngineFile
 from ..forces.curves import find_constant_inertia, find_torque_curves
@@ -41,7 +40,9 @@ def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> N
 
 
 def _measure_torque(engine: Engine) -> dict[str, Array]:
-    """Return the means and extremes of the torque by name, with the trailing axes of the gas."""
+    """Return the means and extremes of the torque by name. If variants differ in them, they have
+    the trailing axis of the engine or of its gas.
+    """
     curves = find_torque_curves(engine)
     lowest, highest = curves.total.find_range()
     return {"torque.mean": curves.gas.means, "torque.max": highest, "torque.min": lowest}
@@ -82,7 +83,7 @@ class TorqueOfVariants(FiguresOfVariants[TargetQuantity]):
         """Return whether variants that differ only in one figure are computed together; see
         `studies.quantities.JointVariants`.
         """
-        return path in list_joint_paths(self._model, (path, *others))
+        return path in find_joint_figures(self._model, (path, *others)).all
 
     def evaluate_jointly(self, variants: Sequence[Mapping[str, float]]) -> dict[int, list[float]]:
         """Return the value of each quantity for the variants that can be computed together, by
@@ -95,7 +96,8 @@ class TorqueOfVariants(FiguresOfVariants[TargetQuantity]):
         rows = dict[int, list[float]]()
         for places, engine in build_jointly(self._model, variants):
             torques = _measure_torque(engine)
-            columns = np.stack([torques[name] for name in names])
+            shape = (len(places),)
+            columns = np.stack([np.broadcast_to(torques[name], shape) for name in names])
             rows |= dict(zip(places, columns.T.tolist(), strict=True))
         return rows
 

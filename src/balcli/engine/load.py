@@ -1,12 +1,13 @@
 """Build the engine of tables, vary keys of its file, or build its variants, one after the other or
-those that differ only in their gas together.
+those whose torque can be computed as arrays together.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Generic, NamedTuple, TypeVar
 
@@ -176,11 +177,12 @@ class EngineVariants:
 
 
 class JointEngine(NamedTuple):
-    """Variants of an engine that differ at most in the figures of a computed gas cycle.
+    """Variants of an engine whose torque can be computed together.
 
     Attributes:
         places: Their places among all variants.
-        engine: Engine whose gas is an array of these variants (`EngineGas.variants`).
+        engine: Engine whose gas and inertia are arrays of these variants, or plain where they do
+            not differ.
     """
 
     places: list[int]
@@ -190,28 +192,66 @@ class JointEngine(NamedTuple):
 def build_jointly(
     model: EngineFile, variants: Sequence[Mapping[str, float]]
 ) -> Iterator[JointEngine]:
-    """Yield the variants of a file that can be computed together, in groups. Variants that differ
-    from all others in more than their gas are left out, and so are all members of a group in which
-    a variant is impossible.
+    """Yield the variants of a file whose torque can be computed together, in groups. The members of
+    a group differ only in joint figures (`find_joint_figures`). A variant that is alone in its
+    group is left out, and so are all members of a group in which a variant is impossible.
 
     Args:
         model: Engine file.
         variants: Varied figures of each variant, by dotted name; all variants have the same names.
     """
-    paths = variants[0].keys()
-    joint = list_joint_paths(model, paths) & paths
+    joint = find_joint_figures(model, variants[0])
     groups: dict[Values, list[int]] = {}
     for place, values in enumerate(variants):
-        own = tuple((path, value) for path, value in values.items() if path not in joint)
+        own = tuple((path, value) for path, value in values.items() if path not in joint.all)
         groups.setdefault(own, []).append(place)
     for own, places in groups.items():
-        if not joint or len(places) == 1:
+        if not joint.all or len(places) == 1:
             continue
-        varied: dict[str, Figure] = dict(own)
-        for path in joint:
-            varied[path] = np.array([variants[k][path] for k in places])
+        of_gas: dict[str, Figure] = dict(own)
+        of_inertia: dict[str, Figure] = dict(own)
+        for path in joint.of_gas:
+            of_gas[path] = np.array([variants[k][path] for k in places])
+        for path in joint.of_inertia:
+            of_inertia[path] = np.array([variants[k][path] for k in places])
         with suppress(BalcliError):
-            yield JointEngine(places, build(model, varied))
+            engine = build(model, of_gas)
+            if joint.of_inertia:
+                engine = replace(build(model, of_inertia, rank=1), gas=engine.gas)
+            yield JointEngine(places, engine)
+
+
+class JointFigures(NamedTuple):
+    """Varied figures of which arrays can be computed together.
+
+    Attributes:
+        of_gas: Names of figures that change the pressures of a computed cycle.
+        of_inertia: Names of figures on which the gas does not depend.
+    """
+
+    of_gas: frozenset[str]
+    of_inertia: frozenset[str]
+
+    @property
+    def all(self) -> frozenset[str]:
+        """Names of all these figures."""
+        return self.of_gas | self.of_inertia
+
+
+def find_joint_figures(model: EngineFile, varied: Iterable[str]) -> JointFigures:
+    """Return those of the varied figures of which arrays can be computed together.
+
+    Args:
+        model: Engine file.
+        varied: Dotted names of the figures that vary.
+    """
+    paths = frozenset(varied)
+    if model.gas is None:
+        return JointFigures(frozenset(), frozenset())
+    of_inertia = frozenset(path for path in paths if not concerns_gas(path, model.gas))
+    if model.articulation is not None or model.layout.rotary:
+        of_inertia = frozenset()
+    return JointFigures(list_joint_paths(model, paths) & paths, of_inertia)
 
 
 class FiguresOfVariants(EngineVariants, Generic[Asked]):

@@ -6,6 +6,9 @@ force is -(omega^2 G' + xi G), the couple -(omega^2 h' + xi h) and the inertia t
 omega^2 + xi I). Sums below the rounding error of their terms (docs/theory.md) are set to 0.
 
 Gas: the torque of all cylinders on the crank over the cycle, with and without inertia torque.
+
+Torques can also be computed for an array of variants of an engine without linkage, whose trailing
+axes then follow the angles.
 """
 
 from __future__ import annotations
@@ -69,7 +72,8 @@ def compute_piecemeal(
 
 
 class EngineMotion:
-    """Positions and motion of all cylinders of an engine at crank angles.
+    """Positions and motion of all cylinders of an engine at crank angles. Trailing axes of the
+    engine follow the angles; an engine with a linkage must have none.
 
     Attributes:
         engine: The engine.
@@ -94,7 +98,8 @@ class EngineMotion:
         self.omega, self.xi = find_crank_speed(engine, crank_deg)
         axes = as_rows(c.axis_of_each_deg)
         self.axis = unit(axes)
-        self.pin_deg = crank_deg + float(np.ravel(c.axis_deg)[c.first]) + as_rows(c.pin_deg)
+        turned = open_axes(crank_deg, c.pin_deg.shape[1:])
+        self.pin_deg = turned + c.axis_deg[c.first] + as_rows(c.pin_deg)
         self.psi = np.radians(np.remainder(self.pin_deg - axes + 180, 360) - 180)
         self.mass = np.zeros((1, 1)) if c.linkage is None else as_rows(c.linkage.mass)
         self.moved: Motion = (
@@ -115,16 +120,17 @@ class EngineMotion:
 
 def find_crank_speed(engine: Engine, crank_deg: Array) -> tuple[Array, Array]:
     """Return crank speed omega, rad/s, and acceleration xi = omega d omega/d theta, rad/s2, each of
-    shape (angles,).
+    shape (angles, *trailing).
 
     Args:
-        engine: One engine, not an array of variants.
+        engine: Engine.
         crank_deg: Crank angles, deg, shape (angles,).
     """
-    ratio = np.ones_like(crank_deg)
-    slope = np.zeros_like(crank_deg)
+    angles = open_axes(crank_deg, engine.cylinders.pin_deg.shape[1:])
+    ratio = np.ones_like(angles)
+    slope = np.zeros_like(angles)
     for line in engine.ripple:
-        wave = line.amplitude * unit(line.order * crank_deg - line.angle_deg)
+        wave = line.amplitude * unit(line.order * angles - line.angle_deg)
         ratio = ratio + wave.real
         slope = slope - line.order * wave.imag
     return engine.omega * ratio, engine.omega**2 * ratio * slope
@@ -171,14 +177,15 @@ def _inertia_of_cylinders(motion: EngineMotion) -> Array:
     m = motion.moved
     on_axis = as_rows(c.reciprocating) * m.velocity**2 + motion.mass * m.energy
     inertia = r**2 * (on_axis + as_rows(c.rotating)) - as_rows(c.couple) * m.spin**2
-    return np.asarray(np.broadcast_to(inertia, motion.psi.shape))
+    shape = np.broadcast_shapes(inertia.shape, motion.psi.shape)
+    return np.asarray(np.broadcast_to(inertia, shape))
 
 
 def as_rows(values: Array) -> Array:
-    """Return values (one for each cylinder, or one for all) as a column that broadcasts with
-    angles.
+    """Return values (one for each cylinder, or one for all), shape (cylinders or 1, *trailing), as
+    a column that broadcasts with angles.
     """
-    return np.asarray(values, float).reshape(-1, 1)
+    return np.asarray(values, float)[:, None]
 
 
 # ------------------------------------------------------------------ gas and inertia over the cycle
@@ -199,7 +206,8 @@ class TorqueCurves(NamedTuple):
 
 
 def find_torque_curves(engine: Engine) -> TorqueCurves:
-    """Return the torque of one engine at constant speed; only its gas may be an array of variants.
+    """Return the torque of an engine at constant speed. The engine, its gas or both may be arrays
+    of variants.
 
     Raises:
         BalcliError: The engine has no gas.
@@ -216,7 +224,10 @@ def find_torque_curves(engine: Engine) -> TorqueCurves:
     inertia = find_inertia_torque(engine)
 
     def add(angle: Array) -> Array:
-        return once.at(angle) + open_axes(inertia(angle), once.figure)
+        of_gas = once.at(angle)
+        of_inertia = inertia(angle)
+        further = of_inertia.shape[of_gas.ndim :]
+        return open_axes(of_gas, further) + open_axes(of_inertia, of_gas.shape[of_inertia.ndim :])
 
     total = resolved(add, once.breaks, each=True)
     return TorqueCurves(once.repeated(times), total.repeated(times), once)
@@ -242,13 +253,20 @@ def count_repeats(engine: Engine) -> int:
 
 def find_inertia_torque(engine: Engine) -> Function:
     """Return the inertia torque (N m) at the mean speed, as a function of crank angles (rad) of any
-    shape. It is exactly 0 if the cylinders' torques cancel to rounding.
+    shape, whose values have the shape (*angles, *trailing). It is exactly 0 if the cylinders'
+    torques cancel to rounding.
     """
     steady = replace(engine, ripple=())
     torque = compute_spectra(steady, find_relevant_orders(steady), ("torque",))["torque"]
-    if torque.major.sum() <= torque.noise.sum():
-        return np.zeros_like
-    return _add_cylinders(steady, torque_of_cylinders)
+    cancels = torque.major.sum(axis=0) <= torque.noise.sum(axis=0)
+    find_sum = _add_cylinders(steady, torque_of_cylinders, cancels.size)
+
+    def find_torque(angle: Array) -> Array:
+        if cancels.all():
+            return np.zeros(angle.shape + cancels.shape)
+        return np.where(cancels, 0.0, find_sum(angle))
+
+    return find_torque
 
 
 def find_moving_inertia(engine: Engine) -> Function:
@@ -310,21 +328,28 @@ def _silence_in_file(model: EngineFile, number: CylinderNumber) -> EngineFile:
     return model.model_copy(update={"cylinder": {**model.cylinder, number: silent}})
 
 
-def _add_cylinders(engine: Engine, compute: Callable[[EngineMotion], Array]) -> Function:
+def _add_cylinders(
+    engine: Engine, compute: Callable[[EngineMotion], Array], variants: int = 1
+) -> Function:
     """Return the sum of a figure over the cylinders of all cranks, as a function of crank angles
-    (rad) of any shape.
+    (rad) of any shape, whose values have the shape (*angles, *trailing).
 
     Args:
-        engine: One engine, not an array of variants.
-        compute: Function that returns the figure for a motion, shape (cylinders, angles).
+        engine: Engine.
+        compute: Function that returns the figure for a motion, shape (cylinders, angles,
+            *trailing).
+        variants: Number of variants along the trailing axes.
     """
+    step = max(AT_ONCE // (engine.cylinders.count * variants), 1)
 
-    def add_up(crank_deg: Array) -> dict[str, Array]:
+    def add_up(crank_deg: Array) -> Array:
         motions = (EngineMotion(one.engine, crank_deg + one.phase_deg) for one in engine.cranks)
-        return {"": np.asarray(sum(compute(motion).sum(axis=0) for motion in motions))}
+        return np.asarray(sum(compute(motion).sum(axis=0) for motion in motions))
 
     def at(angle: Array) -> Array:
-        found = compute_piecemeal(engine, np.degrees(angle.reshape(-1)), add_up)
-        return found[""].reshape(angle.shape)
+        crank_deg = np.degrees(angle.reshape(-1))
+        starts = range(0, max(len(crank_deg), 1), step)
+        found = np.concatenate([add_up(crank_deg[start : start + step]) for start in starts])
+        return found.reshape(angle.shape + found.shape[1:])
 
     return at

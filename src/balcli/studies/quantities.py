@@ -24,8 +24,8 @@ from ..engine.build import build
 from ..engine.engine import Engine
 from ..engine.figures import select_varied
 from ..engine.left_out import list_inferred
-from ..engine.load import JointEngine, build_jointly, concerns_gas
-from ..engine.parts import Parts, list_joint_paths
+from ..engine.load import JointEngine, build_jointly, concerns_gas, find_joint_figures
+from ..engine.parts import Parts
 from ..errors import BalcliError, naming_file
 from ..file.assumed import Assumed, join_assumed, select_assumed
 from ..file.fields import RIGID, suggest_nearest
@@ -322,7 +322,7 @@ class Evaluator:
             others: Dotted names of other figures that vary.
         """
         if not self._chapters:
-            return path in list_joint_paths(self._model, (path, *others))
+            return path in find_joint_figures(self._model, (path, *others)).all
         return all(
             isinstance(chapter, JointVariants) and chapter.joins(path, others)
             for _, chapter in self._chapters
