@@ -1,11 +1,16 @@
 """Cylinders that do not fire: the worst of them, with or without compression."""
 
+import numpy as np
 import pytest
 from support.commands import ask_torsion, refusal, run_here
 from support.engines import build_text
 
 from balcli import torsion
 from balcli.errors import BalcliError
+from balcli.forces import spectrum
+from balcli.forces.spectrum import compute_gas_torque
+from balcli.torsional_vibration.build import NO_DAMPERS
+from balcli.torsional_vibration.load import make_source
 from balcli.torsional_vibration.worst_misfire import MisfireCase, choose_worst
 
 FLYWHEEL = '[[torsion.rear]]\nname = "flywheel"\ninertia = 2e5\nstiffness = 4e5\n'
@@ -59,6 +64,58 @@ def test_the_worst_misfire_is_that_of_a_run_by_itself(text, figure):
         assert case["speed_rpm"] == pytest.approx(largest["speed_rpm"], rel=1e-6)
         if case["cylinder"] == cases["worst"]:
             assert alone == worst
+
+
+PROPELLER = LIMITED.replace(
+    "heat = 1300", 'imep = 9\nlaw = "propeller"\nrated_speed = 3000\nmechanical_efficiency = 0.85'
+)
+POINTS = LIMITED.replace(
+    "heat = 1300",
+    "at = [{ speed = 1000, imep = 6, intake = 1.0 }, { speed = 2200, imep = 9, intake = 1.3 }, { speed = 3000, imep = 8, intake = 1.2 }]",
+)
+OF_MEAN = '[[torsion.excitation]]\nnode = "flywheel"\norder = 1.5\nshare = 0.2\nangle = 30\n'
+
+
+@pytest.mark.parametrize(("key", "compressing"), [("gas", False), ("heat", True)])
+@pytest.mark.parametrize("text", [LIMITED, PROPELLER, POINTS])
+def test_only_the_gas_of_the_silent_cylinder_is_computed_again(text, key, compressing):
+    """Torques, means and imep at all speeds are those of a file in which this cylinder is silent."""
+    file = text + OF_MEAN
+    engine = build_text(file)
+    silent = build_text(f"{file}[cylinder.3]\n{key} = 0\n")
+    orders = np.arange(0.5, 6.5, 0.5)
+    fast = make_source(engine.model, engine, "three", orders).without(3, compressing).system(NO_DAMPERS)
+    slow = make_source(silent.model, silent, "three", orders).system(NO_DAMPERS)
+    assert fast.silent == slow.silent
+    assert fast.excitation.orders.tolist() == slow.excitation.orders.tolist()
+    rpm = np.array([900.0, 1500.0, 2350.0, 3100.0])
+    torques = [system.excitation.at(rpm * np.pi / 30) for system in (fast, slow)]
+    largest = float(np.abs(torques[1]).max())
+    assert torques[0] == pytest.approx(torques[1], rel=0, abs=1e-12 * largest)
+    means = [system.means.at(rpm) for system in (fast, slow)]
+    assert means[0] == pytest.approx(means[1], rel=1e-12)
+    if slow.excitation.gas is not None:
+        assert fast.excitation.gas.imep(rpm) == pytest.approx(slow.excitation.gas.imep(rpm), rel=1e-12)
+
+
+@pytest.mark.parametrize("compressing", [False, True])
+def test_the_gas_of_the_other_cylinders_is_not_computed_again(compressing, monkeypatch):
+    engine = build_text(PROPELLER)
+    calls = []
+
+    def count(*arguments, **options):
+        calls.append(arguments)
+        return compute_gas_torque(*arguments, **options)
+
+    monkeypatch.setattr(spectrum, "compute_gas_torque", count)
+    source = make_source(engine.model, engine, "three")
+    rpm = np.array([200.0, 300.0])
+    counts = []
+    for number in (1, 2, 3):
+        source.without(number, compressing).system(NO_DAMPERS).excitation.at(rpm)
+        counts.append(len(calls))
+    assert counts[0] > 0
+    assert counts[1:] == [counts[0]] * 2
 
 
 @pytest.mark.parametrize(("second", "worst"), [(1 + 1e-12, 1), (1 + 1e-7, 2), (0.9, 1)])

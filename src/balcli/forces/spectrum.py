@@ -550,6 +550,22 @@ class GasAtSpeeds(NamedTuple):
         """Return the gas with the torques of only some orders."""
         return self._replace(torque=lambda speeds_rpm: self.torque(speeds_rpm)[rows])
 
+    def replace_cylinder(self, row: int, other: Callable[[ArrayLike], Complex]) -> GasAtSpeeds:
+        """Return the gas in which one cylinder has another torque; torques are by cylinder.
+
+        Args:
+            row: Row of the cylinder.
+            other: Function that returns its torques by order, N m, shape (orders, *speeds), at
+                speeds, rpm.
+        """
+
+        def find_torque(speeds_rpm: ArrayLike) -> Complex:
+            torque = np.array(self.torque(speeds_rpm))
+            torque[..., row] = other(speeds_rpm)
+            return torque
+
+        return self._replace(torque=find_torque)
+
     def spread_orders(self, rows: NDArray[np.intp], count: int) -> GasAtSpeeds:
         """Return the gas with its orders at these rows of `count` orders; it has no torque of the
         others.
@@ -576,13 +592,23 @@ def follow_gas(engine: Engine, find: Callable[[Engine], Complex]) -> GasAtSpeeds
         BalcliError: The engine has no gas.
     """
     gas = take_gas(engine)
-    volume = float(engine.displacement_m3)
     by_speed = gas.follow(lambda own: find(replace(engine, gas=own)))
 
     def find_torque(speeds_rpm: ArrayLike) -> Complex:
         return np.moveaxis(np.asarray(by_speed(speeds_rpm), complex), np.ndim(speeds_rpm), 0)
 
-    return GasAtSpeeds(find_torque, gas.follow(lambda own: own.work / volume), gas.law)
+    return GasAtSpeeds(find_torque, follow_imep(engine), gas.law)
+
+
+def follow_imep(engine: Engine) -> Callable[[ArrayLike], Array]:
+    """Return a function that returns the indicated mean effective pressure of an engine, Pa, at
+    speeds, rpm.
+
+    Raises:
+        BalcliError: The engine has no gas.
+    """
+    volume = float(engine.displacement_m3)
+    return take_gas(engine).follow(lambda own: own.work / volume)
 
 
 def compute_gas_torque(engine: Engine, orders: Array, *, by_cylinder: bool = False) -> Phasors:

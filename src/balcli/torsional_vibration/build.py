@@ -23,7 +23,7 @@ from ..core.loads import find_inertia, find_needed_series
 from ..core.mechanisms.closed_form import select_cylinders
 from ..core.phases import RPM
 from ..core.vibration import Real
-from ..engine.engine import Engine
+from ..engine.engine import Engine, SilentCylinders
 from ..errors import BalcliError, InputError, Problem
 from ..file.assumed import STEADY, Assumed, assume
 from ..file.doubt import Doubt
@@ -59,7 +59,7 @@ from .chain import (
     rigid_motions,
 )
 from .chain_file import ChainFile, refuse_node
-from .means import Link, MeanTorques, share_out
+from .means import Link, MeanTorques, find_cylinder_means, share_out
 from .permitted import LimitTable, ShaftLimit, list_limits
 from .system import Excitation, Pendulums, TorsionalSystem, ViscousRing
 from .throw_stiffness import (
@@ -523,10 +523,10 @@ def build_engine_system(
     )
     shafts = [*leading[:front][::-1], *between, *leading[front:]]
     output = joints[-1].part.name if torsion.rear else throws[-1]
-    means = _find_means(engine, shafts, [*map(gears.__getitem__, place)], front, place[output])
+    means = _find_means(excitation, shafts, [*map(gears.__getitem__, place)], place[output])
     by_mean = [(path, part) for path, part, _ in joints if part.torque_limit == MEAN]
     if by_mean:
-        carrying = set() if means is None else _name_carrying(shafts, means)
+        carrying = set() if means is None else _name_carrying(shafts, means, engine.silent)
         problems += node_torques.find_idle_limits(by_mean, carrying)
     if problems:
         raise InputError(problems, name)
@@ -616,27 +616,28 @@ def _assume_throw(model: EngineFile, torsion: Torsion, throw: ThrowStiffness) ->
 
 
 def _find_means(
-    engine: Engine, shafts: Sequence[PlannedShaft], gears: Sequence[float], front: int, output: int
+    excitation: Excitation, shafts: Sequence[PlannedShaft], gears: Sequence[float], output: int
 ) -> MeanTorques | None:
     """Return the mean torques of shafts; None without gas.
 
     Args:
-        engine: Engine.
+        excitation: Torques of the cylinders.
         shafts: Shafts between the nodes.
         gears: Speed of each node over crank speed.
-        front: Index of the first throw's node.
         output: Index of the node that takes the power.
     """
-    if engine.gas is None:
+    if excitation.means is None:
         return None
     links = [Link(shaft.start, shaft.end, gears[shaft.end]) for shaft in shafts]
-    sources = [front + throw for throw in engine.joined_throw_of_rows]
-    return MeanTorques(engine, share_out(links, sources, output))
+    sources = excitation.nodes.tolist()  # of the cylinders
+    return MeanTorques(excitation.means, share_out(links, sources, output))
 
 
-def _name_carrying(shafts: Sequence[PlannedShaft], means: MeanTorques) -> set[str]:
+def _name_carrying(
+    shafts: Sequence[PlannedShaft], means: MeanTorques, silent: SilentCylinders
+) -> set[str]:
     """Return the names of the shafts that carry a mean torque if all cylinders fire."""
-    if not any(means.engine.silent) and not np.any(means.find_total(means.judged_rpm)):
+    if not any(silent) and not np.any(means.find_total(means.judged_rpm)):
         return set()
     carries = np.any(means.shares, axis=0).tolist()
     return {shaft.name for shaft, carried in zip(shafts, carries, strict=True) if carried}
@@ -755,6 +756,13 @@ def _weigh_throws(torsion: Torsion, engine: Engine) -> Real:
 
 
 def excite_engine(model: EngineFile, engine: Engine, orders: Real | None) -> Excitation:
+    """Return the torque of every cylinder on the node of its throw (`excite_cylinders`), without
+    orders in which no cylinder has a torque.
+    """
+    return excite_cylinders(model, engine, orders).without_idle_orders()
+
+
+def excite_cylinders(model: EngineFile, engine: Engine, orders: Real | None) -> Excitation:
     """Return the torque of every cylinder on the node of its throw: inertia torque and, if the
     engine has gas, gas torque.
 
@@ -765,6 +773,7 @@ def excite_engine(model: EngineFile, engine: Engine, orders: Real | None) -> Exc
     """
     front = 0 if model.torsion is None else len(model.torsion.front)
     nodes = front + np.array(engine.joined_throw_of_rows)
+    means = find_cylinder_means(engine)
     engine = replace(engine, ripple=(), speed_rpm=1 / RPM)  # 1 rad/s
     if orders is None:
         step = 1.0 if engine.gas is None else 2 / engine.strokes
@@ -774,14 +783,12 @@ def excite_engine(model: EngineFile, engine: Engine, orders: Real | None) -> Exc
     spectra = compute_spectra(engine, orders, parts, by_cylinder=True)
     growing = spectra["torque"].x
     steady = np.zeros_like(growing) if engine.gas is None else spectra["gas"].x
-    moves = np.any((growing != 0) | (steady != 0), axis=1)
     gas = None
     if engine.gas is not None and engine.gas.nodes_rpm:
         gas = follow_gas(
             engine, lambda own: compute_spectra(own, orders, ["gas"], by_cylinder=True)["gas"].x
         )
-        moves |= np.any(gas.torque(engine.gas.nodes_rpm) != 0, axis=(1, 2))
-    return Excitation(orders, nodes, steady, growing, gas).only(orders[moves])
+    return Excitation(orders, nodes, steady, growing, gas, means=means)
 
 
 # ------------------------------------------------------------------ contradictions in [torsion]

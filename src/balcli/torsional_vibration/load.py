@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from functools import partial
+from functools import cache, partial
 from typing import Any, NamedTuple
 
 from ..core.vibration import Real
-from ..engine.engine import CylinderNumber, Engine, refuse_geared
+from ..engine.engine import CylinderNumber, Engine, find_row, refuse_geared
 from ..engine.load import build_named
 from ..engine.parse import parse
 from ..errors import ArgumentError
@@ -19,18 +19,19 @@ from ..file.plain_tables import list_tables
 from ..file.toml import name_file, parse_toml, read_bytes
 from ..file.torsion_tables import Damper
 from ..file.units import ask_unit
+from ..forces.spectrum import follow_imep
 from .build import (
     build_chain,
     build_engine_system,
-    excite_engine,
+    excite_cylinders,
     list_dampers,
     list_throws,
     require_torsion,
 )
 from .chain_file import ChainFile, describes_chain, read_chain_tables
 from .measured import MeasuredPoints, read_measured
-from .misfire import ALL_FIRE, MisfireAsked, stop_firing
-from .system import TorsionalSystem
+from .misfire import ALL_FIRE, MisfireAsked, stop_burning, stop_firing
+from .system import Excitation, TorsionalSystem
 
 # kg mm2 or mm; smaller figures are unlikely: they belong to tiny parts, such as a steel disc of
 # 10 mm diameter and 10 mm width, which has 0.08 kg mm2.
@@ -94,7 +95,7 @@ def load_source(path: str, orders: Real | None = None, misfire: MisfireAsked = A
 
     Args:
         orders: Orders of the excitation to use, shape (orders,); None: all orders of a chain; for
-            an engine, the default of `excite_engine`.
+            an engine, the default of `excite_cylinders`.
         misfire: Request for cylinders that do not fire.
 
     Raises:
@@ -131,26 +132,40 @@ def make_source(
     """
     for number in misfire.cylinders:
         engine = stop_firing(engine, number, misfire.compressing)
-    return _make_source(model, engine, name, orders, text, misfire)
+    torques = excite_cylinders(model, engine, orders)
+    return _make_source(model, engine, torques, name, text, misfire)
 
 
 def _make_source(
     model: EngineFile,
     engine: Engine,
+    torques: Excitation,
     name: str,
-    orders: Real | None,
     text: bytes,
     misfire: MisfireAsked,
 ) -> Source:
-    """Return the source for an engine in which the requested cylinders do not fire already."""
+    """Return the source for an engine in which the requested cylinders do not fire already.
+
+    Args:
+        torques: Torques of its cylinders, from `excite_cylinders`.
+    """
+
+    @cache
+    def compress() -> Excitation:
+        """Return the torques of cylinders that all compress without burning."""
+        return excite_cylinders(model, stop_burning(engine), torques.orders)
 
     def without(number: CylinderNumber, compressing: bool) -> Source:
-        """Return the source with one more cylinder that does not fire."""
+        """Return the source with one more cylinder that does not fire. The gas of the others is
+        not computed again: it does not depend on this cylinder.
+        """
         silent = stop_firing(engine, number, compressing)
-        return _make_source(model, silent, name, orders, text, misfire)
+        idle = compress() if compressing else torques.without_gas()
+        left = torques.replace_gas(find_row(engine, number), idle, follow_imep(silent))
+        return _make_source(model, silent, left, name, text, misfire)
 
     torsion = require_torsion(model, name)
-    excitation = excite_engine(model, engine, orders)
+    excitation = torques.without_idle_orders()
     system = partial(build_engine_system, model, engine, excitation, name)
     dampers: dict[str, Damper | None] = {
         part.name: part.damper for part in (*reversed(torsion.front), *torsion.rear)

@@ -4,9 +4,9 @@ flows from their throws to the last part of `[[torsion.rear]]`, which takes all 
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cache
 from typing import NamedTuple
 
 import numpy as np
@@ -70,54 +70,74 @@ def _lead_to(links: Sequence[Link], sink: int) -> Mapping[int, tuple[int, int]]:
     return onward
 
 
-@dataclass(frozen=True, eq=False)
-class MeanTorques:
-    """Mean torques of cylinders and shafts as functions of the speed. The gas is computed when it
-    is first needed.
+class CylinderMeans(NamedTuple):
+    """Mean torques of cylinders as functions of the speed; friction does not count.
 
     Attributes:
-        engine: Engine with gas; friction does not count.
+        at: Function that returns the mean torque of each cylinder, N m, shape (*speeds, cylinders),
+            at speeds, rpm. It computes the gas when it is first called.
+        nodes_rpm: Speeds at which the mean torque is not smooth.
+    """
+
+    at: Callable[[Real], Real]
+    nodes_rpm: tuple[float, ...]
+
+    def replace_cylinder(self, row: int, other: CylinderMeans | None) -> CylinderMeans:
+        """Return the means in which one cylinder has its mean torque in other ones; None: 0."""
+
+        def find_means(rpm: Real) -> Real:
+            means = np.array(self.at(rpm))
+            means[..., row] = 0.0 if other is None else other.at(rpm)[..., row]
+            return means
+
+        return self._replace(at=find_means)
+
+
+def find_cylinder_means(engine: Engine) -> CylinderMeans | None:
+    """Return the mean torques of the cylinders of an engine; None without gas."""
+    if engine.gas is None:
+        return None
+    still = replace(engine, ripple=(), speed_rpm=1 / RPM)  # means depend on no speed
+
+    @cache
+    def follow() -> GasAtSpeeds:
+        return follow_gas(still, _find_means)
+
+    def find_means(rpm: Real) -> Real:
+        return np.asarray(follow().torque(rpm)[0].real)
+
+    return CylinderMeans(find_means, engine.gas.nodes_rpm)
+
+
+@dataclass(frozen=True, eq=False)
+class MeanTorques:
+    """Mean torques of shafts as functions of the speed.
+
+    Attributes:
+        cylinders: Mean torques of cylinders.
         shares: Torque of each shaft for 1 N m of each cylinder, shape (cylinders, shafts).
     """
 
-    engine: Engine
+    cylinders: CylinderMeans
     shares: Real
-
-    @cached_property
-    def _gas(self) -> Real | GasAtSpeeds:
-        """Mean torque of each cylinder, N m, shape (cylinders,), or the gas that depends on the
-        speed.
-        """
-        engine = replace(self.engine, ripple=(), speed_rpm=1 / RPM)  # means depend on no speed
-        if engine.gas is not None and engine.gas.nodes_rpm:
-            return follow_gas(engine, _find_means)
-        return np.asarray(_find_means(engine)[0].real)
 
     @property
     def nodes_rpm(self) -> Sequence[float]:
         """Speeds at which the mean torque is not smooth."""
-        gas = self.engine.gas
-        return () if gas is None else gas.nodes_rpm
+        return self.cylinders.nodes_rpm
 
     @property
     def judged_rpm(self) -> Real:
         """Speeds that tell whether there is a mean torque at all."""
         return np.array(self.nodes_rpm or (_ANY_RPM,))
 
-    def of_cylinders(self, rpm: Real) -> Real:
-        """Return the mean torque of each cylinder, N m, shape (*speeds, cylinders)."""
-        gas = self._gas
-        if isinstance(gas, GasAtSpeeds):
-            return np.asarray(gas.torque(rpm)[0].real)
-        return np.broadcast_to(gas, (*np.shape(rpm), len(gas)))
-
     def find_total(self, rpm: Real) -> Real:
         """Return the mean torque of all cylinders, N m, shape (*speeds,)."""
-        return np.asarray(self.of_cylinders(rpm).sum(axis=-1))
+        return np.asarray(self.cylinders.at(rpm).sum(axis=-1))
 
     def at(self, rpm: Real) -> Real:
         """Return the mean torque of each shaft, N m, shape (*speeds, shafts)."""
-        return np.asarray(self.of_cylinders(rpm) @ self.shares)
+        return np.asarray(self.cylinders.at(rpm) @ self.shares)
 
     def extend(self, shafts: int) -> MeanTorques:
         """Return the mean torques with further shafts, which carry none; `shafts`: number of all

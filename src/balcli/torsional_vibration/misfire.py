@@ -80,10 +80,24 @@ def stop_firing(engine: Engine, number: CylinderNumber, compressing: bool) -> En
             "known; give gas.cycle, or leave {compressing} out",
             number=number,
         )
-    table = model.cylinder.get(int(number), Override.model_construct())
-    without_heat = table.model_copy(update={"heat": 0.0})
-    cylinders = {**model.cylinder, int(number): without_heat}
-    return build(model.model_copy(update={"cylinder": cylinders}))
+    return _stop_burning(model, [number])
+
+
+def stop_burning(engine: Engine) -> Engine:
+    """Return the engine in which no cylinder burns: all that have a computed cycle compress and
+    expand their charge.
+    """
+    model = take_model(engine)
+    numbers = [number for number in list_firing(engine) if computes_cycle(model, number)]
+    return _stop_burning(model, numbers)
+
+
+def _stop_burning(model: EngineFile, numbers: Sequence[CylinderNumber]) -> Engine:
+    tables = dict(model.cylinder)
+    for number in map(int, numbers):
+        table = tables.get(number, Override.model_construct())
+        tables[number] = table.model_copy(update={"heat": 0.0})
+    return build(model.model_copy(update={"cylinder": tables}))
 
 
 def computes_cycle(model: EngineFile, number: CylinderNumber) -> bool:

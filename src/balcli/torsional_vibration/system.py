@@ -6,12 +6,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from ..core.phases import RPM
+from ..core.phasors import Array
 from ..core.vibration import Complex, Indices, Real
 from ..engine.engine import NONE_SILENT, SilentCylinders
 from ..errors import BalcliError
@@ -19,7 +21,7 @@ from ..file.assumed import Assumed
 from ..file.doubt import Doubt
 from ..forces.spectrum import GasAtSpeeds
 from .chain import Chain, Damping, find_pieces, pendulum_inertia, pendulum_swing, viscous_inertia
-from .means import MeanTorques
+from .means import CylinderMeans, MeanTorques
 from .permitted import ShaftLimit
 from .throw_stiffness import ThrowStiffness
 
@@ -86,6 +88,7 @@ class Excitation(NamedTuple):
         gas: Gas torque by cylinder as a function of the speed, which replaces `steady`; None: the
             gas torque does not depend on the speed.
         further: Further torques, whose phases are known.
+        means: Mean torques of cylinders; None: they are not known.
     """
 
     orders: Real
@@ -94,6 +97,7 @@ class Excitation(NamedTuple):
     growing: Complex
     gas: GasAtSpeeds | None = None
     further: tuple[NodeTorque, ...] = ()
+    means: CylinderMeans | None = None
 
     def at(self, speeds: Real) -> Complex:
         """Return the torques (orders, speeds, sources), N m, at speeds (speeds,), rad/s."""
@@ -136,8 +140,54 @@ class Excitation(NamedTuple):
         further = tuple(torque for torque in self.further if torque.order in orders)
         cylinders = self.nodes[: self.steady.shape[1]]
         nodes = np.append(cylinders, [torque.node for torque in further]).astype(int)
-        steady = self.steady[kept]
-        return Excitation(self.orders[kept], nodes, steady, self.growing[kept], gas, further)
+        return self._replace(
+            orders=self.orders[kept],
+            nodes=nodes,
+            steady=self.steady[kept],
+            growing=self.growing[kept],
+            gas=gas,
+            further=further,
+        )
+
+    def without_idle_orders(self) -> Excitation:
+        """Return the excitation without the orders in which no cylinder has a torque."""
+        acts = np.any((self.growing != 0) | (self.steady != 0), axis=1)
+        if self.gas is not None and self.gas.law is not None:
+            acts |= np.any(self.gas.torque(self.gas.law.nodes_rpm) != 0, axis=(1, 2))
+        return self.only(self.orders[acts])
+
+    def find_gas(self, row: int, rpm: ArrayLike) -> NDArray[np.complex128]:
+        """Return the gas torque of one cylinder, N m, at speeds, rpm; its shape is
+        (orders, *speeds) or, if it does not depend on the speed, the same with axes of length 1.
+        """
+        if self.gas is not None:
+            return np.asarray(self.gas.torque(rpm)[..., row])
+        column = self.steady[:, row].reshape(-1, *(1,) * np.ndim(rpm))
+        return np.asarray(column, complex)
+
+    def replace_gas(
+        self, row: int, other: Excitation, imep: Callable[[ArrayLike], Array]
+    ) -> Excitation:
+        """Return the excitation in which one cylinder has the gas that it has in another one.
+
+        Args:
+            row: Row of the cylinder.
+            other: Excitation of the same orders.
+            imep: Function that returns the indicated mean effective pressure, Pa, at speeds, rpm.
+        """
+        steady = self.steady.copy()
+        steady[:, row] = other.steady[:, row]
+        gas = self.gas
+        if gas is not None:
+            gas = gas.replace_cylinder(row, partial(other.find_gas, row))._replace(imep=imep)
+        means = self.means
+        if means is not None:
+            means = means.replace_cylinder(row, other.means)
+        return self._replace(steady=steady, gas=gas, means=means)
+
+    def without_gas(self) -> Excitation:
+        """Return the excitation by the inertia of the cylinders alone."""
+        return self._replace(steady=np.zeros_like(self.steady), gas=None, means=None)
 
     def with_torques(self, torques: Sequence[NodeTorque]) -> Excitation:
         """Return the excitation with further torques, whose phases are known."""
@@ -151,7 +201,8 @@ class Excitation(NamedTuple):
         growing[rows] = self.growing
         gas = None if self.gas is None else self.gas.spread_orders(rows, len(orders))
         nodes = np.append(self.nodes, [torque.node for torque in torques]).astype(int)
-        return Excitation(orders, nodes, steady, growing, gas, (*self.further, *torques))
+        further = (*self.further, *torques)
+        return Excitation(orders, nodes, steady, growing, gas, further, self.means)
 
 
 @dataclass(frozen=True)
