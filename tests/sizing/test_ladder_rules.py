@@ -485,7 +485,7 @@ def test_the_last_line_says_what_one_cylinder_is():
     told = " ".join(ask("analyze", ROOT / "engines" / "i3.toml", "--only", "ladder").split())
     assert "one cylinder's first order (6.539 kN; times 164 mm of engine length: 1072 N·m)." in told
     assert "By default, `balcli balance` fits steps 2 and 3." in told
-    assert "Below the limit of a shaft: step 4 cancels 13.2 % (limit 36 %)." in told
+    assert "Below the limit of a shaft: each shaft of step 4 cancels up to 13.2 % (limit 36 %)." in told
     assert told.count("<0.1 %") == 5
     twin = " ".join(ask("analyze", ROOT / "engines" / "vtwin90.toml", "--only", "ladder").split())
     assert "mm, twice the crank radius: " in twin
@@ -496,6 +496,9 @@ def test_the_last_line_says_what_one_cylinder_is():
 def test_a_step_that_is_left_out_is_named_with_its_size():
     told = " ".join(ask("analyze", ROOT / "engines" / "radial7_articulated.toml", "--only", "ladder").split())
     assert "A shaft at -1 would remove 119.4 N (2.0 % of one cylinder's first order): left out." in told
+    told = " ".join(ask("analyze", ROOT / "engines" / "vr6.toml", "--only", "ladder").split())
+    assert "Shafts at +2 and -2 would each remove up to 156.9 N·m (4.9 % of one" in told
+    assert "Below the limit of a shaft: step 3 cancels 10.4 % (limit 18 %)." in told
 
 
 def test_balance_says_what_is_left():

@@ -67,11 +67,11 @@ def test_a_critical_speed_outside_has_mode_order_and_phase_sum():
 def test_the_tables_tell_what_lies_at_and_beyond_the_ends():
     said = " ".join(run_here("torsion", "-", "--speeds", "1010:1300:10", stdin=PAIR).out.split())
     assert "< 1010" in said
-    assert "a-b, swing of a: the largest value is at 1010 rpm, the lowest speed; it may be larger below." in said
+    assert "Largest at 1010 rpm, the lowest speed: a-b, swing of a; below, more may occur. Widen" in said
     assert "Just outside: 1000 rpm (mode 1, order 2)." in said
     said = " ".join(run_here("torsion", "-", "--speeds", "700:990:10", stdin=PAIR).out.split())
     assert "> 990" in said
-    assert "the highest speed; it may be larger above." in said
+    assert "the highest speed: a-b, swing of a; above, more may occur." in said
 
 
 def test_the_three_critical_speeds_with_most_work_on_each_side_are_named():

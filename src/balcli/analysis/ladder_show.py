@@ -28,7 +28,7 @@ from ..show.sheet import (
     size_text,
     tell_assumed,
 )
-from ..sizing.ladder import NO_SHAFTS, SINGLE_SHAFTS, Ladder, LeftOut, Step
+from ..sizing.ladder import NO_SHAFTS, SHAFTS, SINGLE_SHAFTS, Ladder, LeftOut, Step
 from ..sizing.room import assume_skirt
 from .verdict_words import name_order, tell_own_shafts
 
@@ -199,7 +199,7 @@ def _tell_left_out(out: LeftOut, ladder: Ladder, system: System) -> str:
         scale = ladder.scale
         by_moment = moment * scale.force_N > force * (scale.moment_Nm or 0.0)
         largest = size_text(moment, system.moment) if by_moment else size_text(force, system.force)
-        does = f"remove {largest}"
+        does = f"each remove up to {largest}" if out.step == SHAFTS else f"remove {largest}"
     else:
         verb = "lower" if fall >= 0 else "raise"
         does = f"{verb} the largest main bearing load by {size_text(abs(fall), system.force)}"
@@ -268,7 +268,10 @@ def _tell_fitted(ladder: Ladder) -> Iterator[str]:
         if step.limit is None or step.worth_it:
             continue
         size = _percent_below(100 * step.share, 100 * step.limit)
-        below.append(f"step {row} cancels {size} (limit {100 * step.limit:.4g} %)")
+        does = f"step {row} cancels {size}"
+        if step.step == SHAFTS:
+            does = f"each shaft of step {row} cancels up to {size}"
+        below.append(f"{does} (limit {100 * step.limit:.4g} %)")
     if below:
         yield f"Below the limit of a shaft: {', '.join(below)}."
 

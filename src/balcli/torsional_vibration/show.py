@@ -635,8 +635,8 @@ def _describe_edges(result: TorsionAnalysis, response: TorsionResponse) -> str:
             if len(names) > _MOST_LISTED:
                 names[_MOST_LISTED:] = ["..."]
             sentences += (
-                f" {', '.join(names)}: the largest value is at {speed} rpm, the {place} speed; it "
-                f"may be larger {side}. Widen the range of speeds."
+                f" Largest at {speed} rpm, the {place} speed: {', '.join(names)}; {side}, more may "
+                "occur. Widen the range of speeds."
             )
     return sentences
 
