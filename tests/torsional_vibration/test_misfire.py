@@ -43,10 +43,14 @@ damping = 0.8
 TRIPLE = ENGINE + FLYWHEEL
 STRESSED = TRIPLE + "diameter = 60\n"
 LIMITED = STRESSED + "limit = 12\n"
+# a limit of another kind on the same shaft, which is used more, and one of the free end, which is no shaft
+SEVERAL = LIMITED.replace("damping = 0.8", "damping = 0.8\nangle_limit = 0.001") + "torque_limit = 20\n"
 SPEEDS = ("--speeds", "2000:2400:200", "--orders", "0.5-6")
 
 
-@pytest.mark.parametrize(("text", "figure"), [(LIMITED, "share"), (STRESSED, "stress_Pa"), (TRIPLE, "torque_Nm")])
+@pytest.mark.parametrize(
+    ("text", "figure"), [(LIMITED, "share"), (SEVERAL, "share"), (STRESSED, "stress_Pa"), (TRIPLE, "torque_Nm")]
+)
 def test_the_worst_misfire_is_that_of_a_run_by_itself(text, figure):
     worst = ask_torsion(text, *SPEEDS, "--misfire", "worst")
     cases = worst.pop("misfire")

@@ -52,6 +52,14 @@ class JudgedLimit(NamedTuple):
     exceeded: tuple[ExceededRange, ...]
 
 
+class LargestShare(NamedTuple):
+    """A limit, and its largest share over the range of speeds with its speed."""
+
+    limit: ShaftLimit
+    share: float
+    speed_rpm: float
+
+
 class _Shares:
     """Shares of limits as functions of the speed.
 
@@ -116,6 +124,29 @@ def judge_limits(
         exceeded = tuple(_find_exceeded(shares, speeds, heights[:, k], k))
         judged.append(JudgedLimit(float(highest[k]), float(best[k]), exceeded))
     return tuple(judged)
+
+
+def find_largest_share(
+    system: TorsionalSystem, rpm: Real, limits: Sequence[ShaftLimit]
+) -> LargestShare:
+    """Return the largest share of any limit between the first and last speed; it is the largest one
+    of `judge_limits`, which also looks for the largest share of every other limit.
+
+    Args:
+        system: System with an excitation.
+        rpm: Rising speeds, shape (speeds,).
+        limits: Limits, at least one.
+    """
+    shares = _Shares(system, limits)
+    speeds = _choose_speeds(system, rpm, limits)
+    heights = shares.bound(speeds)
+    columns = np.arange(len(limits))
+    level = shares.judge(speeds[heights.argmax(axis=0)], columns).max()
+    shares.refine(heights, speeds, heights >= _CLOSE * level)
+    levels = np.full(len(limits), heights.max())
+    best, highest = find_highest(shares.judge, speeds, heights, levels, _CLOSE)
+    k = int(highest.argmax())
+    return LargestShare(limits[k], float(highest[k]), float(best[k]))
 
 
 def _choose_speeds(system: TorsionalSystem, rpm: Real, limits: Sequence[ShaftLimit]) -> Real:

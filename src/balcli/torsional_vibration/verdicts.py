@@ -12,7 +12,13 @@ import numpy as np
 
 from ..core.vibration import Real
 from .permitted import M68, M68_BARRED_BELOW, MeanLimit, ShaftLimit
-from .shaft_limits import ExceededRange, JudgedLimit, judge_limits
+from .shaft_limits import (
+    ExceededRange,
+    JudgedLimit,
+    LargestShare,
+    find_largest_share,
+    judge_limits,
+)
 from .system import TorsionalSystem
 
 Verdict = Literal["passes", "barred", "fails", "not checked"]
@@ -117,6 +123,17 @@ def judge_system(system: TorsionalSystem, rpm: Real) -> Judgment:
         if reason is not None:
             verdicts.append(LimitVerdict(shaft=shaft, verdict="not checked", reason=reason))
     return Judgment(tuple(verdicts), barred)
+
+
+def find_hardest(system: TorsionalSystem, rpm: Real) -> LargestShare | None:
+    """Return the limit of a shaft that is used most, as `judge_system` finds it; None without such
+    limits.
+    """
+    limits = []
+    for limit in system.limits:
+        if limit.kind != "angle" and not _permits_nothing(limit, rpm):
+            limits.append(limit)
+    return find_largest_share(system, rpm, limits) if limits else None
 
 
 def _permits_nothing(limit: ShaftLimit, rpm: Real) -> bool:

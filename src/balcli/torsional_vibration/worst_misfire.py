@@ -18,7 +18,7 @@ from .load import Source
 from .misfire import list_firing
 from .response import find_largest
 from .system import TorsionalSystem
-from .verdicts import judge_system
+from .verdicts import find_hardest
 
 _EQUAL = 1e-9  # relative difference below which two cylinders load the shafts alike
 
@@ -97,12 +97,10 @@ def _find_case(system: TorsionalSystem, number: CylinderNumber, rpm: Real) -> Mi
     the stress of systems without limits, or else the torque.
     """
     make = partial(MisfireCase, cylinder=number)
-    verdicts = judge_system(system, rpm).verdicts or ()
-    judged = [verdict for verdict in verdicts if verdict.share is not None]
-    if judged:
-        hardest = max(judged, key=lambda verdict: verdict.share or 0.0)
-        speed = hardest.speed_rpm or 0.0
-        return make(share=hardest.share, shaft=hardest.shaft, speed_rpm=speed)
+    hardest = find_hardest(system, rpm)
+    if hardest is not None:
+        shaft = system.shafts[hardest.limit.column]
+        return make(share=hardest.share, shaft=shaft, speed_rpm=hardest.speed_rpm)
     stressed = bool(np.any(system.stress_by_torque))
     weights = system.stress_by_torque if stressed else np.ones(len(system.shafts))
     speeds, values = find_largest(system, rpm, weights, together=True)
