@@ -299,8 +299,9 @@ const Page = (() => {
     const { cures } = finding;
     const hasParts = order <= 2 && cures?.length && !cures.some((cure) => cure.takes_back);
     if (!hasParts) return Tables.tellCures(figures, order);
-    const parts = cures.map((cure) => `${Tables.nameCure(cure)}: ${number((cure.ratio > 0 ? ahead : against) / unit.size)}`);
-    return parts.join(", ");
+    const sizeOf = (cure) => cure.ratio > 0 ? ahead : against;
+    const cancelling = cures.filter((cure) => sizeOf(cure) > ROUNDING * scaleOf(figures, kind));
+    return cancelling.map((cure) => `${Tables.nameCure(cure)}: ${number(sizeOf(cure) / unit.size)}`).join(", ");
   }
   // Keeps the room of the most bars that an engine had, so that bars that go move nothing below them.
   const room = { engine: null, bars: 0 };
