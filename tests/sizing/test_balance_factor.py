@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from oracle import momentum
 from support.cases import cases
-from support.commands import run_here
+from support.commands import ask_json, run_here
 from support.engines import build_text, changed, engine_text
 from support.paths import write
 from support.remedies import SMALL, figures, size_scheme, weigh, write_engine
@@ -255,6 +255,15 @@ def test_a_factor_alone_chooses_its_scheme(ford):
     assert "bobweight (rotating + share)" in run_here("balance", ford, "--measured", "1872.1 g").out
     assert [run_here("balance", ford, "--factor", share).out for share in ("51%", "51 %")] == [in_full] * 2
     assert "Ford 302: counterweights at every throw (auto)\n" in run_here("balance", ford).out
+
+
+def test_a_throw_that_counts_as_0_is_told_once(tmp_path):
+    """Below the bobweight, in the table and on the card; in JSON as a sentence of its own."""
+    file = write(tmp_path / "e.toml", engine_text(crank="stroke = 80\nthrows = [0]"))
+    for form in ("table", "card"):
+        told = " ".join(run_here("balance", file, "--factor", "50%", "-f", form).out.split())
+        assert told.count("counts as 0, because crank.throw_mass is 0 or not given") == 1
+    assert "counts as 0" in ask_json("balance", file, "--factor", "50%")["details"]["throw"]
 
 
 # ------------------------------------------------------------------ the card for the wall

@@ -32,6 +32,7 @@ _ROLLS = (
 )
 # Figures on the numerical solution, which appear only in JSON and CSV.
 _FOR_PROGRAMS = {"condition_number", "relative_error_bound", "axial_distance_mm", "improvement"}
+_NOTES_OF_CARD = {"throw"}  # sentences that stand below the bobweights
 
 
 class _Figure(NamedTuple):
@@ -138,7 +139,7 @@ def _choose_figures(result: Balance) -> Iterator[_Figure]:
     order = result.remedy.order
     about_crank = {*chain(*_ROLLS)}
     for figure in _list_figures(result):
-        if figure.key in _FOR_PROGRAMS:
+        if figure.key in _FOR_PROGRAMS | _NOTES_OF_CARD:
             continue
         shown = figure
         moment = find_unit(shown.key) == "N·m" and shown.key not in about_crank
