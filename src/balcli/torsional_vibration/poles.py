@@ -255,17 +255,20 @@ class PoleSum:
             w, terms = self._respond(rpm[some], own)
             named = system[some], which[some]
             twist = (terms @ self.felt[named][..., None])[..., 0]
-            curves[some] = twist * self._find_stiffness(w, named)
+            stiffness = self.stiffness[named][:, None]
+            curves[some] = twist * (stiffness + 1j * w * self.dashpots[named][:, None])
         return curves.T
 
     def sum_amplitudes(self, rpm: Real, which: Indices, system: int = 0) -> Real:
         """Return the sums of the amplitudes of all orders, shape (speeds, len(which))."""
         sums = np.empty((len(rpm), len(which)))
         felt = self.felt[system, which].T
+        stiffness = self.stiffness[system, which]
+        dashpots = self.dashpots[system, which]
         for some in self._divide(len(rpm)):
             w, terms = self._respond(rpm[some], system)
             curves = terms @ felt
-            curves *= self._find_stiffness(w[..., None], (system, which))
+            curves *= stiffness + 1j * w[..., None] * dashpots
             sums[some] = np.abs(curves).sum(axis=1)
         return sums
 
@@ -294,15 +297,6 @@ class PoleSum:
             terms[..., poles:] = of_turns[..., None]
         terms *= self.driven.at(speeds, system)
         return w, terms
-
-    def _find_stiffness(self, w: Real, named: tuple[int | Indices, Indices]) -> Complex:
-        """Return the factors of curves at frequencies w (places, orders, ...), rad/s."""
-        stiffness = self.stiffness[named]
-        dashpots = self.dashpots[named]
-        if w.ndim == 2:  # a curve for each place
-            stiffness = stiffness[:, None]
-            dashpots = dashpots[:, None]
-        return np.asarray(stiffness + 1j * w * dashpots)
 
 
 def expand_in_poles(system: TorsionalSystem) -> PoleSum | None:
