@@ -31,7 +31,7 @@ from .vibration import Complex, Indices, Real
 _SMALLEST = 1e10 * float(np.finfo(float).tiny)  # a division by a smaller number overflows
 _TURN = 2 * np.pi  # rad
 _SAMPLES = 16  # number of samples per period of the highest order
-_AT_ONCE = 1 << 17  # largest number of samples, or of terms of curves: more leave the cache
+_AT_ONCE = 1 << 16  # largest number of samples, or of terms of curves: more leave the cache
 _ROUNDS = 40  # largest number of steps of Newton's method; 3 or 4 suffice for a round peak
 # A step of Newton's method is the last if it gains less than _SETTLED of the sum of all amplitudes,
 # or if it is shorter than _SHORT of the distance of two samples.
