@@ -219,6 +219,17 @@ def test_roll_without_gas_is_named_from_a_quarter_of_one_cylinder_on(size, rocki
     assert (told == "Order 2 rocks the engine most: roll of 25 N·m (inertia alone).") is bool(rocking)
 
 
+@pytest.mark.parametrize(
+    ("gas", "inertia", "causes"), [(25, 12, "gas 25 N·m, inertia 12 N·m"), (25, 0, "from gas"), (0, 25, "from inertia")]
+)
+def test_the_causes_of_a_roll_with_gas_are_named(gas, inertia, causes):
+    kinds = spectra(2, 50, 50).kinds
+    for kind, size in (("gas", gas), ("roll", inertia), ("roll_total", gas + inertia)):
+        kinds = kinds | spectra(2, size / 2, size / 2, kind).kinds
+    told = write(Spectra(np.array([2.0]), kinds=kinds), SCALES)[-1]
+    assert told == f"Order 2 rocks the engine most: roll of {gas + inertia} N·m ({causes})."
+
+
 @pytest.mark.parametrize(("size", "named"), [(0.99, False), (1, True)])
 def test_a_couple_is_named_from_a_hundredth_of_one_cylinder_on(size, named):
     couple = spectra(2, size / 2, size / 2, "couple").couple

@@ -343,15 +343,21 @@ class VerdictWords(NamedTuple):
             causes = "inertia alone"
         else:
             most = self._tell_moment(at_order, ROLL_TOTAL)
-            causes = ", ".join(self._tell_causes_of_roll(at_order))
+            causes = self._tell_causes_of_roll(at_order)
         order = order_name(rocking.order)
         return f"Order {order} rocks the engine most: roll of {most} ({causes})."
 
-    def _tell_causes_of_roll(self, at_order: Spectra) -> Iterator[str]:
-        """Yield gas and inertia with their rolls, whichever cause a roll."""
+    def _tell_causes_of_roll(self, at_order: Spectra) -> str:
+        """Return gas and inertia with their rolls in words; only the name of the one that causes
+        all of it.
+        """
+        causes = []
         for name, kind in (("gas", GAS), ("inertia", ROLL)):
             if at_order[kind.name].major[0]:
-                yield f"{name} {self._tell_moment(at_order, kind)}"
+                causes.append((name, self._tell_moment(at_order, kind)))
+        if len(causes) == 1:
+            return f"from {causes[0][0]}"
+        return ", ".join(f"{name} {size}" for name, size in causes)
 
     def _tell_moment(self, at_order: Spectra, kind: Kind) -> str:
         """Return the size of a moment in words; the spectra have a single order."""

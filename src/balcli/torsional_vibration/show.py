@@ -628,6 +628,7 @@ def _describe_edges(result: TorsionAnalysis, response: TorsionResponse) -> str:
     edges = [(shaft.name, shaft.worst.edge) for shaft in response.shafts]
     edges.append((f"swing of {result.system.free_end}", response.free_end_worst.edge))
     sentences = ""
+    advice = ""
     for end, place, side in (("first", "lowest", "below"), ("last", "highest", "above")):
         names = [name for name, edge in edges if edge == end]
         if names:
@@ -636,9 +637,10 @@ def _describe_edges(result: TorsionAnalysis, response: TorsionResponse) -> str:
                 names[_MOST_LISTED:] = ["..."]
             sentences += (
                 f" Largest at {speed} rpm, the {place} speed: {', '.join(names)}; {side}, more may "
-                "occur. Widen the range of speeds."
+                "occur."
             )
-    return sentences
+            advice = " Widen the range of speeds."
+    return sentences + advice
 
 
 def _add_amplitudes(torque: WorstTorque) -> float:
