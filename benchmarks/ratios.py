@@ -4,7 +4,8 @@ The yardstick of variants is a script that anybody would write: force and moment
 steps of a turn, and their orders 1 to 8 by a Fourier transform. Commands are compared with `balcli
 analyze` of the same file, and torsion with openTorsion, which is installed into an environment of
 its own (`--peers`). All times are processor times, with one thread of linear algebra: other work on
-the machine makes both sides of a ratio slower. With `-o growth.svg`, growth is also drawn.
+the machine makes both sides of a ratio slower. With `-o growth.svg`, growth is also drawn; `--page`
+writes ratios and growth into docs/accuracy.md.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ import sys
 import tempfile
 import time
 import venv
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from pathlib import Path
 from typing import NamedTuple
@@ -33,13 +34,33 @@ from balcli.bench.starts import LIBRARIES
 from balcli.torsional_vibration.answer import torsion
 
 HERE = Path(__file__).resolve().parent
+PAGE = HERE.parent / "docs" / "accuracy.md"
+START = "<!-- ratios -->\n"
+END = "<!-- end of ratios -->\n"
 DIESEL = HERE.parent / "engines" / "i6_diesel.toml"
 OPENTORSION = "opentorsion==0.3.2"
 PAIRS = 5
 VARIANTS = 20
-SIZES = [(nodes, 24, speeds) for nodes in (12, 48) for speeds in (50, 200)]
 
 Run = Callable[[], object]
+
+
+class Goal(NamedTuple):
+    """Ratio that is wanted, and ratios from which the work on speed started (November 2026).
+
+    Attributes:
+        before: Smallest and largest ratio measured before.
+        wanted: Largest ratio that is wanted.
+    """
+
+    before: tuple[float, float]
+    wanted: float
+
+    @property
+    def start(self) -> str:
+        """The ratios before, as they are printed."""
+        least, largest = self.before
+        return f"{least:g}" if least == largest else f"{least:g} to {largest:g}"
 
 
 class Ratio(NamedTuple):
@@ -48,17 +69,53 @@ class Ratio(NamedTuple):
     Attributes:
         what: What is compared.
         quartiles: Quartiles of the ratios of several pairs.
-        wanted: Largest ratio that is wanted; None: none is named.
+        goal: What is wanted.
     """
 
     what: str
     quartiles: tuple[float, float, float]
-    wanted: float | None = None
+    goal: Goal
+
+    @property
+    def spread(self) -> str:
+        """First and third quartile, as they are printed."""
+        return f"{self.quartiles[0]:.2f} to {self.quartiles[2]:.2f}"
 
     def __str__(self) -> str:
-        low, middle, high = self.quartiles
-        wanted = "" if self.wanted is None else f"{self.wanted:g}"
-        return f"{middle:8.2f}  [{low:.2f} to {high:.2f}]  {wanted:>5}  {self.what}"
+        now = f"{self.quartiles[1]:8.2f}  [{self.spread}]"
+        return f"{now:28}  {self.goal.start:>12}  {self.goal.wanted:6g}  {self.what}"
+
+
+class Growth(NamedTuple):
+    """Processor times by size.
+
+    Attributes:
+        what: What grows, and what is run.
+        seconds: Processor time by size, s; sizes rise.
+    """
+
+    what: str
+    seconds: dict[int, float]
+
+    @property
+    def shares(self) -> list[float]:
+        """Times as multiples of that of the smallest size."""
+        times = list(self.seconds.values())
+        return [time / times[0] for time in times]
+
+
+STRESS = Goal((57, 85), 20)
+GAS = Goal((14, 18), 2)
+DAMPER = Goal((6, 8), 3)
+SCATTER = Goal((48, 48), 12)
+COLD = Goal((2.06, 2.06), 1.9)
+THROWS = Goal((4, 4), 2)
+PEERS = {  # by nodes, orders and speeds
+    (12, 24, 50): Goal((3, 9), 0.5),
+    (12, 24, 200): Goal((0.33, 1), 0.5),
+    (48, 24, 50): Goal((4, 4), 0.5),
+    (48, 24, 200): Goal((4, 4), 0.5),
+}
 
 
 def time_run(run: Run) -> float:
@@ -70,8 +127,10 @@ def time_run(run: Run) -> float:
 
 def time_command(*argv: str) -> float:
     """Return the processor time of a Python program in a new process, s."""
+    environment = dict(os.environ)
+    environment.pop("PYTHONDONTWRITEBYTECODE", None)  # compiling again is no part of a start
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    subprocess.run([sys.executable, *argv], capture_output=True, check=True)
+    subprocess.run([sys.executable, *argv], capture_output=True, check=True, env=environment)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
@@ -80,12 +139,12 @@ def compare(
     what: str,
     measure: Callable[[], float],
     other: Callable[[], float],
-    wanted: float | None = None,
+    goal: Goal,
     pairs: int = PAIRS,
 ) -> Ratio:
     """Return the ratio of two times that are measured in turn."""
     ratios = [measure() / other() for _ in range(pairs)]
-    return Ratio(what, tuple(np.quantile(ratios, [0.25, 0.5, 0.75]).tolist()), wanted)
+    return Ratio(what, tuple(np.quantile(ratios, [0.25, 0.5, 0.75]).tolist()), goal)
 
 
 # ------------------------------------------------------------------ variants
@@ -119,11 +178,11 @@ def list_variants() -> Iterator[Ratio]:
     inertia = np.linspace(2.0e6, 2.1e6, VARIANTS)
     pressure = np.linspace(13.0, 15.0, VARIANTS)
     cases = [
-        ("shaft stress, inertia varied", "shaft.flywheel.stress", "torsion.rear.1.inertia", 20),
-        ("largest torque, imep varied", "torque.max", "gas.imep", 2),
-        ("gas torque of order 3, imep varied", "gas.3.amplitude", "gas.imep", 2),
+        ("shaft stress, inertia varied", "shaft.flywheel.stress", "torsion.rear.1.inertia", STRESS),
+        ("largest torque, imep varied", "torque.max", "gas.imep", GAS),
+        ("gas torque of order 3, imep varied", "gas.3.amplitude", "gas.imep", GAS),
     ]
-    for what, quantity, path, wanted in cases:
+    for what, quantity, path, goal in cases:
         values = {path: inertia if "inertia" in path else pressure}
         run = partial(balcli.sweep, engine, values, [quantity], jobs=1)
         few = {name: array[:1] for name, array in values.items()}
@@ -132,7 +191,7 @@ def list_variants() -> Iterator[Ratio]:
         def measure(run: Run = run, run_one: Run = run_one) -> float:
             return (time_run(run) - time_run(run_one)) / (VARIANTS - 1)
 
-        yield compare(f"a variant ({what}) to the naive script", measure, time_naively, wanted)
+        yield compare(f"a variant ({what}) to the naive script", measure, time_naively, goal)
 
 
 # ------------------------------------------------------------------ commands
@@ -142,19 +201,16 @@ def list_commands() -> Iterator[Ratio]:
     basic = partial(time_command, "-m", "balcli", "analyze", file)
     over = ("-m", "balcli", "torsion", file, "--speeds", "600:2400:20", "--damper")
     stress = ("-m", "balcli", "scatter", file, "-q", "shaft.flywheel.stress")
-    yield compare(
-        "torsion --damper viscous to analyze", partial(time_command, *over, "viscous"), basic, 3
-    )
-    yield compare(
-        "torsion --damper rubber to analyze", partial(time_command, *over, "rubber"), basic, 3
-    )
-    yield compare(
-        "scatter -q shaft.flywheel.stress to analyze", partial(time_command, *stress), basic, 12, 1
-    )
+    basic()  # compiles modules and reads them from the disk
+    for damper in ("viscous", "rubber"):
+        sized = partial(time_command, *over, damper)
+        yield compare(f"torsion --damper {damper} to analyze", sized, basic, DAMPER)
+    scattered = partial(time_command, *stress)
+    yield compare("scatter -q shaft.flywheel.stress to analyze", scattered, basic, SCATTER, 3)
     imports = partial(time_command, "-c", LIBRARIES)
     plain = str(DIESEL.parent / "v8_crossplane.toml")
     cold = partial(time_command, "-m", "balcli", "analyze", plain)
-    yield compare("cold analyze to its libraries' import", cold, imports, 1.9)
+    yield compare("cold analyze to its libraries' import", cold, imports, COLD)
 
 
 def describe_engine(throws: int) -> str:
@@ -185,7 +241,7 @@ def list_throws() -> Iterator[Ratio]:
             "analyze of 1000 throws to the same without sizing and ladder",
             whole,
             partial(whole, "--only", ",".join(UNASKED)),
-            2,
+            THROWS,
             3,
         )
 
@@ -239,7 +295,7 @@ def install_peers(folder: Path) -> Path:
     return python
 
 
-def compare_with_peer(python: Path, nodes: int, orders: int, speeds: int) -> Ratio:
+def compare_with_peer(python: Path, nodes: int, orders: int, speeds: int, goal: Goal) -> Ratio:
     """Return what `torsion` costs, in runs of openTorsion, and check that both compute the same."""
     chain = make_chain(nodes, orders, speeds)
     tables = describe_chain(chain)
@@ -259,7 +315,7 @@ def compare_with_peer(python: Path, nodes: int, orders: int, speeds: int) -> Rat
             f"torsion to openTorsion: {nodes} nodes, {orders} orders, {speeds} speeds",
             lambda: time_run(partial(torsion, tables, chain["rpm"])),
             lambda: ask()[0],
-            0.5,
+            goal,
         )
         peer.stdin.close()
     return ratio
@@ -267,13 +323,13 @@ def compare_with_peer(python: Path, nodes: int, orders: int, speeds: int) -> Rat
 
 def list_peers(python: Path) -> Iterator[Ratio]:
     """Yield what `torsion` costs, in runs of openTorsion."""
-    for size in SIZES:
-        yield compare_with_peer(python, *size)
+    for size, goal in PEERS.items():
+        yield compare_with_peer(python, *size, goal)
 
 
 # ------------------------------------------------------------------ growth
-def measure_growth() -> dict[str, dict[int, float]]:
-    """Return processor times (s) by size of orders, nodes, variants and throws."""
+def measure_growth() -> Iterator[Growth]:
+    """Yield processor times by number of orders, nodes, variants and throws."""
     engine = balcli.load(DIESEL)
 
     def time_variants(count: int) -> float:
@@ -283,27 +339,54 @@ def measure_growth() -> dict[str, dict[int, float]]:
     def time_throws(count: int) -> float:
         return time_run(partial(analyze, balcli.load(describe_engine(count)), only=QUANTITIES))
 
-    return {
-        "orders (torsion, 12 nodes, 50 speeds)": {n: time_torsion(12, n, 50) for n in (24, 48, 96)},
-        "nodes (torsion, 24 orders, 50 speeds)": {n: time_torsion(n, 24, 50) for n in (12, 24, 48)},
-        "variants (shaft stress)": {n: time_variants(n) for n in (10, 20, 40)},
-        "throws (analyze)": {n: time_throws(n) for n in (100, 300, 1000)},
-    }
+    yield Growth("orders: torsion of 12 nodes", {n: time_torsion(12, n, 50) for n in (24, 48, 96)})
+    yield Growth("nodes: torsion of 24 orders", {n: time_torsion(n, 24, 50) for n in (12, 24, 48)})
+    yield Growth("variants: sweep of a stress", {n: time_variants(n) for n in (50, 100, 200)})
+    yield Growth("throws: analyze", {n: time_throws(n) for n in (100, 300, 1000)})
 
 
-def draw_growth(growth: dict[str, dict[int, float]], path: Path) -> None:
-    """Draw the times over the sizes, both logarithmic."""
+def draw_growth(growths: Sequence[Growth], path: Path) -> None:
+    """Draw times over sizes, as multiples of those of the smallest size, both logarithmic."""
     from matplotlib.figure import Figure  # only for a picture
 
     figure = Figure(figsize=(7, 5), layout="constrained")
     axes = figure.add_subplot()
-    for what, times in growth.items():
-        axes.loglog(list(times), list(times.values()), "o-", label=what)
-    axes.set_xlabel("size")
-    axes.set_ylabel("processor time, s")
+    for growth in growths:
+        sizes = list(growth.seconds)
+        label = f"{growth.what}, {sizes[0]} to {sizes[-1]}"
+        axes.loglog(np.divide(sizes, sizes[0]), growth.shares, "o-", label=label)
+    axes.loglog([1, 10], [1, 10], "k:", label="in proportion")
+    axes.set_xlabel("size / smallest size")
+    axes.set_ylabel("processor time / that of the smallest size")
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.set_major_formatter("{x:g}")
     axes.grid(visible=True, which="both", alpha=0.3)
     axes.legend()
     figure.savefig(path)
+
+
+# ------------------------------------------------------------------ docs/accuracy.md
+def write_page(ratios: Sequence[Ratio], growths: Sequence[Growth]) -> None:
+    """Write the tables of this run into the page."""
+    page = PAGE.read_text(encoding="utf-8")
+    before, _, rest = page.partition(START)
+    _, found, after = rest.partition(END)
+    if not found:
+        sys.exit(f"{PAGE}: has no {END.strip()}")
+    lines = [
+        "| what takes how many times as long | before | wanted | now | quartiles |",
+        "| --- | ---: | ---: | ---: | ---: |",
+    ]
+    for ratio in ratios:
+        now = f"{ratio.quartiles[1]:.2f} | {ratio.spread}"
+        lines.append(f"| {ratio.what} | {ratio.goal.start} | {ratio.goal.wanted:g} | {now} |")
+    lines += ["", "| growth with | sizes | times |", "| --- | ---: | ---: |"]
+    for growth in growths:
+        sizes = ", ".join(map(str, growth.seconds))
+        shares = ", ".join(f"{share:.1f}" for share in growth.shares)
+        lines.append(f"| {growth.what} | {sizes} | {shares} |")
+    tables = "\n".join(lines)
+    PAGE.write_text(f"{before}{START}\n{tables}\n\n{END}{after}", encoding="utf-8")
 
 
 def main() -> None:
@@ -316,21 +399,29 @@ def main() -> None:
         "--without-peers", action="store_true", help="do not compare with openTorsion"
     )
     parser.add_argument("-o", "--output", type=Path, help="picture of the growth")
+    parser.add_argument("--page", action="store_true", help="write the tables of docs/accuracy.md")
     options = parser.parse_args()
-    print("   ratio  [quartiles]  wanted  what")
+    if options.page and options.without_peers:
+        parser.error("--page needs the peers")
+    print("   ratio  [quartiles]               before  wanted  what")
     groups = [list_variants(), list_commands(), list_throws()]
     if not options.without_peers:
         groups.append(list_peers(install_peers(options.peers)))
+    ratios = []
     for group in groups:
         for ratio in group:
             print(ratio, flush=True)
-    growth = measure_growth()
-    for what, times in growth.items():
-        least = min(times.values())
-        steps = ", ".join(f"{size}: {seconds / least:.1f}" for size, seconds in times.items())
-        print(f"growth by {what}: {steps}")
+            ratios.append(ratio)
+    growths = []
+    for growth in measure_growth():
+        pairs = zip(growth.seconds, growth.shares, strict=True)
+        steps = ", ".join(f"{size}: {share:.1f}" for size, share in pairs)
+        print(f"growth by {growth.what}: {steps}", flush=True)
+        growths.append(growth)
     if options.output:
-        draw_growth(growth, options.output)
+        draw_growth(growths, options.output)
+    if options.page:
+        write_page(ratios, growths)
 
 
 if __name__ == "__main__":

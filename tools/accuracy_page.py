@@ -7,10 +7,10 @@ import sys
 from pathlib import Path
 
 from balcli.bench.records import Bench
-from balcli.bench.show import list_grids
+from balcli.bench.show import sheet
 from balcli.bench.tasks import measure
 from balcli.show.formats import Format, lay_out
-from balcli.show.sheet import Sheet
+from balcli.show.units import SI
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "accuracy.md"
 START = "<!-- tables -->\n"
@@ -18,9 +18,9 @@ END = "<!-- end of tables -->\n"
 
 
 def write_tables(result: Bench) -> str:
-    """Return the tables of the page: those of the command, without its ratios and its title."""
-    sheet = Sheet("", tuple(list_grids(result)))
-    _title, _, tables = lay_out([sheet], Format.MARKDOWN, seen=False).partition("\n")
+    """Return the tables of the page: those of the command, without their title."""
+    whole = sheet(result, SI)._replace(title="")
+    _title, _, tables = lay_out([whole], Format.MARKDOWN, seen=False).partition("\n")
     return tables
 
 

@@ -194,12 +194,19 @@ def list_unbeaten(methods: Iterable[Measured]) -> list[Measured]:
 
 
 def _beats(method: Measured, other: Measured) -> bool:
-    slower = method.seconds.median / other.seconds.median
+    if method is other or _is_quicker(other, method):
+        return False
     ratios = []
     for mine, theirs in zip(method.errors, other.errors, strict=True):
         ratios.append(max(mine.error, ROUNDING) / max(theirs.error, ROUNDING))
-    if slower > _AS_QUICK or max(ratios) > _AS_EXACT:
+    if max(ratios) > _AS_EXACT:
         return False
-    if min(ratios) < 1 / _AS_EXACT:
+    if min(ratios) < 1 / _AS_EXACT or _is_quicker(method, other):
         return True
-    return slower < 1
+    return method.seconds.median < other.seconds.median
+
+
+def _is_quicker(method: Measured, other: Measured) -> bool:
+    """Return whether a method is clearly quicker: by more than the spread of both run times."""
+    apart = method.seconds.upper < other.seconds.lower
+    return apart and method.seconds.median * _AS_QUICK < other.seconds.median

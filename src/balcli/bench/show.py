@@ -35,18 +35,13 @@ def _list_rows(result: Bench) -> Iterator[tuple[object, ...]]:
 
 def sheet(result: Bench, _system: System) -> Sheet:
     """Return a table for each task, and a table of the ratios."""
-    grids = list_grids(result)
+    grids = [_make_grid(block) for block in result.blocks]
     ratios = [
         Column("", [ratio.what for ratio in result.ratios], words=True),
         Column("ratio", [number(ratio.value, 3) for ratio in result.ratios]),
     ]
     grids.append(Grid("Ratios of run times", ratios))
     return Sheet(TITLE, tuple(grids))
-
-
-def list_grids(result: Bench) -> list[Grid]:
-    """Return a table for each task."""
-    return [_make_grid(block) for block in result.blocks]
 
 
 def _make_grid(block: Block) -> Grid:
