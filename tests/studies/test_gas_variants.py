@@ -181,6 +181,21 @@ def test_variants_that_are_computed_together_are_each_of_them(case):
         assert here == pytest.approx(expected, rel=1e-12, abs=1e-12 * np.abs(expected).max())
 
 
+def test_fluctuations_share_their_gas_and_the_variant_that_stalls_is_told(tmp_path):
+    text = FOUR + "[flywheel]\ninertia = 150000\n"
+    engine = build_text(text)
+    grid = {"piston.mass": [0.4, 0.6], "gas.imep": [6, 9]}
+    found = balcli.sweep(engine, grid, "fluctuation,torque.max")
+    for k, mass in enumerate(grid["piston.mass"]):
+        for j, mean in enumerate(grid["gas.imep"]):
+            alone = balcli.sweep(engine, {"piston.mass": mass, "gas.imep": mean}, "fluctuation,torque.max")
+            for name in ("fluctuation", "torque.max"):
+                assert found[name][k, j] == pytest.approx(alone[name].item(), rel=1e-12)
+    path = write(tmp_path / "four.toml", text.replace("speed = 4000", "speed = 320"))
+    told = refusal("sweep", path, "--vary", "gas.imep=1,8,9", "-q", "fluctuation")
+    assert told.startswith(f"{path}: gas.imep = 8: the shaft stalls at")
+
+
 def test_what_cannot_be_computed_together_is_left_out():
     """Angles of the cycle, cycles that turn at angles of their own, single cylinders, linkages; impossible variants."""
 

@@ -137,6 +137,12 @@ class PiecewiseCurve:
             values[here] = np.tensordot(basis[here], self.series[:, k], 1)
         return values
 
+    def split(self) -> Iterator[PiecewiseCurve]:
+        """Yield the curve of each member of the figure, in the order of its flat index."""
+        flat = self.series.reshape(*self.series.shape[:2], -1)
+        for member in range(flat.shape[2]):
+            yield PiecewiseCurve(self.breaks, flat[:, :, member])
+
     def repeated(self, times: int) -> PiecewiseCurve:
         """Return the curve repeated several times, as one period."""
         parts = [PiecewiseCurve(self.breaks + k * self.period, self.series) for k in range(times)]

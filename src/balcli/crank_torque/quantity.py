@@ -4,19 +4,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 
 import numpy as np
 
 from ..core.phasors import Array
+from ..core.piecewise import resolved
+from ..core.speed_ripple import StallError, speed_variation
 from ..engine.build import build
 from ..engine.engine import Engine
 from ..engine.load import FiguresOfVariants, build_jointly, find_joint_figures
 from ..errors import BalcliError
 from ..file.model import EngineFile
-from ..forces.curves import find_constant_inertia, find_torque_curves
+from ..forces.curves import (
+    find_constant_inertia,
+    find_gas_once,
+    find_moving_inertia,
+    find_torque_curves,
+)
 from ..forces.quantity import TargetQuantity
-from .answer import torque
 
 FLUCTUATION = "fluctuation"
 _NAMES = ("torque.mean", "torque.max", "torque.min", FLUCTUATION)
@@ -48,6 +55,44 @@ def _measure_torque(engine: Engine) -> dict[str, Array]:
     return {"torque.mean": curves.gas.means, "torque.max": highest, "torque.min": lowest}
 
 
+def _find_fluctuations(engine: Engine) -> Array:
+    """Return the fluctuation of the speed, with the trailing axis of the gas.
+
+    Raises:
+        BalcliError: The file gives no inertia, or the crank stalls.
+    """
+    constant = find_constant_inertia(engine)
+    if constant is None:
+        raise BalcliError(NO_INERTIA)
+    torque = find_gas_once(engine)
+    course = resolved(find_moving_inertia(engine), torque.breaks)  # faster to evaluate
+
+    def find_inertia(angle: Array) -> Array:
+        return constant + course.at(angle)
+
+    omega = float(engine.omega)
+    try:
+        each = [speed_variation(own, find_inertia, omega).fluctuation for own in torque.split()]
+    except StallError as error:
+        raise BalcliError(str(error)) from None
+    return np.reshape(each, torque.figure)
+
+
+def _measure(engine: Engine, names: Collection[str]) -> dict[str, Array]:
+    """Return quantities by name; they have a trailing axis if variants differ in them.
+
+    Raises:
+        BalcliError: The fluctuation needs an inertia that the file does not give, or the crank
+            stalls.
+    """
+    values = dict[str, Array]()
+    if any(name != FLUCTUATION for name in names):
+        values |= _measure_torque(engine)
+    if FLUCTUATION in names:
+        values[FLUCTUATION] = _find_fluctuations(engine)
+    return values
+
+
 def evaluate_engine(engine: Engine, quantities: Sequence[TargetQuantity]) -> list[float]:
     """Return the value of each quantity of one engine with gas.
 
@@ -55,21 +100,12 @@ def evaluate_engine(engine: Engine, quantities: Sequence[TargetQuantity]) -> lis
         BalcliError: The fluctuation needs an inertia that the file does not give, or the crank
             stalls.
     """
-    values = dict[str, float]()
-    if any(q.name != FLUCTUATION for q in quantities):
-        values |= {name: float(value) for name, value in _measure_torque(engine).items()}
-    if any(q.name == FLUCTUATION for q in quantities):
-        computed = torque(engine, [1])
-        if not hasattr(computed, "flywheel"):
-            raise BalcliError(NO_INERTIA)
-        if not hasattr(computed.flywheel, "fluctuation"):
-            raise BalcliError(computed.flywheel.stall or NO_INERTIA)
-        values[FLUCTUATION] = computed.flywheel.fluctuation
-    return [values[q.name] for q in quantities]
+    values = _measure(engine, [q.name for q in quantities])
+    return [float(values[q.name]) for q in quantities]
 
 
-class TorqueOfVariants(FiguresOfVariants[TargetQuantity]):
-    """Evaluator of means and extremes of the torque for the variants of an engine with gas.
+class Variants(FiguresOfVariants[TargetQuantity]):
+    """Evaluator of quantities for the variants of an engine with gas.
 
     Args:
         model: Engine file.
@@ -78,39 +114,29 @@ class TorqueOfVariants(FiguresOfVariants[TargetQuantity]):
 
     def __init__(self, model: EngineFile, quantities: Sequence[TargetQuantity]) -> None:
         super().__init__(evaluate_engine, model, quantities)
+        self._names = [q.name for q in quantities]
+        self._only_gas = FLUCTUATION in self._names
 
     def joins(self, path: str, others: Iterable[str]) -> bool:
         """Return whether variants that differ only in one figure are computed together; see
         `studies.quantities.JointVariants`.
         """
-        return path in find_joint_figures(self._model, (path, *others)).all
+        figures = find_joint_figures(self._model, (path, *others), only_gas=self._only_gas)
+        return path in figures.all
 
     def evaluate_jointly(self, variants: Sequence[Mapping[str, float]]) -> dict[int, list[float]]:
         """Return the value of each quantity for the variants that can be computed together, by
-        their places among all variants.
+        their places among all variants. A group of variants in which the crank of one stalls is
+        left out.
 
         Args:
             variants: Varied figures of each variant, by dotted name.
         """
-        names = [q.name for q in self._quantities]
         rows = dict[int, list[float]]()
-        for places, engine in build_jointly(self._model, variants):
-            torques = _measure_torque(engine)
-            shape = (len(places),)
-            columns = np.stack([np.broadcast_to(torques[name], shape) for name in names])
-            rows |= dict(zip(places, columns.T.tolist(), strict=True))
+        for places, engine in build_jointly(self._model, variants, only_gas=self._only_gas):
+            with suppress(BalcliError):
+                values = _measure(engine, self._names)
+                shape = (len(places),)
+                columns = [np.broadcast_to(values[name], shape) for name in self._names]
+                rows |= dict(zip(places, np.transpose(columns).tolist(), strict=True))
         return rows
-
-
-def Variants(
-    model: EngineFile, quantities: Sequence[TargetQuantity]
-) -> FiguresOfVariants[TargetQuantity]:
-    """Return an evaluator of quantities for the variants of an engine with gas.
-
-    Args:
-        model: Engine file.
-        quantities: Quantities to evaluate.
-    """
-    if any(q.name == FLUCTUATION for q in quantities):
-        return FiguresOfVariants(evaluate_engine, model, quantities)
-    return TorqueOfVariants(model, quantities)

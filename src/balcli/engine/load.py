@@ -190,7 +190,7 @@ class JointEngine(NamedTuple):
 
 
 def build_jointly(
-    model: EngineFile, variants: Sequence[Mapping[str, float]]
+    model: EngineFile, variants: Sequence[Mapping[str, float]], *, only_gas: bool = False
 ) -> Iterator[JointEngine]:
     """Yield the variants of a file whose torque can be computed together, in groups. The members of
     a group differ only in joint figures (`find_joint_figures`). A variant that is alone in its
@@ -199,8 +199,9 @@ def build_jointly(
     Args:
         model: Engine file.
         variants: Varied figures of each variant, by dotted name; all variants have the same names.
+        only_gas: Whether the members of a group differ only in their gas.
     """
-    joint = find_joint_figures(model, variants[0])
+    joint = find_joint_figures(model, variants[0], only_gas=only_gas)
     groups: dict[Values, list[int]] = {}
     for place, values in enumerate(variants):
         own = tuple((path, value) for path, value in values.items() if path not in joint.all)
@@ -238,18 +239,21 @@ class JointFigures(NamedTuple):
         return self.of_gas | self.of_inertia
 
 
-def find_joint_figures(model: EngineFile, varied: Iterable[str]) -> JointFigures:
+def find_joint_figures(
+    model: EngineFile, varied: Iterable[str], *, only_gas: bool = False
+) -> JointFigures:
     """Return those of the varied figures of which arrays can be computed together.
 
     Args:
         model: Engine file.
         varied: Dotted names of the figures that vary.
+        only_gas: Whether to return only figures of the gas.
     """
     paths = frozenset(varied)
     if model.gas is None:
         return JointFigures(frozenset(), frozenset())
     of_inertia = frozenset(path for path in paths if not concerns_gas(path, model.gas))
-    if model.articulation is not None or model.layout.rotary:
+    if only_gas or model.articulation is not None or model.layout.rotary:
         of_inertia = frozenset()
     return JointFigures(list_joint_paths(model, paths) & paths, of_inertia)
 

@@ -212,15 +212,8 @@ def find_torque_curves(engine: Engine) -> TorqueCurves:
     Raises:
         BalcliError: The engine has no gas.
     """
-    from ..core.cylinder_pressure import crank_torque  # engines without gas do not load it
-
-    gas = take_gas(engine)
     times = count_repeats(engine)
-    cylinders = [(c.torque, c.fires, c.share) for c in gas.cylinders]
-    # If a two-stroke engine is geared to a four-stroke one, it has two cycles in the common cycle.
-    twice = [c for c in gas.cylinders if engine.placed and 1.5 * c.torque.curve.period < gas.cycle]
-    cylinders += [(c.torque, c.fires + c.torque.curve.period, 0.0) for c in twice]
-    once = crank_torque(cylinders, gas.cycle / times)
+    once = find_gas_once(engine)
     inertia = find_inertia_torque(engine)
 
     def add(angle: Array) -> Array:
@@ -231,6 +224,22 @@ def find_torque_curves(engine: Engine) -> TorqueCurves:
 
     total = resolved(add, once.breaks, each=True)
     return TorqueCurves(once.repeated(times), total.repeated(times), once)
+
+
+def find_gas_once(engine: Engine) -> PiecewiseCurve:
+    """Return the gas torque of an engine over one period (`TorqueCurves.gas_once`).
+
+    Raises:
+        BalcliError: The engine has no gas.
+    """
+    from ..core.cylinder_pressure import crank_torque  # engines without gas do not load it
+
+    gas = take_gas(engine)
+    cylinders = [(c.torque, c.fires, c.share) for c in gas.cylinders]
+    # If a two-stroke engine is geared to a four-stroke one, it has two cycles in the common cycle.
+    twice = [c for c in gas.cylinders if engine.placed and 1.5 * c.torque.curve.period < gas.cycle]
+    cylinders += [(c.torque, c.fires + c.torque.curve.period, 0.0) for c in twice]
+    return crank_torque(cylinders, gas.cycle / count_repeats(engine))
 
 
 def count_repeats(engine: Engine) -> int:
