@@ -36,6 +36,7 @@ from .phasors import Array, Figure, open_axes
 from .piecewise import Function, PiecewiseCurve, find_zeros, join, resolved
 
 _BURNT = 6.908  # -ln 0.001
+_PANEL = 0.25  # rad; on narrower panels, few burns and expansions need any halving
 
 # Figures that a user can prescribe for each kind of cycle; the heat follows from them.
 GOALS = {
@@ -144,7 +145,7 @@ def gas_cycle(piston: GasPiston, process: Process, goal: Goal) -> GasCycle:
     curves = []
     for end, law in cycle.list_laws(heat):
         if end > breaks[-1]:
-            curves.append(resolved(law, [breaks[-1], end], each=True))
+            curves.append(resolved(law, [breaks[-1], end], _PANEL, each=True))
             breaks.append(end)
     return GasCycle(join(curves), np.array(breaks), heat, cycle.find_imep(heat))
 
@@ -236,8 +237,10 @@ class _Cycle:
         if p.cycle == "wiebe":
             self.end = self.start + math.radians(p.burn_duration)
             self.released = -math.expm1(-_BURNT)
-            self.lost = resolved(self._widen, [self.start, self.end], each=True).antiderivative()
-            self.grown = self._grow(np.array(self.end))
+            during = [self.start, self.end]
+            self.lost = resolved(self._widen, during, _PANEL, each=True).antiderivative()
+            end = np.array(self.end)
+            self.grown = self._grow(end, self.find_volume(end))
 
     def find_volume(self, angle: Array) -> Array:
         """Return the volume (m3) at cycle angles."""
@@ -262,8 +265,9 @@ class _Cycle:
             return []
 
         def burn(angle: Array) -> Array:
-            constant = self.constant + (self.index - 1) * heat * self._grow(angle)
-            return constant / self.find_volume(angle) ** self.index
+            volume = self.find_volume(angle)
+            constant = self.constant + (self.index - 1) * heat * self._grow(angle, volume)
+            return constant / volume**self.index
 
         return [(self.start, self._expand(self.constant, self.index)), (self.end, burn)]
 
@@ -281,14 +285,17 @@ class _Cycle:
         power = self.find_volume(angle) ** (self.index - 2)
         return (self.index - 1) * self._find_burnt(angle) * power * rate
 
-    def _grow(self, angle: Array) -> Array:
-        """Return the integral of V^(n-1) dx from the start of the burn, where x is the burnt share.
-        It is integrated by parts, `x V^(n-1) - (n-1) integral of x V^(n-2) dV`, because x is
-        smoother than its derivative.
+    def _grow(self, angle: Array, volume: Array) -> Array:
+        """Return the integral of V^(n-1) dx from the start of the burn to cycle angles during the
+        burn, where x is the burnt share. It is integrated by parts, `x V^(n-1) - (n-1) integral of
+        x V^(n-2) dV`, because x is smoother than its derivative.
+
+        Args:
+            angle: Cycle angles, rad.
+            volume: Volumes at these angles, m3.
         """
-        at = np.clip(angle, self.start, self.end)
-        power = self.find_volume(at) ** (self.index - 1)
-        return self._find_burnt(at) * power - self.lost.within(at)
+        power = volume ** (self.index - 1)
+        return self._find_burnt(angle) * power - self.lost.within(angle)
 
     # ------------------------------------------------------------ the whole cycle
     def list_laws(self, heat: Figure) -> list[tuple[float, Function]]:

@@ -45,6 +45,7 @@ _NODES = 32
 _MOST_WAVES = 2**21  # values of a wave at once, so that high harmonics take little memory
 _SAME = 1e-11  # rad; an angle this close to a breakpoint is the breakpoint
 _NEWTON_STEPS = 6
+_SHORT = 1e-9  # share of half a panel; the step after a shorter one would be below rounding
 _NO_SIGN = 1e-9  # values below this share of the largest one have no sign
 _ROUNDING = 1e-14  # values below this share of the largest value, or of the terms of a sum, are 0
 _TIE = 1e-11  # extremes that differ by less than this share of the range are equal
@@ -219,32 +220,40 @@ class PiecewiseCurve:
         """Return the number of sign changes in a period; values below 1e-9 of the largest one have
         no sign. The curve must have no figure.
         """
-        value = self._sample()[1].T.reshape(-1)
+        value = self._samples[1].T.reshape(-1)
         signs = np.sign(value[np.abs(value) > _NO_SIGN * np.abs(value).max()])
         return int(np.count_nonzero(signs != np.roll(signs, 1)))
 
-    def _sample(self) -> tuple[Array, Array]:
-        """Return points of a panel (both ends and the nodes), shape (points,), and the values there
-        on every panel, shape (points, panels, *figure).
+    @cached_property
+    def _samples(self) -> tuple[Array, Array]:
+        """Points of a panel (both ends and the nodes), shape (points,), and the values there on
+        every panel, shape (points, panels, *figure).
         """
         points = np.concatenate([[-1.0], gauss(max(len(self.series), 2))[0], [1.0]])
         basis = legendre.legvander(points, len(self.series) - 1)
         return points, np.tensordot(basis, self.series, 1)
 
+    @cached_property
+    def _rates(self) -> tuple[Array, Array]:
+        """Series of the first and second derivative by the place in the panel, from -1 to 1."""
+        slope = np.asarray(legendre.legder(self.series), float)
+        return slope, np.asarray(legendre.legder(slope), float)
+
     def _find_tops(self, sign: int) -> tuple[Array, Array]:
         """Return angle and value of the lowest (sign -1) or highest (sign 1) point, by Newton's
         method from the best point of every panel, shape (*figure) each.
         """
-        points, values = self._sample()
+        points, values = self._samples
         tie = _TIE * np.ptp(values, axis=(0, 1))
         noise = _ROUNDING * np.abs(values).max(axis=(0, 1))
         heights = sign * values
         start = x = points[np.argmax(heights >= heights.max(axis=0) - tie, axis=0)]
-        rate = legendre.legder(self.series)
-        bend = legendre.legder(rate)
         for _ in range(_NEWTON_STEPS):
-            slope, curved = (legendre.legval(x, each, tensor=False) for each in (rate, bend))
+            before = x
+            slope, curved = (legendre.legval(x, each, tensor=False) for each in self._rates)
             x = np.clip(x - slope / np.where(sign * curved < 0, curved, np.inf), -1, 1)
+            if np.abs(x - before).max() < _SHORT:
+                break
         low, high = (sign * legendre.legval(p, self.series, tensor=False) for p in (start, x))
         x = np.where(high > low + noise, x, start)
         height = np.maximum(low, high)

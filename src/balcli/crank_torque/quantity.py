@@ -51,8 +51,8 @@ def _measure_torque(engine: Engine) -> dict[str, Array]:
     the trailing axis of the engine or of its gas.
     """
     curves = find_torque_curves(engine)
-    lowest, highest = curves.total.find_range()
-    return {"torque.mean": curves.gas.means, "torque.max": highest, "torque.min": lowest}
+    lowest, highest = curves.total_once.find_range()
+    return {"torque.mean": curves.gas_once.means, "torque.max": highest, "torque.min": lowest}
 
 
 def _find_fluctuations(engine: Engine) -> Array:

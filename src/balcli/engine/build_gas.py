@@ -62,6 +62,7 @@ _HARMONICS = (Head("order"), Head("cos"), Head("sin"))
 # above this ratio. If the fuel uses all the air, the ratio is 34: 2.95 MJ per kg of air at 300 K,
 # for petrol and Diesel fuel alike.
 HEAT_MOST = 40.0
+_NO_KEYS = Override.model_construct()  # table of a cylinder that has none
 _KEPT = 512  # number of speeds for which the gas is cached
 _OVERSPEED = 1.6  # beyond this multiple of the rated speed, the gas is not interpolated
 Table = TypeVar("Table", bound=FileTable)
@@ -121,7 +122,8 @@ def build_gas(parts: Parts) -> EngineGas:
         _find_diameter(parts, number, "piston_rod_diameter", "rod_diameter")
         for number in parts.numbers
     ]
-    if problems := list(_list_contradictions(parts, gas, bores, rods)):
+    sources = [_find_source(parts, gas, number) for number in parts.numbers]
+    if problems := list(_list_contradictions(parts, gas, sources, bores, rods)):
         raise InputError(problems)
     areas = [math.pi / 4 * (bore / 1e3) ** 2 for bore in bores]
     rod_areas = [math.pi / 4 * (rod / 1e3) ** 2 for rod in rods]
@@ -132,7 +134,6 @@ def build_gas(parts: Parts) -> EngineGas:
         return read_columns(locate_beside(parts.model.folder, name), heads)
 
     make = partial(_build_steady, parts, gas_pistons, read)
-    sources = [_find_source(parts, gas, number) for number in parts.numbers]
     rows = [row for row, one in enumerate(sources) if one.heat is None and one.indicator is None]
     if not gas.speeds or (gas.law and not rows):  # no cylinder follows the law
         return make(gas)
@@ -406,7 +407,7 @@ def _find_source(parts: Parts, gas: Gas, number: int) -> _Source:
     if own_table:
         gas = take_of(gas, gas.of[own_table - 1])
     general = f"gas.of.{own_table}" if own_table else "gas"
-    table = parts.model.cylinder.get(number, Override.model_construct())
+    table = parts.model.cylinder.get(number, _NO_KEYS)
     heat = _take(parts, f"{path}.heat", table.heat)
     heat_path = f"{general}.heat" if heat is None else f"{path}.heat"
     share = _take(parts, f"{path}.gas", 1.0 if table.gas is None else table.gas) or 0.0
@@ -420,7 +421,11 @@ def _find_source(parts: Parts, gas: Gas, number: int) -> _Source:
 
 
 def _list_pump_mistakes(
-    parts: Parts, gas: Gas, bores: Sequence[float], rods: Sequence[float]
+    parts: Parts,
+    gas: Gas,
+    sources: Sequence[_Source],
+    bores: Sequence[float],
+    rods: Sequence[float],
 ) -> Iterator[Problem]:
     """Yield the mistakes in [[gas.of]], crank ends, compressor cycles and diameters of rods."""
     yield from _check_numbers_of(parts, gas)
@@ -429,7 +434,6 @@ def _list_pump_mistakes(
             "is the torque of whole cylinders; with crank_end, give each end a diagram or a cycle"
         )
         yield Problem("gas.harmonics", message)
-    sources = [_find_source(parts, gas, number) for number in parts.numbers]
     for source in {source.table: source for source in sources}.values():
         yield from _check_ends(source)
     all_compress = all(source.compresses for source in sources)
@@ -538,15 +542,27 @@ def _check_numbers_of(parts: Parts, gas: Gas) -> Iterator[Problem]:
 
 
 def _list_contradictions(
-    parts: Parts, gas: Gas, bores: Sequence[float], rods: Sequence[float]
+    parts: Parts,
+    gas: Gas,
+    sources: Sequence[_Source],
+    bores: Sequence[float],
+    rods: Sequence[float],
 ) -> Iterator[Problem]:
-    """Yield the contradictions between [gas], keys of single cylinders and the engine."""
+    """Yield the contradictions between [gas], keys of single cylinders and the engine.
+
+    Args:
+        parts: Stages of the engine.
+        gas: Table [gas] with the varied figures.
+        sources: Gas keys that apply to each row of the cylinders.
+        bores: Bore of each row, mm; 0: not given.
+        rods: Diameter of the piston rod of each row, mm; 0: none.
+    """
     two_stroke = parts.model.layout.strokes == 2
     yield from (Problem("gas", fault) for fault in gas.contradictions())  # from varied figures
-    yield from _list_pump_mistakes(parts, gas, bores, rods)
+    yield from _list_pump_mistakes(parts, gas, sources, bores, rods)
     if not all(bores):
         yield Problem.of_missing("piston.bore", "the gas force needs it, such as bore = 86")
-    compressor_only = all(_find_source(parts, gas, number).compresses for number in parts.numbers)
+    compressor_only = all(source.compresses for source in sources)
     needs_order = not two_stroke and not compressor_only
     if needs_order and parts.order is None and len(parts.numbers) > 1:
         message = "it sets in which of two turns each cylinder fires; example: [1, 3, 4, 2]"

@@ -14,8 +14,9 @@ axes then follow the angles.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
-from typing import NamedTuple, TypeVar
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -189,20 +190,31 @@ def as_rows(values: Array) -> Array:
 
 
 # ------------------------------------------------------------------ gas and inertia over the cycle
-class TorqueCurves(NamedTuple):
-    """Torque on the crank at crank angles (rad) of one cycle, N m, at the mean speed. The curves
-    have the figure of the gas.
+@dataclass(frozen=True, eq=False)
+class TorqueCurves:
+    """Torque on the crank at crank angles (rad), N m, at the mean speed. The curves of variants
+    have a figure.
 
     Attributes:
-        gas: Gas torque of all cylinders.
-        total: Torque of gas and inertia.
-        gas_once: Gas torque over one period of `total`: one firing interval if equal cylinders fire
-            evenly, else the cycle.
+        gas_once: Gas torque of all cylinders over one period of the torque: one firing interval if
+            equal cylinders fire evenly, else the cycle.
+        total_once: Torque of gas and inertia over this period.
+        times: Number of periods in a cycle.
     """
 
-    gas: PiecewiseCurve
-    total: PiecewiseCurve
     gas_once: PiecewiseCurve
+    total_once: PiecewiseCurve
+    times: int
+
+    @cached_property
+    def gas(self) -> PiecewiseCurve:
+        """Gas torque of all cylinders over a cycle."""
+        return self.gas_once.repeated(self.times)
+
+    @cached_property
+    def total(self) -> PiecewiseCurve:
+        """Torque of gas and inertia over a cycle."""
+        return self.total_once.repeated(self.times)
 
 
 def find_torque_curves(engine: Engine) -> TorqueCurves:
@@ -212,7 +224,6 @@ def find_torque_curves(engine: Engine) -> TorqueCurves:
     Raises:
         BalcliError: The engine has no gas.
     """
-    times = count_repeats(engine)
     once = find_gas_once(engine)
     inertia = find_inertia_torque(engine)
 
@@ -223,7 +234,7 @@ def find_torque_curves(engine: Engine) -> TorqueCurves:
         return open_axes(of_gas, further) + open_axes(of_inertia, of_gas.shape[of_inertia.ndim :])
 
     total = resolved(add, once.breaks, each=True)
-    return TorqueCurves(once.repeated(times), total.repeated(times), once)
+    return TorqueCurves(once, total, count_repeats(engine))
 
 
 def find_gas_once(engine: Engine) -> PiecewiseCurve:
