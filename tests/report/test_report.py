@@ -16,6 +16,7 @@ from support.engines import GOOD, RADIAL, build_text, changed
 from support.paths import ENGINES, write
 from support.pictures import without_pictures
 
+from balcli import load_example
 from balcli.analysis.answer import analyze
 from balcli.balancing.answer import balance
 from balcli.forces.kinds import KINDS
@@ -312,3 +313,18 @@ def test_the_page_has_the_steps_of_the_ladder():
         assert [name for name in extra if name.startswith("scheme")] == more
         (second,) = (change for change in steps[2]["changes"] if change["order"] == 2)
         assert np.abs(second["force"]).max() < 1e-6
+
+
+def test_a_page_of_several_cranks_names_their_point_of_reference_and_has_no_stars():
+    """As the command does; each counterweight is on the crank of an engine."""
+    cranks = load_example("napier_deltic")
+    fitted = balance(cranks, "counterweights")
+    text = page(Answers(analyze(cranks, None, {*KINDS, "peak"}), fitted), SI)
+    assert "<h2>About the point of reference, <small>" in text
+    assert '<section id="stars" class="needs-script" hidden>' in text
+    assert 'href="#stars"' not in text
+    figures = json.loads(re.search(r'id="figures">(.*?)</script>', text, re.S)[1])
+    devices = [device for choice in figures["page"]["extra"] for device in choice["devices"]]
+    assert {device["crank"] for device in devices} == {device.engine for device in fitted.remedy.devices}
+    assert "<h2>About the crank axis, <small>" in report(GOOD)
+    assert '<section id="stars" class="needs-script">' in report(GOOD)

@@ -142,7 +142,7 @@ def _describe_table(device: DeviceTable, free: bool) -> Node:
         "position_mm": device.position,
     }
     if isinstance(device, Counterweight):
-        return vectors
+        return vectors | ({"crank": device.engine} if device.engine else {})
     speed = device.ratio if isinstance(device, Shaft) else device.order
     return vectors | {"ratio": speed, "at_mm": list(device.at), "free": free}
 

@@ -240,12 +240,15 @@ def page(
 
 
 class PageParts(NamedTuple):
-    """Parts of the page that the command prints as well; None: the engine has no such part."""
+    """Parts of the page that the command prints as well; None: the engine has no such part. `pivot`
+    is the name of the axis or point about which couple and roll are taken.
+    """
 
     facts: Facts
     verdict: Text | None
     orders: Grid
     couple: Grid | None
+    pivot: str
     largest: Facts
     gas: Grid | None
     ladder: Grid
@@ -267,6 +270,7 @@ def lay_out(result: Analysis, balanced: Balance, system: System) -> PageParts:
         verdict=next(analysis.lay_out_verdict(result, system), None),
         orders=next(analysis.lay_out_orders(result, system, view)),
         couple=next(analysis.lay_out_couple(result, system), None),
+        pivot=pivot,
         largest=roll_and_peaks(result, system, every_order=every),
         gas=next(gas_grid(result.spectra, system, pivot, view), None),
         ladder=ladder_grid(ladder, engine, system, tell_fitted=usual, tell_skirt=True),

@@ -196,11 +196,14 @@ const Tables = (() => {
       words: [0, 3, 4],
     };
   }
-  function writeDevice({ device, ratio, unbalance_kg_m, angle_deg, free, at_mm, position_mm }, unit) {
+  function writeDevice({ device, crank, ratio, unbalance_kg_m, angle_deg, free, at_mm, position_mm }, unit) {
     const unbalance = number(unbalance_kg_m / unit.size);
     const angle = degrees(angle_deg);
     const position = writeLength(position_mm / 1e3);
-    if (device === "counterweight") return [device, "1", unbalance, `${angle} from pin 1`, "crank axis", position];
+    if (device === "counterweight") {
+      const axis = crank ? `crank of ${crank}` : "crank axis";
+      return [device, "1", unbalance, `${angle} from pin 1`, axis, position];
+    }
     const place = free ? "free" : at_mm.map((mm) => writeLength(mm / 1e3)).join(", ");
     return [device, writeRatio(ratio), unbalance, angle, place, position];
   }
