@@ -101,6 +101,10 @@ def test_what_does_not_fit_is_said_in_every_form(tmp_path, minimise):
     assert largest > 100
     for form in ("table", "markdown"):
         assert f"{largest:.4g}" in ask("field", path, "--minimise", minimise, "-f", form)
+
+
+def test_what_does_not_fit_is_said_in_rows_and_on_the_picture(tmp_path):
+    path = write(tmp_path / "runs.toml", three_runs('name = "fan"\nplaces = [[0, 40, 80], "free"]'))
     figures = {(r["part"], r["name"], r["figure"]): r["value"] for r in ask_csv("field", path)}
     assert figures["correction", "front", "at_limit"] == "true"
     assert float(figures["details", "", "largest"]) > 100

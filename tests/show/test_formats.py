@@ -36,7 +36,7 @@ SHOWN = {  # by renderer
     "published": ("tables", "published"),
     "record": ("torque", "--curve", ENGINES.parent / "benchmark" / "25-gas-of-a-single" / "pressure.csv", "--quiet"),
     "search": ("search", V8, "--over", "throws", "--minimise", "moment.1.major"),
-    "speeds": ("analyze", V6, V8, "--speed", "60:124:8", "--only", "force,peak,inner"),
+    "speeds": ("analyze", V6, V8, "--speed", "60:124:32", "--only", "force,peak,inner"),
     "table_list": ("tables",),
     "scatter": ("scatter", V8, "--samples", "100", "--seed", "1"),
     "locomotive": ("locomotive", ENGINES / "historic/locomotive4.toml"),

@@ -5,6 +5,7 @@ calculation on a grid.
 import math
 import re
 import tomllib
+from functools import cache
 
 import numpy as np
 import pytest
@@ -57,6 +58,7 @@ def fit(text: str, factor: float = 0.5, **options: object) -> Remedy:
 
 
 # ------------------------------------------------------------------ what it leaves
+@cache
 def pull_of_pins(text: str, factor: float) -> tuple[np.ndarray, np.ndarray, float]:
     """Force and moment (N, N m) over the crank angle of what the factor balances: every rod's
     rotating mass, its share of the throw and a share of what goes to and fro, as a point that
@@ -81,6 +83,12 @@ def pull_of_pins(text: str, factor: float) -> tuple[np.ndarray, np.ndarray, floa
     return force, moment, sizes
 
 
+@cache
+def find_curves(text: str | bytes) -> momentum.Curves:
+    """What the parts of a file do over the crank angle, by their momentum."""
+    return momentum.Engine.read(text).curves()
+
+
 @pytest.mark.parametrize("planes", [None, "ends", "throws", (-0.21, 0.33), (-0.3, -0.05, 0.01, 0.2), (0.02,)])
 @pytest.mark.parametrize("weights", ["", WEIGHTS])
 @pytest.mark.parametrize("name", ["ford", "twin", "unequal", "inline"])
@@ -91,7 +99,7 @@ def test_what_is_left_is_the_engine_without_what_the_factor_takes(name, weights,
     text = {"ford": FORD, "twin": TWIN, "unequal": UNEQUAL, "inline": INLINE}[name]
     remedy = fit(text + weights, 0.53, planes=planes)
     written = insert_remedy((text + weights).encode(), remedy)
-    left, bare = (momentum.Engine.read(t).curves() for t in (written, text))
+    left, bare = (find_curves(t) for t in (written, text))
     force, moment, scale = pull_of_pins(text, 0.53)
     assert find_orders(left.force) == pytest.approx(find_orders(bare.force - force), abs=1e-11 * scale)
     one_throw = name == "twin" and weights and planes == "throws"
