@@ -349,9 +349,10 @@ class NumbersJudge:
     def _judge(self, points: Array) -> Array:
         columns = dict(zip(self.paths, points.T, strict=True))
         try:
-            costs = self.objective.judge(self.evaluate(points))
-            if self.even_firing:
-                uneven = find_unevenness(self._evaluator.build(columns, 1), self.model)
+            engine = self._evaluator.build(columns, 1) if self.even_firing else None
+            costs = self.objective.judge(self.evaluate(points, engine))
+            if engine is not None:
+                uneven = find_unevenness(engine, self.model)
                 missed = np.where(uneven > _EVEN_DEG, BROKEN * (1 + uneven), -np.inf)
                 costs = np.maximum(costs, missed)
         except InputError as error:
@@ -364,14 +365,18 @@ class NumbersJudge:
         self.tell(self._count)
         return costs
 
-    def evaluate(self, points: Array) -> dict[AnyQuantity, Array]:
+    def evaluate(self, points: Array, engine: Engine | None = None) -> dict[AnyQuantity, Array]:
         """Return the values of each quantity, shape (points,).
+
+        Args:
+            points: Values of the numbers, shape (points, numbers).
+            engine: All points as one engine, if it is built already.
 
         Raises:
             InputError: The engine of a point is impossible.
         """
         columns = dict(zip(self.paths, points.T, strict=True))
-        return self._evaluator.evaluate(columns, (len(points),))
+        return self._evaluator.evaluate(columns, (len(points),), engine)
 
 
 def find_unevenness(engine: Engine, model: EngineFile) -> Array:
