@@ -41,24 +41,21 @@ HOSTILE = '</script><img src=x onerror=alert(1)> & "quoted" {{ 7 * 7 }} 发动�
 
 @pytest.fixture
 def show(browser, report):
-    """Show the page of an engine, anew or with another address: the state of a page is that of its address."""
+    """Show the page of an engine, which may be shown already: the state of a page is that of its address."""
 
     def opened(text: str = GOOD, address: str = "", *options: str, name: str = "engine.toml", **how):
-        page = report(text, *options, name=name)
-        if address:
-            browser.keep(page, **how)
+        kept = browser.keep(report(text, *options, name=name), **how)
+        if kept or address:
             go(browser, address)
-        else:
-            browser.open(page, **how)
         return browser
 
     return opened
 
 
 def go(page, address):
-    """Follow an address within the page, which may have it already."""
+    """Follow an address within the page, which may have it already: another one is put in its place before."""
     listen = "addEventListener('hashchange', () => setTimeout(done, 0), { once: true })"
-    follow = f"history.replaceState(null, '', location.pathname), location.hash = {json.dumps(address)}"
+    follow = f"history.replaceState(null, '', '#another'), location.hash = {json.dumps(address)}"
     page.run(f"new Promise(done => {{ {listen}; {follow}; }})")
 
 

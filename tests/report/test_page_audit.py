@@ -28,13 +28,15 @@ def pages(tmp_path_factory):
 
 
 @live
-@pytest.mark.parametrize(("width", "dark"), [(1280, False), (1280, True), (390, True)])
+@pytest.mark.parametrize(("width", "schemes"), [(1280, ["light", "dark"]), (390, ["dark"])])
 @pytest.mark.parametrize("name", ["i6_diesel", "i4_mounts"])
-def test_nothing_serious_is_found_before_and_after_a_change(browser, pages, name, width, dark):
-    browser.open(pages[name], width=width, dark=dark)
-    before = browser.run(AUDIT)
-    browser.run(f"{SHORTER}, {WAIT}")
-    assert (before, browser.run(AUDIT)) == ([], [])
+def test_nothing_serious_is_found_before_and_after_a_change(browser, pages, name, width, schemes):
+    browser.open(pages[name], width=width, dark="light" not in schemes)
+    for change in ("0", SHORTER):
+        browser.run(change if change == "0" else f"{change}, {WAIT}")
+        for scheme in schemes:
+            browser.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": scheme}])
+            assert browser.run(AUDIT) == [], f"{scheme} after {change}"
 
 
 HARMS = {  # each by what is then found
