@@ -19,7 +19,7 @@ from balcli.torsional_vibration.motion import compute_curves
 from balcli.torsional_vibration.plot import make_torsion
 
 CHAIN = template("torsion")  # the file to start from
-RANGE = ("--speeds", "850:1150:5")
+RANGE = ("--speeds", "850:1150:10")
 LOW_ORDERS = ("--orders", "0.5-12")  # of the Diesel, those that matter
 SPRING = float((1000 * np.pi / 30) ** 2)  # N m/rad: 1 kg m2 on it has a natural frequency of 1000 rpm
 
@@ -65,7 +65,7 @@ def test_houdaille_optimum(ratio):
 
 
 def test_the_file_s_own_damper_is_off_where_it_is_told_what_there_is_without_one():
-    speeds = ("--speeds", "3000:4600:20", *LOW_ORDERS)
+    speeds = ("--speeds", "3000:4600:100", *LOW_ORDERS)
     fitted = on_pulley('{ kind = "viscous", inertia = 20000, damping = 30 }')
     stress = largest(ask_torsion(write_diesel(), *speeds), "stress_Pa") / 1e6
     assert largest(ask_torsion(fitted, *speeds), "stress_Pa") / 1e6 < 0.9 * stress
@@ -77,7 +77,7 @@ def test_the_file_s_own_damper_is_off_where_it_is_told_what_there_is_without_one
 @pytest.mark.parametrize(("kind", "key"), [("viscous", "damping_Nms_per_rad"), ("rubber", "stiffness_Nm_per_rad")])
 def test_no_other_figure_is_better(kind, key):
     """Of the Diesel with its inertia torque, over the range in which order 3 is critical."""
-    options = ("--speeds", "3000:4600:50", *LOW_ORDERS)
+    options = ("--speeds", "3000:4600:100", *LOW_ORDERS)
     sized = ask_torsion(write_diesel(), *options, "--damper", kind, "--damper-at", "pulley")
     damper = sized["damper"]
     assert damper["after_Pa"] == pytest.approx(largest(sized, "stress_Pa"))
@@ -102,7 +102,7 @@ def test_no_resonance_hides_between_the_speeds(kind):
 
 
 def test_a_pendulum_is_tuned_to_the_order_that_does_most():
-    asked = ("--speeds", "3800:4400:20", "--orders", "3", "--damper", "pendulum", "-f", "json")
+    asked = ("--speeds", "3800:4400:50", "--orders", "3", "--damper", "pendulum", "-f", "json")
     place = ("--damper-at", "pulley", "--damper-inertia", "4000 kg mm^2")
     found = run_here("torsion", "-", *asked, *place, stdin=write_diesel())
     assert found.err.startswith("warning: standard input: the pendulums of pulley swing by ")
@@ -127,7 +127,7 @@ def test_pendulums_hang_as_far_out_as_the_crank_pins(stroke):
 
 @pytest.mark.parametrize(
     ("kind", "loss", "speeds"),
-    [("viscous", 0.02, "500:3000:50"), *itertools.product(["rubber"], [0.02, 0], ["500:3000:50", "2000:2440:40"])],
+    [("viscous", 0.02, "500:3000:100"), *itertools.product(["rubber"], [0.02, 0], ["500:3000:100", "2000:2440:40"])],
 )
 def test_a_damper_is_tuned_to_the_mode_of_the_largest_stress(kind, loss, speeds):
     """Not to that of a soft coupling, on which most work is done but which hardly twists the
@@ -144,19 +144,18 @@ def test_a_damper_is_tuned_to_the_mode_of_the_largest_stress(kind, loss, speeds)
     damper = size(genset, "--speeds", speeds, "--damper", kind)
     assert damper["mode"] == 2
     assert damper["inertia_kg_m2"] == pytest.approx({"viscous": 0.3, "rubber": 0.15}[kind] * 1.1, rel=0.01)
-    if (loss, speeds) == (0.02, "500:3000:50"):
+    if (loss, speeds) == (0.02, "500:3000:100"):
         assert damper["after_Pa"] < 0.3 * damper["before_Pa"]
 
 
-@pytest.mark.parametrize("carrier", [1, 4])
-@pytest.mark.parametrize("inertia", [1, 1.0001])
+@pytest.mark.parametrize(("inertia", "carrier"), [(1, 4), (1.0001, 1)])
 def test_a_damper_is_for_a_mode_in_which_its_carrier_moves(inertia, carrier):
     """The middle one of three discs, be it heavier than the others, which stands still, or nearly
     so, in the first mode, although that makes the largest torque.
     """
     nodes = {"a": 1, "b": carrier, "c": inertia}
     text = chain_text(nodes, {"ab": 1e5, "bc": 1e5}, [("a", 3, 50), ("b", 5, 60)], loss=0.02)
-    damper = size(text, "--speeds", "500:4000:50", "--damper", "viscous", "--damper-at", "b")
+    damper = size(text, "--speeds", "500:4000:100", "--damper", "viscous", "--damper-at", "b")
     assert damper["mode"] == 2
     there = (2 + carrier * (2 / carrier) ** 2) / (2 / carrier) ** 2
     assert damper["inertia_kg_m2"] == pytest.approx(0.3 * there, rel=1e-3)
