@@ -13,7 +13,8 @@ from functools import partial
 import numpy as np
 
 from balcli.analysis.answer import analyze
-from balcli.bench.tasks import V8, find_force, time_runs
+from balcli.bench.engine_tasks import V8, find_force
+from balcli.bench.timing import time_runs
 from balcli.engine.build import build
 from balcli.engine.engine import Engine
 from balcli.engine.parse import parse

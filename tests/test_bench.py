@@ -7,10 +7,11 @@ import numpy as np
 import pytest
 from support.paths import DOCS
 
+from balcli.bench.engine_tasks import list_engine_tasks
 from balcli.bench.methods import find_exactly, list_methods
 from balcli.bench.records import ROUNDING, Bench, Block, Measured, OrderError, Times, list_unbeaten
 from balcli.bench.show import tell_unbeaten
-from balcli.bench.tasks import ORDERS, RATIOS, list_engine_tasks, measure_errors
+from balcli.bench.tasks import ORDERS, RATIOS, measure_errors
 
 
 def coefficient(order: int, lam: float) -> mpmath.mpf:

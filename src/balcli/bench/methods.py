@@ -4,6 +4,7 @@ The acceleration is r ω² (cos ψ + sum A_n cos n ψ), with the crank angle ψ 
 axis. λ is the crank radius over the rod length. All methods take many λ side by side (variants) and
 return the coefficients A_n of the wanted orders. They take so many variants at once that their
 arrays stay in the processor's cache; larger ones would make each of them up to three times slower.
+What does not depend on λ, such as the cosines of the angles, is prepared once.
 
     series of two terms   cos ψ + λ cos 2ψ, the formula of textbooks
     closed form           what balcli uses (`core.mechanisms.closed_form`)
