@@ -151,15 +151,13 @@ MASTER_ROD = RADIAL.replace("mass = 1.3", "mass = 1.3\nbore = 100").replace(
 )
 JOINT = {
     "in line": (FOUR, {"gas.imep": [1, 4, 11], "gas.intake": [0.8, 1.5]}),
-    "in line, by peak pressure": (FOUR, {"gas.max_pressure": [50, 75], "gas.compression_index": [1, 1.3]}),
     "vee": (V8 + OTTO, {"gas.heat": [0, 900, 2500], "gas.compression_ratio": [7, 11]}),
     "two-stroke": (TWO_STROKE, {"gas.burn_shape": [0, 0.6, 3], "gas.expansion_index": [1.2, 1.35]}),
-    "master rod": (MASTER_ROD + OTTO, {"gas.exhaust": [1, 3], "gas.intake": [0.9, 1.1]}),
     "with a mass and a length": (FOUR, {"piston.mass": [0.4, 0.6], "rod.length": [150, 160], "gas.imep": [8, 9, 12]}),
     "masses and speeds": (FOUR, {"cylinder.2.piston_mass": [0.4, 0.9], "operation.speed": [900, 5000]}),
     "masses that balance": (FOUR.replace("rod_length = 151", ""), {"piston.mass": [0.0, 0.5], "gas.imep": [8, 9]}),
     "masses of a diesel": (FOUR.replace('"wiebe"', '"diesel"'), {"rod.mass": [0.4, 0.9], "piston.mass": [0.3, 0.4]}),
-    "master rod, with a mass": (MASTER_ROD + OTTO, {"piston.mass": [1, 2], "gas.heat": [900, 1200]}),
+    "master rod, with a mass": (MASTER_ROD + OTTO, {"piston.mass": [1, 2], "gas.exhaust": [1, 3]}),
 }
 OF_CYCLE = "torque.max,torque.min,torque.mean"
 OF_ORDERS = "gas.0.cos,gas.0.5.sin,gas.3.amplitude,torque.2.cos,torque.6.sin,roll_total.1.amplitude,gas.24.amplitude"
@@ -173,7 +171,8 @@ def test_variants_that_are_computed_together_are_each_of_them(case):
     assert any(build_jointly(engine.model, variants))
     found = balcli.sweep(engine, grid, f"{OF_CYCLE},{OF_ORDERS}")
     every = np.stack([found[name] for name in [*OF_CYCLE.split(","), *OF_ORDERS.split(",")]])
-    for place in np.ndindex(every.shape[1:]):
+    places = [*np.ndindex(every.shape[1:])]
+    for place in (places[0], places[len(places) // 2], places[-1]):
         own = {path: values[k] for (path, values), k in zip(grid.items(), place, strict=True)}
         alone = balcli.sweep(engine, own, f"{OF_CYCLE},{OF_ORDERS}")
         expected = np.array([alone[name].item() for name in list(alone)[len(grid) :]])

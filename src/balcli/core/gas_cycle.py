@@ -27,6 +27,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
@@ -222,6 +223,7 @@ class _Cycle:
         self.closed, self.charge, self.opened = self.find_volume(places)
         self.pressure = p.intake * (self.closed / self.charge) ** p.compression_index
         self.constant = self.pressure * self.charge**self.index  # p V^n of the charge
+        self.unit = self.pressure * self.charge  # of heat, J
         self.least: Figure = 0.0
         self.most: Figure = math.inf
         self.released = 1.0  # heat limits, J; released share
@@ -349,13 +351,27 @@ class _Cycle:
             return self._find_last(heat) / self.charge
         if self.process.cycle == "otto":
             return self.burn(heat) / self.charge**self.index
-        burning = self.list_burning(heat)[1][1]
-        breaks = [self.start, self.end]
+        share = heat / self.unit
+        cold, hot = np.moveaxis(self._peak.series, -1, 0)
+        peak = PiecewiseCurve(self._peak.breaks, (1 - share) * cold + share * hot)
+        return np.maximum(self.pressure, peak.find_range()[1])
+
+    @cached_property
+    def _peak(self) -> PiecewiseCurve:
+        """Pressure of a Wiebe cycle where it may be highest, without heat and with the heat `unit`
+        (last axis of the figure). At every angle the pressure is a linear function of the heat.
+        """
+        heats = 0.0, self.unit
+        during = [self.start, self.end]
+        laws = [self.list_burning(heat)[1][1] for heat in heats]
         if self.end < 0:
-            burning = self._expand(self.burn(heat), self.index)
-            breaks = [self.end, 0.0]
-        _, highest = resolved(burning, breaks, each=True).find_range()
-        return np.maximum(self.pressure, highest)
+            during = [self.end, 0.0]
+            laws = [self._expand(self.burn(heat), self.index) for heat in heats]
+
+        def find_both(angle: Array) -> Array:
+            return np.stack([law(angle) for law in laws], axis=-1)
+
+        return resolved(find_both, during, _PANEL, each=True)
 
     def find_heat(self, goal: Goal) -> Figure:
         """Return the heat (J) with which the cycle reaches the goal."""
@@ -364,7 +380,7 @@ class _Cycle:
         highest: Figure = math.inf
         if self.limit is not None:
             highest = self.find_goal(name, self.most)
-        guess = np.minimum(self.constant * self.charge ** (1 - self.index), self.most - self.least)
+        guess = np.minimum(self.unit, self.most - self.least)
         if name == "imep":  # more heat may not raise it
             rises = self.find_imep(self.least + guess) > lowest
             highest = np.where(rises, highest, lowest)
