@@ -428,7 +428,7 @@ def test_what_does_not_fit_is_shown_and_nothing_is_written(tmp_path):
     assert done.status == 2
     assert not out.exists()
     assert "What would help" in done.out
-    assert "Fitted webs" in done.out
+    assert "Room and missing: of its counterweight." in done.out
     assert "do not fit in an opening of 180 deg and a radius of 45 mm; what helps:" in done.err
     assert "e.toml: webs 1-2,5-6: " in done.err
     for name in ("pin bore", "lightening", "outer radius", "heavy metal"):
@@ -440,6 +440,7 @@ def test_text_of_a_fit(tmp_path):
     text = ask("balance", tmp_path / "e.toml", "--factor", "0")
     assert "Counterweights of the webs: all rotating mass and 0 of the reciprocating mass" in " ".join(text.split())
     assert "What would help" not in text
+    assert "Room and missing" not in text
     assert "of the file raise" not in text
     turned = TEXT.replace("# to be found", "\nangle = 170")
     (tmp_path / "e.toml").write_text(turned)

@@ -31,12 +31,13 @@ def lay_out_fitted(result: Balance, system: System) -> Iterator[Grid]:
         Column(f"wanted, {unit.name}", [number(unit.of(r.part.wanted_kg_m or 0.0)) for r in rows]),
         Column("at, deg", [number(row.part.wanted_own_deg) for row in rows]),
     ]
+    note = "Wanted: unbalance of the whole web."
     if any(row.part.missing_kg_m is not None for row in rows):
+        note += " Room and missing: of its counterweight."
         for head, key in (("room for", "room_kg_m"), ("missing", "missing_kg_m")):
             sizes = [getattr(row.part, key) for row in rows]
             cells = [UNKNOWN if size is None else number(unit.of(size)) for size in sizes]
             columns.append(Column(f"{head}, {unit.name}", cells))
-    note = "Wanted: unbalance of the whole web. Room and missing: of its counterweight."
     across = [_measure_across(row.part) for row in rows]
     if any(across):
         columns.append(Column(f"across, {unit.name}", [number(unit.of(size)) for size in across]))
