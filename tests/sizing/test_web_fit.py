@@ -11,7 +11,7 @@ from numpy.testing import assert_allclose
 from support.commands import ask, run_here
 from support.engines import build_text
 
-from balcli import SchemeOptions, analyze, fit_webs, load
+from balcli import SchemeOptions, analyze, balance, fit_webs, load
 from balcli.analysis.web_parts import describe_throws
 from balcli.engine.build import build
 from balcli.engine.parse import parse_dict
@@ -397,6 +397,13 @@ def test_tables_after_a_divided_one_keep_their_figures(tmp_path):
     assert [table.webs for table in written] == [(1, 2), (5, 6), None]
     assert [table.outer_radius == 80 for table in written] == [True, True, False]
     assert written[2].opening == 120
+
+
+def test_nothing_is_missing_of_a_fit():
+    """The opening has 12 digits; what this leaves is no weight."""
+    options = SchemeOptions(factor=(0.1,))
+    fitted = fit(WEB | {"opening": "fit"}, options=options).after.engine
+    assert {need.missing for need in balance(fitted, "factor", options).remedy.needs} == {0}
 
 
 def test_an_inline_list_is_written_anew(tmp_path):

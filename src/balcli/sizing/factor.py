@@ -39,6 +39,9 @@ _REACHED = 1e-12  # the search ends if the peak exceeds its bound by a smaller s
 _MEASURED = "Opposite the pin: the counterweights that the measured mass implies"
 _BESIDE_WEBS = "At the pin: what the measured mass implies beyond the webs of the file"
 _UNCHANGED = 1e-9  # a bobweight that changes by a smaller share counts as unchanged
+_WRITTEN = (
+    1e-10  # a smaller share of the unbalances is not missing: figures of files have 12 digits
+)
 
 
 class _Pin(NamedTuple):
@@ -538,7 +541,8 @@ def _find_needs(engine: Engine, factor: float, planes: tuple[float, ...] | None)
     parts = np.abs(of_pins) @ np.abs(unbalances) + np.abs(of_weights) @ np.abs(weights)
     parts += np.abs(of_rods) @ np.abs(rods)
     needs = np.stack([wanted, present, wanted - present])
-    return _Planes(z, np.where(np.abs(needs) <= LEFT * parts, 0, needs), sets)
+    least = np.array([LEFT, LEFT, _WRITTEN])[:, None] * parts
+    return _Planes(z, np.where(np.abs(needs) <= least, 0, needs), sets)
 
 
 def _share_in_any_order(places: Array, unbalances: Complex, z: Array) -> Array:
