@@ -2,6 +2,7 @@
 
 import csv
 import json
+from contextlib import suppress
 from io import StringIO
 from itertools import product
 
@@ -14,8 +15,11 @@ from support.gas_engines import PETROL_FOUR
 from support.paths import ENGINES, write
 
 import balcli
-from balcli.engine.load import build_jointly
-from balcli.forces.spectrum import compute_spectra
+from balcli.engine.build import build
+from balcli.engine.load import build_jointly, concerns_gas
+from balcli.errors import BalcliError
+from balcli.forces.spectrum import compute_gas_torque, compute_spectra
+from balcli.studies.parameters import find_places
 from balcli.studies.search.designs import NumbersJudge, parse_objective
 
 FOUR = PETROL_FOUR.replace("[rod]", "throw_mass = 0.8\n[rod]") + "[cylinder.2]\nrod_length = 151\n"
@@ -241,3 +245,21 @@ def test_a_search_judges_candidates_together_and_impossible_ones_as_infinitely_b
     assert np.isinf(costs).tolist() == [False, True, False, False]
     alone = np.concatenate([judge(point[None]) for point in points])
     assert costs[[0, 2, 3]] == pytest.approx(alone[[0, 2, 3]], rel=1e-12)
+
+
+@pytest.mark.parametrize("file", ["i4_wiebe.toml", "pumps/compressor.toml"])
+def test_all_figures_on_which_the_gas_depends_are_known(file):
+    """The gas of another bore of a single cylinder was that of the variant before it."""
+    engine = balcli.load(ENGINES / file)
+    orders = np.array([0.0, 1.0, 2.0, 3.0])
+    nominal = compute_gas_torque(engine, orders).vectors
+    unknown = []
+    for path, place in find_places(engine.model).items():
+        value = place.value if isinstance(place.value, float) else 50.0
+        if concerns_gas(path, engine.model.gas):
+            continue
+        with suppress(BalcliError):
+            varied = compute_gas_torque(build(engine.model, {path: 1.02 * value}), orders).vectors
+            if not np.array_equal(varied, nominal):
+                unknown.append(path)
+    assert unknown == []

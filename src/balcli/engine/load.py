@@ -109,8 +109,9 @@ def vary_engine(engine: E, changes: Mapping[str, object]) -> E:
 # Figures on which the gas torque of a cylinder depends, by their dotted names.
 _OF_GAS = (
     r"(gas|layout|articulation)\..*|crank\.(stroke.*|throws.*|splay)|rod\.(length|ratio)"
-    r"|piston\.(bore|offset)"
-    r"|cylinder\.\d+\.(stroke|piston_offset|rod_length|rod_ratio|bank|throw|gas|heat)"
+    r"|piston\.(bore|offset|rod_diameter)"
+    r"|cylinder\.\d+\.(stroke|bore|piston_offset|piston_rod_diameter|rod_length|rod_ratio|bank)"
+    r"|cylinder\.\d+\.(throw|gas|heat)"
 )
 
 
