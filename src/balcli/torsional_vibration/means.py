@@ -4,9 +4,9 @@ flows from their throws to the last part of `[[torsion.rear]]`, which takes all 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -70,43 +70,72 @@ def _lead_to(links: Sequence[Link], sink: int) -> Mapping[int, tuple[int, int]]:
     return onward
 
 
-class CylinderMeans(NamedTuple):
-    """Mean torques of cylinders as functions of the speed; friction does not count.
+@dataclass(frozen=True, eq=False)
+class EngineMeans:
+    """Mean torques of the cylinders of an engine with gas; friction does not count. The gas is
+    computed when it is first needed.
 
     Attributes:
-        at: Function that returns the mean torque of each cylinder, N m, shape (*speeds, cylinders),
-            at speeds, rpm. It computes the gas when it is first called.
-        nodes_rpm: Speeds at which the mean torque is not smooth.
+        engine: The engine.
     """
 
-    at: Callable[[Real], Real]
-    nodes_rpm: tuple[float, ...]
+    engine: Engine
+
+    @cached_property
+    def _gas(self) -> Real | GasAtSpeeds:
+        """Mean torque of each cylinder, N m, shape (cylinders,), or the gas that depends on the
+        speed.
+        """
+        still = replace(self.engine, ripple=(), speed_rpm=1 / RPM)  # means depend on no speed
+        if self.nodes_rpm:
+            return follow_gas(still, _find_means)
+        return np.asarray(_find_means(still)[0].real)
+
+    @property
+    def nodes_rpm(self) -> tuple[float, ...]:
+        """Speeds at which the mean torque is not smooth."""
+        gas = self.engine.gas
+        return () if gas is None else gas.nodes_rpm
+
+    def at(self, rpm: Real) -> Real:
+        """Return the mean torque of each cylinder, N m, shape (*speeds, cylinders)."""
+        gas = self._gas
+        if isinstance(gas, GasAtSpeeds):
+            return np.asarray(gas.torque(rpm)[0].real)
+        return np.broadcast_to(gas, (*np.shape(rpm), len(gas)))
+
+
+class CylinderMeans(NamedTuple):
+    """Mean torques of cylinders, some of which may be those of other engines.
+
+    Attributes:
+        own: Mean torques of the cylinders of the engine.
+        others: Row of each replaced cylinder, and the means that hold for it; None: 0.
+    """
+
+    own: EngineMeans
+    others: tuple[tuple[int, CylinderMeans | None], ...] = ()
+
+    @property
+    def nodes_rpm(self) -> tuple[float, ...]:
+        """Speeds at which the mean torque is not smooth."""
+        return self.own.nodes_rpm
+
+    def at(self, rpm: Real) -> Real:
+        """Return the mean torque of each cylinder, N m, shape (*speeds, cylinders)."""
+        means = np.array(self.own.at(rpm))
+        for row, other in self.others:
+            means[..., row] = 0.0 if other is None else other.at(rpm)[..., row]
+        return means
 
     def replace_cylinder(self, row: int, other: CylinderMeans | None) -> CylinderMeans:
         """Return the means in which one cylinder has its mean torque in other ones; None: 0."""
-
-        def find_means(rpm: Real) -> Real:
-            means = np.array(self.at(rpm))
-            means[..., row] = 0.0 if other is None else other.at(rpm)[..., row]
-            return means
-
-        return self._replace(at=find_means)
+        return self._replace(others=(*self.others, (row, other)))
 
 
 def find_cylinder_means(engine: Engine) -> CylinderMeans | None:
     """Return the mean torques of the cylinders of an engine; None without gas."""
-    if engine.gas is None:
-        return None
-    still = replace(engine, ripple=(), speed_rpm=1 / RPM)  # means depend on no speed
-
-    @cache
-    def follow() -> GasAtSpeeds:
-        return follow_gas(still, _find_means)
-
-    def find_means(rpm: Real) -> Real:
-        return np.asarray(follow().torque(rpm)[0].real)
-
-    return CylinderMeans(find_means, engine.gas.nodes_rpm)
+    return None if engine.gas is None else CylinderMeans(EngineMeans(engine))
 
 
 @dataclass(frozen=True, eq=False)
