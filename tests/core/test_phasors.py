@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 import pytest
+from numpy.testing import assert_allclose
 
 from balcli.core.phasors import EPS, Phasors, unit, wrap_degrees
 
@@ -46,8 +47,8 @@ def test_unit_elsewhere_is_within_two_ulp():
 def test_ellipse_against_the_curve(forward, backward, order):
     """Longest and shortest distance from the centre, and where the longest one points."""
     phasors = one(forward, backward, order)
-    curve = np.array([forward * cmath.exp(1j * order * t) + backward * cmath.exp(-1j * order * t) for t in THETA])
-    assert phasors.values(THETA) == pytest.approx(curve, abs=1e-12)
+    curve = forward * np.exp(1j * order * THETA) + backward * np.exp(-1j * order * THETA)
+    assert_allclose(phasors.values(THETA), curve, rtol=0, atol=1e-12)
     size = np.abs(curve)
     assert phasors.major[0] == pytest.approx(size.max(), rel=1e-5)
     assert phasors.minor[0] == pytest.approx(size.min(), abs=1e-2)
@@ -79,8 +80,8 @@ def test_a_circle_and_a_balanced_order_have_no_axis(forward, backward):
 def test_components_along_x_and_y(forward, backward):
     phasors = one(forward, backward, 3)
     curve = phasors.values(THETA)
-    assert (phasors.x[0] * np.exp(3j * THETA)).real == pytest.approx(curve.real, abs=1e-13)
-    assert (phasors.y[0] * np.exp(3j * THETA)).real == pytest.approx(curve.imag, abs=1e-13)
+    assert_allclose((phasors.x[0] * np.exp(3j * THETA)).real, curve.real, rtol=0, atol=1e-13)
+    assert_allclose((phasors.y[0] * np.exp(3j * THETA)).real, curve.imag, rtol=0, atol=1e-13)
 
 
 # ------------------------------------------------------------------ scalars and means
@@ -89,7 +90,7 @@ def test_a_scalar_is_a_real_curve():
     c = np.array([2 + 0j, 3 - 1j, -0.5j])
     phasors = Phasors.from_scalar(orders, c, np.zeros(3))
     curve = sum((c[k] * np.exp(1j * n * THETA)).real for k, n in enumerate(orders))
-    assert phasors.values(THETA).real == pytest.approx(curve, abs=1e-14)
+    assert_allclose(phasors.values(THETA).real, curve, rtol=0, atol=1e-14)
     assert np.abs(phasors.values(THETA).imag).max() < 1e-14
     assert np.array_equal(phasors.x, c)
     assert phasors.major == pytest.approx(np.abs(c), rel=RELATIVE)
@@ -100,9 +101,9 @@ def test_a_scalar_is_a_real_curve():
 def test_sums_scales_and_turns_are_those_of_the_curve():
     a = one(3 + 4j, 1 - 2j, noise=1e-3)
     b = one(-1j, 2, noise=2e-3)
-    assert (a + b).values(THETA) == pytest.approx(a.values(THETA) + b.values(THETA), abs=1e-13)
-    assert (a - b).values(THETA) == pytest.approx(a.values(THETA) - b.values(THETA), abs=1e-13)
-    assert (2j * a).values(THETA) == pytest.approx(2j * a.values(THETA), abs=1e-13)
+    assert_allclose((a + b).values(THETA), a.values(THETA) + b.values(THETA), rtol=0, atol=1e-13)
+    assert_allclose((a - b).values(THETA), a.values(THETA) - b.values(THETA), rtol=0, atol=1e-13)
+    assert_allclose((2j * a).values(THETA), 2j * a.values(THETA), rtol=0, atol=1e-13)
     assert np.array_equal((np.array([2.0]) * a).forward, 2 * a.forward)
     assert [float(p.noise[0]) for p in (a + b, a - b, 2j * a, -3.0 * a)] == pytest.approx([3e-3, 3e-3, 2e-3, 3e-3])
 
@@ -115,7 +116,7 @@ def test_moment_of_a_force_about_z(order, p):
     curve = force.values(THETA)
     want = p.real * curve.imag - p.imag * curve.real if isinstance(p, complex) else p * curve.imag
     moment = force.about(p)
-    assert moment.values(THETA).real == pytest.approx(want, abs=1e-13)
+    assert_allclose(moment.values(THETA).real, want, rtol=0, atol=1e-13)
     assert np.abs(moment.values(THETA).imag).max() < 1e-13
     assert moment.noise[0] == abs(p)  # 2 |p| 0.5
 

@@ -11,6 +11,7 @@ import math
 import re
 import tomllib
 from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -23,11 +24,13 @@ GRAVITY = 9.80665
 UNITS = {"in": 25.4, "km/h": 1, "mph": 1.609344, "kN": 1e3, "t": 1e3 * GRAVITY}
 
 
+RATES = 1j * np.fft.fftfreq(POINTS, 1 / POINTS)  # of each wave of the samples
+RATES[POINTS // 2] = 0
+
+
 def slope(values: np.ndarray) -> np.ndarray:
     """Derivative by the crank angle of samples over one revolution."""
-    order = np.fft.fftfreq(POINTS, 1 / POINTS)
-    order[POINTS // 2] = 0
-    result = np.fft.ifft(1j * order * np.fft.fft(values))
+    result = np.fft.ifft(RATES * np.fft.fft(values))
     return result if np.iscomplexobj(values) else result.real
 
 
@@ -54,6 +57,18 @@ class Curves:
     moment: np.ndarray
     couple: np.ndarray
     torque: np.ndarray
+
+    @classmethod
+    def none(cls) -> "Curves":
+        return cls(0j * THETA, 0j * THETA, 0 * THETA, 0 * THETA)
+
+    def __add__(self, other: "Curves") -> "Curves":
+        return Curves(
+            self.force + other.force,
+            self.moment + other.moment,
+            self.couple + other.couple,
+            self.torque + other.torque,
+        )
 
     @property
     def roll(self) -> np.ndarray:
@@ -270,10 +285,18 @@ class Engine:
 
     def curves(self, numbers: list[int] | None = None) -> Curves:
         """Of the whole engine, or of some cylinders without the devices."""
-        bodies = [b for n in numbers or self.cylinders for b in self.cylinders[n]]
-        bodies += self.devices if numbers is None else []
+        total = sum((self._of_each[n] for n in numbers or self.cylinders), Curves.none())
+        return total if numbers is not None else total + self._sum(self.devices)
+
+    @cached_property
+    def _of_each(self) -> dict[int, Curves]:
+        """Of the parts of every cylinder."""
+        return {number: self._sum(bodies) for number, bodies in self.cylinders.items()}
+
+    def _sum(self, bodies: list[Body]) -> Curves:
+        """Of some parts."""
         omega = self.speed * self._pace
-        total = Curves(0j * THETA, 0j * THETA, 0 * THETA, 0 * THETA)
+        total = Curves.none()
         for body in bodies:
             velocity = slope(body.place)
             force = -body.mass * omega * slope(omega * velocity)
