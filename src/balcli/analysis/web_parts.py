@@ -171,6 +171,7 @@ _WEBS_NOTE = (
     "Angles count from each web's own crank pin in the direction of rotation. Clearance: smallest "
     "gap to a piston over a revolution."
 )
+_ROUNDING = 1e-9  # a smaller balance factor is 0
 _THROWS_NOTE = (
     "Factor: share of the reciprocating mass that is balanced besides all rotating mass. Degree: "
     "unbalance of the weights over that of throw and big ends."
@@ -296,7 +297,10 @@ def _lay_out_throws(throws: Iterable[ThrowPart], system: System) -> Grid:
         Column("balance factor, %", [_percent(factor) for factor in factors]),
     ]
     shown = [column for column in columns if {*column.cells} != {UNKNOWN}]
-    return Grid("Throws", shown, _THROWS_NOTE)
+    note = _THROWS_NOTE
+    if any(factor is not None and factor < -_ROUNDING for factor in factors):
+        note += " A negative factor: not even all rotating mass is balanced."
+    return Grid("Throws", shown, note)
 
 
 def _percent(share: float | None) -> str:
