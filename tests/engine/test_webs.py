@@ -384,6 +384,6 @@ def test_webs_leave_room_for_bearings_between_throws(width, doubted):
 def test_a_throw_with_unbalanced_rotating_mass_is_noted(mass, noted):
     """A counterweight for a throw of 1 kg and the big end of its rod, 0.62 (1 - 42/150) kg."""
     single = FOUR | {"crank": {"stroke": 88, "throws": [0], "throw_mass": mass}, "layout": {}}
-    weight = {"unbalance": 1e3 * 44 * (1 + 0.62 * 108 / 150), "position": 0}
+    weight = {"unbalance": 1e3 * 44 * (1 + 0.62 * 108 / 150), "angle": 180, "position": 0}
     text = analyze(load(single | {"counterweight": [weight]}), only=["parts"]).text()
     assert ("A negative factor: not even all rotating mass is balanced." in " ".join(text.split())) is noted
