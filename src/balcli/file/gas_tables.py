@@ -8,7 +8,6 @@ from collections.abc import Iterable, Iterator
 from itertools import pairwise
 from typing import Annotated, Any
 
-import numpy as np
 from pydantic import Field
 
 from ..limits import MOST_GAS_POINTS, MOST_LIST_VALUES
@@ -397,7 +396,8 @@ class Gas(GasKeys):
         if self.cycle is None or self.cycle == COMPRESSOR:
             return
         for key, least in (("compression_index", "at least"), ("expansion_index", "above")):
-            index = float(np.min(getattr(self, key)))  # the least of all variants
+            value = getattr(self, key)
+            index = value if isinstance(value, float) else float(value.min())  # of all variants
             if index < 1 or (index == 1 and least == "above"):
                 yield f"has {key} = {index:g}; in a cycle with combustion it is {least} 1"
         wiebe = [key for key in WIEBE_KEYS if self.has(key)]
