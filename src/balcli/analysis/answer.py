@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from functools import reduce
 from operator import add
 from types import NoneType
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 from ..core.cylinders import find_travel
 from ..core.phasors import Array
@@ -46,7 +46,6 @@ from ..sizing.options import check_small
 from ..sizing.remedy import Remedy, fit_devices
 from ..sizing.residual import Scales, find_scales
 from ..sizing.room import assume_skirt
-from .crank_drive import find_journals, list_masses, relate_to_power
 from .other_speeds import add_at_most, find_other_speeds
 from .parts import find_parts
 from .records import (
@@ -89,6 +88,7 @@ _DEPENDENT = {
     "crank.spacing": _WITH_PLACES | {"force", "journals"},
 }
 DEFAULT_ORDERS = (1.0, 2.0)
+_OF_CRANK_DRIVE = frozenset(("journals", "masses", "pru"))
 _OF_ONE_CRANK = ("inner", "guide", "journals", "masses", "parts")
 
 
@@ -290,12 +290,25 @@ def analyze(
         why=explain_symmetry(engine, visible.orders, provable) if why else None,
         stars=_find_stars(engine, due, shown) if why else None,
         small=small,
-        power_related_unbalance=relate_to_power(engine) if "pru" in wanted else None,
-        journals=find_journals(engine) if "journals" in wanted else None,
-        masses=list_masses(engine) if "masses" in wanted else None,
+        **_analyze_crank_drive(engine, wanted),
         other_speeds=others or None,
         parts=_find_own_parts(engine, model) if model else None,
     )
+
+
+def _analyze_crank_drive(engine: Engine, wanted: Collection[str]) -> dict[str, Any]:
+    """Return the wanted results of the crank drive by their attributes."""
+    found: dict[str, Any] = {}
+    if not _OF_CRANK_DRIVE.isdisjoint(wanted):
+        from . import crank_drive  # loads the curves of the gas
+
+        if "pru" in wanted:
+            found["power_related_unbalance"] = crank_drive.relate_to_power(engine)
+        if "journals" in wanted:
+            found["journals"] = crank_drive.find_journals(engine)
+        if "masses" in wanted:
+            found["masses"] = crank_drive.list_masses(engine)
+    return found
 
 
 def _list_assumed(

@@ -30,7 +30,7 @@ from ..show.sheet import (
     sentence,
 )
 from ..show.units import System
-from . import crank_drive, sections
+from . import sections
 from .answer import EXTRAS, Analysis, Sizing
 from .couple import select_couple
 from .devices_show import device_grid, device_rows, number_devices
@@ -115,18 +115,25 @@ def _parts(result: Analysis, system: System, view: View) -> Iterator[Part]:
         yield from _sizing_parts(result.sizing, system)
 
 
-def _further_parts(result: Analysis, system: System) -> Iterator[Part]:
-    """Yield the parts that only some engines have, or that are computed only on request."""
-    if hasattr(result, "inner"):
-        yield from sections.sheet_parts(result.inner, system)
-    if hasattr(result, "guide"):
-        yield sections.lay_out_guide(result.guide, system)
+def _crank_drive_parts(result: Analysis, system: System) -> Iterator[Part]:
+    from . import crank_drive  # loads the curves of the gas
+
     if hasattr(result, "journals"):
         yield from crank_drive.lay_out_journals(result.journals, result.engine, system)
     if hasattr(result, "masses"):
         yield crank_drive.lay_out_masses(result.masses, system)
     if hasattr(result, "power_related_unbalance"):
         yield crank_drive.lay_out_related(result.power_related_unbalance, system)
+
+
+def _further_parts(result: Analysis, system: System) -> Iterator[Part]:
+    """Yield the parts that only some engines have, or that are computed only on request."""
+    if hasattr(result, "inner"):
+        yield from sections.sheet_parts(result.inner, system)
+    if hasattr(result, "guide"):
+        yield sections.lay_out_guide(result.guide, system)
+    if any(hasattr(result, name) for name in ("journals", "masses", "power_related_unbalance")):
+        yield from _crank_drive_parts(result, system)
     if hasattr(result, "parts"):
         yield from lay_out_parts(result.parts, system)
     if hasattr(result, "why"):

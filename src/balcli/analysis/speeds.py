@@ -51,7 +51,6 @@ from .comparison import (
     make_line,
     show_sizes,
 )
-from .crank_drive import lay_out_related
 from .ladder_show import ladder_grid
 from .records import Includes, PowerRelatedUnbalance, name_included
 from .sections import define_guide_moments
@@ -388,6 +387,8 @@ def lay_out_marine(named: NamedResult[MarineSheet], system: System) -> Sheet:
             parts.append(_kind_part(kind, lines, speeds, system, whole=whole))
         parts.append(Text("", (f"Guide-force moments and torque are {of_what}.",)))
     if result.related is not None and not result.engine.is_pump:
+        from .crank_drive import lay_out_related  # loads the curves of the gas
+
         parts.append(lay_out_related(result.related, system))
     notes = [_AXES]
     if result.engine.is_pump:  # a packager's foundation needs the point, and no other line has it

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from itertools import chain
-from typing import cast
+from typing import TYPE_CHECKING, cast
 
 from ..core.cylinders import Device
 from ..core.phasors import Figure
@@ -25,7 +25,9 @@ from ..limits import MOST_ENGINES
 from .devices import build_device, list_drifting_problems
 from .engine import Engine, Placed, Rating
 from .figures import AS_GIVEN, FileFigures, find_wheel, place_in_plane, select_varied
-from .gas import CylinderGas, EngineGas, GasLaw
+
+if TYPE_CHECKING:
+    from .gas import CylinderGas, EngineGas, GasLaw
 
 
 # ------------------------------------------------------------------ files
@@ -289,7 +291,7 @@ def _join_gas(placed: Sequence[Placed]) -> EngineGas | None:
     burning = [crank.engine.gas for crank in placed if crank.engine.gas is not None]
     if not burning:
         return None
-    cylinders = list[CylinderGas]()
+    cylinders: list[CylinderGas] = []
     for crank in placed:
         gas = crank.engine.gas
         start = len(cylinders)
@@ -303,6 +305,8 @@ def _join_gas(placed: Sequence[Placed]) -> EngineGas | None:
     efficiencies = {gas.mechanical_efficiency for gas in burning}
     same = efficiencies.pop() if len(efficiencies) == 1 else None
     cycle_deg = max(gas.cycle_deg for gas in burning)
+    from .gas import EngineGas  # engines without gas do not load it
+
     return EngineGas(tuple(cylinders), cycle_deg, same, law=_join_laws(placed))
 
 
@@ -317,9 +321,11 @@ def _join_laws(placed: Sequence[Placed]) -> GasLaw | None:
         return None
 
     def solve(speed_rpm: float) -> EngineGas:
-        return cast(EngineGas, _join_gas(_turn_all(placed, speed_rpm)))
+        return cast("EngineGas", _join_gas(_turn_all(placed, speed_rpm)))
 
     powers = {law.power for law in laws}
     nodes = sorted({speed for law in laws for speed in law.nodes_rpm})
     linear = len(powers) == 1 and all(law.linear for law in laws)
+    from .gas import GasLaw  # as above
+
     return GasLaw(solve, tuple(nodes), linear, max(powers))
