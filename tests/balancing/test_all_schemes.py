@@ -24,7 +24,7 @@ def shares(comparison):
 
 def test_methods_for_a_single_cylinder():
     """Shares of m r w^2 at lambda = 0.25, from the acceleration of the piston on a grid of crank angles."""
-    theta = np.linspace(0, 2 * np.pi, 1_000_001)
+    theta = np.linspace(0, 2 * np.pi, 200_001)
     sine = LAM * np.sin(theta)
     force = np.cos(theta) + (LAM * np.cos(2 * theta) + sine**4 / LAM) / (1 - sine**2) ** 1.5
     turning = np.exp(1j * theta)

@@ -3,7 +3,7 @@ row for each case.
 """
 
 import tomllib
-from functools import reduce
+from functools import cache, reduce
 from typing import Any
 
 import pytest
@@ -20,11 +20,17 @@ def cases(file: str, table: str, **names: Any) -> pytest.MarkDecorator:
         table: name of the table in it.
         names: objects of the test that rows name in braces: "{NAME}" alone is the object, within a text it is its text.
     """
-    content = tomllib.loads((ROOT / "tests" / "cases" / f"{file}.toml").read_text(encoding="utf-8"))[table]
+    content = _read(file)[table]
     arguments = content["arguments"]
     objects = {"None": None, **names}
     rows = [_fill(row, objects) for row in content["rows"]]
     return pytest.mark.parametrize(arguments[0] if len(arguments) == 1 else arguments, rows)
+
+
+@cache
+def _read(file: str) -> dict[str, Any]:
+    """The tables of a file, which nobody changes."""
+    return tomllib.loads((ROOT / "tests" / "cases" / f"{file}.toml").read_text(encoding="utf-8"))
 
 
 def _fill_member(value: Any, objects: dict[str, Any]) -> list[Any]:
