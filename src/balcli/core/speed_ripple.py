@@ -36,6 +36,7 @@ from .piecewise import Extreme, Function, PiecewiseCurve, find_zero, resolved
 Number = TypeVar("Number", np.float64, np.complex128)
 # An order over the angle that adds less than this share of itself to an order over the time adds 0.
 _FELT = 1e-13
+_CONSTANT = 1e-12  # an inertia that changes by a smaller share of itself is constant
 
 
 class RippleLine(NamedTuple):
@@ -333,8 +334,8 @@ def needed_inertia(
     mean = course.mean
     least, most = course.extremes()
     energy_above = surplus(torque).energy
-    if not energy_above and most.value == least.value:
-        return -least.value
+    if not energy_above and most.value - least.value <= _CONSTANT * most.value:
+        return -mean
 
     def excess(inverse: float) -> float:
         own = 1 / inverse - mean
