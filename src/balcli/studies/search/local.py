@@ -190,21 +190,23 @@ def _find_starts(points: Array, costs: Array, box: Box) -> list[int]:
 
 
 def _descend(judge: Judge, box: Box, best: Array, step: Array, exact: Array) -> Array:
-    """Return the minimum near each start, shape (starts, 1). At each step every point moves to a
-    better neighbour at the distance `step`, or halves this distance if neither is better.
+    """Return the minimum near each start, shape (starts, 1). At each step every point moves to the
+    better one of its two neighbours at the distance `step`, or halves this distance if neither is
+    better than the point.
     """
     steps = np.broadcast_to(step, best.shape).copy()
     reached = judge(best)
     while np.any(steps > exact):
-        stays = np.full(len(best), True)
-        for side in (-1, 1):
-            points = box.bring_inside(best + side * steps)
-            costs = judge(points)
-            better = costs < reached
-            best = np.where(better[:, None], points, best)
-            reached = np.where(better, costs, reached)
-            stays &= ~better
-        steps[stays] /= 2
+        both = box.bring_inside(np.concatenate([best - steps, best + steps]))
+        costs_of_both = judge(both).reshape(2, -1)
+        upper = costs_of_both[1] < costs_of_both[0]
+        costs = costs_of_both.min(axis=0)
+        below, above = np.split(both, 2)
+        points = np.where(upper[:, None], above, below)
+        better = costs < reached
+        best = np.where(better[:, None], points, best)
+        reached = np.where(better, costs, reached)
+        steps[~better] /= 2
     return best
 
 
