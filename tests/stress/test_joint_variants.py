@@ -5,6 +5,7 @@ import pytest
 from support.gas_engines import draw_engine
 
 import balcli
+from balcli.engine.load import vary_engine
 from balcli.errors import BalcliError
 
 pytestmark = pytest.mark.stress
@@ -24,6 +25,8 @@ def sweep(engine, grid) -> np.ndarray | str:
 def test_variants_together_are_each_of_them(seed):
     random = np.random.default_rng(seed)
     engine = draw_engine(seed, strokes=2 + 2 * (seed % 2))
+    if seed % 4 == 1:
+        engine = vary_engine(engine, {"piston.offset": 0})
     gas = engine.model.gas
     pool = {
         "gas.imep": gas.imep * random.uniform(0.5, 1.4, 3),
@@ -32,6 +35,8 @@ def test_variants_together_are_each_of_them(seed):
         "gas.expansion_index": random.uniform(1.2, 1.35, 2),
         "piston.mass": random.uniform(0.2, 1, 2),
         "operation.speed": random.uniform(800, 4000, 2),
+        "crank.stroke": random.uniform(60, 140, 2),
+        "piston.bore": random.uniform(60, 120, 2),
         "rod.ratio": random.uniform(0.2, 0.3, 2),
     }
     grid = {path: pool[path] for path in random.choice([*pool], size=3, replace=False)}

@@ -150,6 +150,7 @@ def test_a_search_puts_one_goal_in_place_of_another(tmp_path):
 V8 = (ENGINES / "v8_crossplane.toml").read_text(encoding="utf-8")
 OTTO = '[gas]\ncycle = "otto"\ncompression_ratio = 9\nheat = 1500\n[cylinder.3]\ngas = 0.9\n'
 TWO_STROKE = PETROL_FOUR.replace("[layout]", "[layout]\nstrokes = 2").replace("[0, 180, 180, 0]", "[0, 90, 270, 180]")
+CENTRED = PETROL_FOUR.replace("offset = 0.8\n", "")
 MASTER_ROD = RADIAL.replace("mass = 1.3", "mass = 1.3\nbore = 100").replace(
     "radial = 7", "radial = 7\nfiring_order = [1, 3, 5, 7, 2, 4, 6]"
 )
@@ -158,6 +159,11 @@ JOINT = {
     "vee": (V8 + OTTO, {"gas.heat": [0, 900, 2500], "gas.compression_ratio": [7, 11]}),
     "two-stroke": (TWO_STROKE, {"gas.burn_shape": [0, 0.6, 3], "gas.expansion_index": [1.2, 1.35]}),
     "with a mass and a length": (FOUR, {"piston.mass": [0.4, 0.6], "rod.length": [150, 160], "gas.imep": [8, 9, 12]}),
+    "lengths": (CENTRED, {"rod.length": [140, 160], "crank.stroke": [80, 90], "gas.imep": [8, 11]}),
+    "bore and ratio": (
+        V8 + OTTO,
+        {"piston.bore": [90, 104], "rod.ratio": [0.27, 0.31], "operation.speed": [3000, 5000]},
+    ),
     "masses and speeds": (FOUR, {"cylinder.2.piston_mass": [0.4, 0.9], "operation.speed": [900, 5000]}),
     "masses that balance": (FOUR.replace("rod_length = 151", ""), {"piston.mass": [0.0, 0.5], "gas.imep": [8, 9]}),
     "masses of a diesel": (FOUR.replace('"wiebe"', '"diesel"'), {"rod.mass": [0.4, 0.9], "piston.mass": [0.3, 0.4]}),
@@ -211,6 +217,11 @@ def test_what_cannot_be_computed_together_is_left_out():
     lengths = [{**own, "rod.length": length} for length in (150.0, 160.0) for own in two]
     assert group(FOUR, *masses) == [[0, 1, 2, 3]]
     assert group(FOUR, *lengths) == [[0, 1], [2, 3]]
+    assert group(CENTRED, *lengths) == [[0, 1, 2, 3]]
+    assert group(CENTRED + "[cylinder.2]\nrod_length = 151\n", *lengths) == [[0, 1], [2, 3]]
+    assert group(CENTRED, *({**own, "cylinder.2.piston_offset": 0.5} for own in lengths)) == [[0, 1], [2, 3]]
+    assert group(CENTRED.replace("stroke = 86", "stroke = [86, 86, 84, 84]"), *lengths) == [[0, 1], [2, 3]]
+    assert group(TWO_STROKE.replace("offset = 0.8\n", ""), *lengths) == [[0, 1], [2, 3]]
     assert group(MASTER_ROD + OTTO, *({**own, "gas.heat": 900.0 + k} for k, own in enumerate(masses))) == []
     assert group(FOUR, *({**own, "gas.burn_start": -10.0 - k} for k, own in enumerate(two))) == []
     assert group(FOUR.replace('"wiebe"', '"diesel"'), *two) == []

@@ -89,7 +89,7 @@ def compress(piston: GasPiston, process: Compression, *, crank_end: bool) -> Pie
         GasError: No suction or no discharge is left.
     """
     _check_valves(process)
-    stroke = piston.stroke
+    stroke = float(piston.stroke)
     expanded = process.expanded * stroke
     compressed = process.compressed * stroke
     if crank_end:

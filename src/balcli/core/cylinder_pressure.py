@@ -46,7 +46,9 @@ class GasError(ValueError):
 # ---------------------------------------------------------------- the piston
 @dataclass(frozen=True, eq=False)
 class GasPiston:
-    """Bore and kinematics of one cylinder.
+    """Bore and kinematics of one cylinder, or of variants of one that have the same dead centres.
+    Area, stroke, radius, `lam` and `eps` of variants are arrays of the shape of the variants, and
+    angles have an axis of length 1 for each of their axes at the end.
 
     Attributes:
         area: Area of the bore, m2.
@@ -63,25 +65,33 @@ class GasPiston:
             crank pin.
     """
 
-    area: float
-    stroke: float
+    area: Figure
+    stroke: Figure
     top: float
     bottom: float
-    radius: float
+    radius: Figure
     lam: Array
     eps: Array
     linkage: Articulated | None = None
     rod_area: float = 0.0
 
     @property
-    def back_area(self) -> float:
+    def back_area(self) -> Figure:
         """Area of the piston at the crank end, m2."""
         return self.area - self.rod_area
 
     @property
-    def swept(self) -> float:
+    def swept(self) -> Figure:
         """Swept volume of the cylinder, m3."""
         return self.area * self.stroke
+
+    @property
+    def variants(self) -> tuple[int, ...]:
+        """Shape of the variants; empty for one cylinder."""
+        sizes = [self.area, self.stroke, self.radius]
+        if self.linkage is None:
+            sizes += [self.lam, self.eps]
+        return np.broadcast_shapes(*map(np.shape, sizes))
 
     def travel(self, angle: Array) -> Array:
         """Return the piston's distance from its upper dead centre at cycle angles, m."""
@@ -206,12 +216,12 @@ class GasEnd:
     @property
     def area(self) -> float:
         """Area of the piston in this end, m2."""
-        return self.piston.back_area if self.is_crank_end else self.piston.area
+        return float(self.piston.back_area if self.is_crank_end else self.piston.area)
 
     @property
     def swept(self) -> float:
         """Swept volume of this end, m3."""
-        return self.area * self.piston.stroke
+        return self.area * float(self.piston.stroke)
 
     @cached_property
     def work(self) -> float:
@@ -273,7 +283,7 @@ class GasTorque:
     @property
     def imep(self) -> float:
         """Indicated mean effective pressure, Pa, pumping included."""
-        return self.work / self.piston.swept
+        return self.work / float(self.piston.swept)
 
     def harmonics(self, halves: ArrayLike) -> Complex:
         """Return the coefficients t_h, N m, of the torque `Re sum t_h e^{i h c/2}`, where c is the
@@ -300,7 +310,7 @@ def press(
     """
 
     def torque(angle: Array) -> Array:
-        arm = open_axes(piston.rate(angle), pressure.figure)
+        arm = piston.rate(open_axes(angle, pressure.figure))
         return piston.area * (pressure.at(angle) - crankcase) * arm
 
     return GasTorque(piston, breaks, resolved(torque, breaks, each=True), pressure, crankcase)

@@ -130,7 +130,7 @@ def gas_cycle(piston: GasPiston, process: Process, goal: Goal) -> GasCycle:
     Args:
         piston: Piston of the cylinder.
         process: Laws of compression, combustion and expansion. Figures of an Otto or Wiebe cycle
-            may be arrays of variants.
+            may be arrays of variants, and so may figures of the piston in four strokes.
         goal: Figure that the cycle must reach; it determines the heat.
 
     Raises:
@@ -139,7 +139,8 @@ def gas_cycle(piston: GasPiston, process: Process, goal: Goal) -> GasCycle:
     """
     _check(piston, process, goal)
     varying = (getattr(process, key) for key in _VARYING)
-    shape = np.broadcast_shapes(np.shape(goal.value), *map(np.shape, varying))
+    of_process = np.broadcast_shapes(np.shape(goal.value), *map(np.shape, varying))
+    shape = np.broadcast_shapes(of_process, piston.variants)
     cycle = _Cycle(piston, process.align(shape))
     heat = cycle.find_heat(goal)
     breaks = [cycle.closes]

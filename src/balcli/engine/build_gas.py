@@ -31,6 +31,7 @@ from ..core.cylinder_pressure import (
     pistons,
     press_both,
 )
+from ..core.cylinders import find_travel
 from ..core.gas_cycle import GasCycle, Goal, Process, find_least_imep, gas_cycle
 from ..core.phasors import Array, Figure
 from ..core.piecewise import resolved
@@ -47,11 +48,12 @@ from ..file.gas_tables import (
     take_crank_end,
     take_of,
 )
-from ..file.model import Override
+from ..file.model import EngineFile, Override
 from ..file.table import FileTable
 from ..file.units import BAR
 from ..limits import HIGHEST_TABLE_ORDER, MOST_DIFFERENT_GAS
 from .card import draw_card
+from .engine import Engine
 from .gas import CylinderGas, EngineGas, GasLaw
 from .indicator import HEADS, build_diagram, choose_heads, find_absolute, list_doubts
 from .layout import find_first
@@ -333,6 +335,41 @@ def _build_steady(
         gas.compression_ratio,
         tuple(doubts),
     )
+
+
+def vary_pistons(
+    model: EngineFile, varied: Mapping[str, Figure], gas: EngineGas, arrays: Engine
+) -> EngineGas:
+    """Return the gas of variants of an engine whose cylinders are equal and have their dead centres
+    at 0 and 180 degrees in all variants.
+
+    Args:
+        model: Engine file.
+        varied: Figures of the gas that vary, as numbers or arrays, by dotted name.
+        gas: Gas of one of the variants.
+        arrays: The variants, as an engine with a trailing axis.
+
+    Raises:
+        InputError: The cycle of a variant is not possible.
+    """
+    parts = Parts(model, varied)
+    table = _vary(parts)
+    c = arrays.cylinders
+    first = gas.cylinders[0]
+    piston = replace(
+        first.piston,
+        area=math.pi / 4 * arrays.bore_m**2,
+        stroke=find_travel(c).stroke[0],
+        radius=c.radius[0],
+        lam=c.lam[0],
+        eps=c.eps[0],
+    )
+    source = _find_source(parts, table, parts.numbers[0])
+    cycle = _compute_cycle(table, source, piston, model.layout.strokes, at_least=False)
+    end = GasEnd(HEAD_END, piston, cycle.pressure)
+    torque = press_both(piston, [end], cycle.breaks, first.torque.crankcase, gas.cycle)
+    cylinders = [each._replace(piston=piston, torque=torque) for each in gas.cylinders]
+    return replace(gas, cylinders=tuple(cylinders))
 
 
 # ------------------------------------------------------------------ keys of the file

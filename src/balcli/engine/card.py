@@ -110,7 +110,8 @@ def draw_card(
         turn = 2 * np.pi * np.floor(path.start / (2 * np.pi) + 1e-9)
         upward = path.start - turn > piston.bottom / 2
         travels = [1 - share if from_inner else share for share in inner]
-        angles = [piston.angle_of(travel * piston.stroke, upward=upward) for travel in travels]
+        stroke = float(piston.stroke)
+        angles = [piston.angle_of(travel * stroke, upward=upward) for travel in travels]
         breaks.append(turn + np.array(angles))
     return resolved(find_pressure, np.unique(np.concatenate(breaks)))
 

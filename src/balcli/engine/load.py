@@ -210,34 +210,67 @@ def build_jointly(
     for own, places in groups.items():
         if not joint.all or len(places) == 1:
             continue
-        of_gas: dict[str, Figure] = dict(own)
-        of_inertia: dict[str, Figure] = dict(own)
-        for path in joint.of_gas:
-            of_gas[path] = np.array([variants[k][path] for k in places])
-        for path in joint.of_inertia:
-            of_inertia[path] = np.array([variants[k][path] for k in places])
         with suppress(BalcliError):
-            engine = build(model, of_gas)
-            if joint.of_inertia:
-                engine = replace(build(model, of_inertia, rank=1), gas=engine.gas)
+            engine = _build_group(model, dict(own), joint, [variants[k] for k in places])
             yield JointEngine(places, engine)
+
+
+def _build_group(
+    model: EngineFile,
+    own: Mapping[str, float],
+    joint: JointFigures,
+    variants: Sequence[Mapping[str, float]],
+) -> Engine:
+    """Return variants as one engine.
+
+    Args:
+        model: Engine file.
+        own: Varied figures that all these variants have in common.
+        joint: Names of the figures in which they differ.
+        variants: Varied figures of each variant.
+
+    Raises:
+        InputError: A variant is impossible.
+    """
+    arrays = {path: np.array([values[path] for values in variants]) for path in joint.all}
+    of_gas: dict[str, Figure] = {**own, **{path: arrays[path] for path in joint.of_gas}}
+    of_rest: dict[str, Figure] = {**own, **arrays}
+    for path in joint.of_gas:
+        del of_rest[path]
+    first = {path: variants[0][path] for path in joint.of_mechanism}
+    one = build(model, {**of_gas, **first})
+    if not (joint.of_mechanism or joint.of_inertia):
+        return one
+    engine = build(model, of_rest, rank=1)
+    if not joint.of_mechanism or one.gas is None:
+        return replace(engine, gas=one.gas)
+    from .build_gas import vary_pistons  # loaded only for files with [gas]
+
+    return replace(engine, gas=vary_pistons(model, of_gas, one.gas, engine))
 
 
 class JointFigures(NamedTuple):
     """Varied figures of which arrays can be computed together.
 
     Attributes:
-        of_gas: Names of figures that change the pressures of a computed cycle.
+        of_gas: Names of figures that change only the pressures of a computed cycle.
+        of_mechanism: Names of lengths of a mechanism whose dead centres they do not move.
         of_inertia: Names of figures on which the gas does not depend.
     """
 
-    of_gas: frozenset[str]
-    of_inertia: frozenset[str]
+    of_gas: frozenset[str] = frozenset()
+    of_mechanism: frozenset[str] = frozenset()
+    of_inertia: frozenset[str] = frozenset()
 
     @property
     def all(self) -> frozenset[str]:
         """Names of all these figures."""
-        return self.of_gas | self.of_inertia
+        return self.of_gas | self.of_mechanism | self.of_inertia
+
+
+_LENGTHS = frozenset({"crank.stroke", "rod.length", "rod.ratio", "piston.bore"})
+# Keys of [cylinder.N] with which its mechanism differs from that of other cylinders.
+_OWN_LENGTHS = ("stroke", "bore", "piston_offset", "rod_length", "rod_ratio")
 
 
 def find_joint_figures(
@@ -252,11 +285,25 @@ def find_joint_figures(
     """
     paths = frozenset(varied)
     if model.gas is None:
-        return JointFigures(frozenset(), frozenset())
-    of_inertia = frozenset(path for path in paths if not concerns_gas(path, model.gas))
+        return JointFigures()
+    of_gas = list_joint_paths(model, paths)
     if only_gas or model.articulation is not None or model.layout.rotary:
-        of_inertia = frozenset()
-    return JointFigures(list_joint_paths(model, paths) & paths, of_inertia)
+        return JointFigures(of_gas & paths)
+    of_inertia = frozenset(path for path in paths if not concerns_gas(path, model.gas))
+    fixed = of_gas and _keeps_dead_centres(model, paths)
+    return JointFigures(of_gas & paths, _LENGTHS & paths if fixed else frozenset(), of_inertia)
+
+
+def _keeps_dead_centres(model: EngineFile, varied: Iterable[str]) -> bool:
+    """Return whether all cylinders are equal in every variant, and have their dead centres at 0 and
+    180 degrees; in two strokes, ports would close at angles that depend on the rod.
+    """
+    keys = {path.rpartition(".")[2] for path in varied if path.startswith("cylinder.")}
+    own = any(table.has(key) for table in model.cylinder.values() for key in _OWN_LENGTHS)
+    if own or not keys.isdisjoint(_OWN_LENGTHS) or isinstance(model.crank.stroke, tuple):
+        return False
+    centred = model.piston.offset == 0 and "piston.offset" not in varied
+    return centred and model.layout.strokes == 4
 
 
 class FiguresOfVariants(EngineVariants, Generic[Asked]):
