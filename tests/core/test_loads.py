@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from support.engines import alone, build_text, engine, engine_text
 
-from balcli.core.loads import Loads
+from balcli.core.loads import Loads, share_by_lever, sum_by_lever, sum_weighted
 from balcli.core.mechanisms.closed_form import SERIES, Series, select_cylinders
 from balcli.core.phases import Phases
-from balcli.core.phasors import EPS
+from balcli.core.phasors import EPS, Phasors
 from balcli.engine.build import build
 from balcli.engine.parse import parse
 from balcli.forces.spectrum import compute_spectra
@@ -144,3 +144,20 @@ def test_errors_of_a_curve_stay_within_the_bounds_of_the_forces(name, size):
         here, there = (Loads(c, (), 0j, 0.0, Phases(c, LOW), exact | it, 1.0).force for it in (curve, off))
         assert np.all(here.noise >= EPS * here.major)
         assert np.all(np.abs(there.vectors - here.vectors) <= here.noise)
+
+
+@pytest.mark.parametrize(
+    "planes", [[0.0], [-0.2, 0.2], [-0.3, -0.1, 0.0, 0.4], [0.9, 1.0, 2.0]], ids=["one", "two", "four", "beyond"]
+)
+def test_planes_carry_loads_by_the_lever_rule(planes):
+    """Planes that carry nothing, several loads at a place, a load in a plane; forces and moments stay the same."""
+    places = np.array([0.1, -0.25, 0.1, 0.0, 0.35, -0.6])
+    vectors = np.random.default_rng(3).normal(size=(2, 4, 6, 2)) @ [1, 1j]
+    loads = Phasors(np.arange(1.0, 5.0), vectors, np.abs(vectors).sum(axis=0) * EPS)
+    carried = sum_by_lever(loads, places, np.array(planes))
+    dense = sum_weighted(loads, share_by_lever(places, np.array(planes)))
+    assert carried.vectors == pytest.approx(dense.vectors, rel=1e-14)
+    assert carried.noise == pytest.approx(dense.noise, rel=1e-14)
+    assert carried.vectors.sum(axis=-1) == pytest.approx(vectors.sum(axis=-1), rel=1e-13)
+    if len(planes) > 1:
+        assert carried.vectors @ planes == pytest.approx(vectors @ places, rel=1e-12)

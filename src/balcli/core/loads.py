@@ -303,13 +303,48 @@ def share_by_lever(places: Array, planes: Array) -> Array:
     """
     if len(planes) == 1:
         return np.ones((1, len(places)))
-    left = np.clip(np.searchsorted(planes, places, side="right") - 1, 0, len(planes) - 2)
-    right_share = (places - planes[left]) / (planes[left + 1] - planes[left])
+    left, right_share = _find_planes_beside(places, planes)
     shares = np.zeros((len(planes), len(places)))
     loads = np.arange(len(places))
     shares[left, loads] += 1 - right_share
     shares[left + 1, loads] += right_share
     return shares
+
+
+def sum_by_lever(loads: Phasors, places: Array, planes: Array) -> Phasors:
+    """Return the load of each plane by the lever rule, phasors (orders, planes). Sums
+    below their rounding error are set to 0. The time is proportional to the number of loads.
+
+    Args:
+        loads: Phasors of shape (orders, loads).
+        places: As for `share_by_lever`.
+        planes: As for `share_by_lever`.
+    """
+    if len(planes) == 1:
+        return sum_weighted(loads, np.ones((1, len(places))))
+    left, right_share = _find_planes_beside(places, planes)
+    plane = np.concatenate([left, left + 1])
+    share = np.concatenate([1 - right_share, right_share])
+    noise = np.broadcast_to(loads.noise, loads.vectors.shape[1:])
+    shared = np.concatenate([loads.vectors, loads.vectors], axis=-1) * share
+    shared_noise = np.concatenate([noise, noise], axis=-1) * np.abs(share)
+    sums = _sum_groups(shared, plane, len(planes))
+    return Phasors(loads.orders, sums, _sum_groups(shared_noise, plane, len(planes))).drop_noise()
+
+
+def _find_planes_beside(places: Array, planes: Array) -> tuple[NDArray[np.intp], Array]:
+    """Return the first of the two planes that share each load, and the share of the second."""
+    left = np.clip(np.searchsorted(planes, places, side="right") - 1, 0, len(planes) - 2)
+    return left, (places - planes[left]) / (planes[left + 1] - planes[left])
+
+
+def _sum_groups(values: NDArray[Any], group: NDArray[np.intp], count: int) -> NDArray[Any]:
+    """Return the sums along the last axis of the values of each of `count` groups."""
+    by_group = np.argsort(group, kind="stable")
+    starts = np.flatnonzero(np.diff(group[by_group], prepend=-1))
+    sums = np.zeros((*values.shape[:-1], count), values.dtype)
+    sums[..., group[by_group][starts]] = np.add.reduceat(values[..., by_group], starts, axis=-1)
+    return sums
 
 
 def sum_weighted(loads: Phasors, weights: Array) -> Phasors:

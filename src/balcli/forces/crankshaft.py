@@ -26,7 +26,13 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.cylinders import DeviceKind
-from ..core.loads import find_ahead, find_arms, share_by_lever, sum_to_sections, sum_weighted
+from ..core.loads import (
+    find_ahead,
+    find_arms,
+    share_by_lever,
+    sum_by_lever,
+    sum_to_sections,
+)
 from ..core.peaks import Peak, find_largest, find_peaks
 from ..core.phasors import Array, Complex, Phasors, join_places, unit
 from ..core.piecewise import Vectors, cut, find_panels, merged_breaks, quadrature
@@ -243,7 +249,7 @@ def compute_bearing_forces(loads: Phasors, z: Array, bearings_m: Array) -> Phaso
         z: Positions of the forces, m, shape (loads,).
         bearings_m: Positions of the bearings, from `place_bearings`.
     """
-    return sum_weighted(loads, share_by_lever(z, bearings_m))
+    return sum_by_lever(loads, z, bearings_m)
 
 
 def compute_loads(engine: Engine, orders: Array) -> tuple[Phasors, Array]:
