@@ -226,7 +226,7 @@ def test_an_angle_with_its_unit_is_not_doubted():
 
 
 def test_of_a_list_the_member_farthest_out_is_named():
-    weights = [{"unbalance": size, "position": 90} for size in (20, 3, 5)]
+    weights = [{"unbalance": size, "position": 90, "angle": 180} for size in (20, 3, 5)]
     assert list_doubted(make(counterweight=weights)) == ["counterweight.2.unbalance"]
 
 

@@ -8,9 +8,10 @@ from typing import Any
 import pytest
 from support.cases import cases
 from support.commands import run_here
-from support.engines import GOOD, changed
+from support.engines import GOOD, build_text, changed
 from support.paths import ENGINES, write
 
+from balcli import analyze
 from balcli.file.assumed import Assumed, Value
 from balcli.show.sheet import tell_assumed
 
@@ -188,3 +189,40 @@ def test_mounts_say_up_to_which_assumed_speed_they_go() -> None:
     assert TOLD in run_here("mounts", "-", stdin=without).out
     assert TOLD not in run_here("mounts", "-", stdin=own).out
     assert TOLD not in run_here("mounts", "-", "--speeds", "800:900:50", stdin=without).out
+
+
+DEVICES = """
+[[counterweight]]
+unbalance = 9000
+[[shaft]]
+ratio = -1
+unbalance = 3000
+[[shaft]]
+ratio = 0.7
+unbalance = 50
+position = 20
+at = [9, 9]
+[[slider]]
+order = 2
+unbalance = 200
+direction = 0
+at = [0, 30]
+"""
+ANGLES = ["counterweight.angle = 0 deg", "shaft.angle = 0 deg", "slider.angle = 0 deg"]
+PLACES = [f"{kind}.position = 0 mm" for kind in ("counterweight", "shaft", "slider")]
+
+
+@pytest.mark.parametrize(
+    ("only", "listed"),
+    [("force", ANGLES), ("moment", ANGLES + PLACES), ("roll", [*ANGLES[1:], "shaft.at = [0, 0] mm"]), ("torque", [])],
+)
+def test_angles_and_places_of_devices_are_listed_where_they_matter(only, listed):
+    """A shaft without a fixed phase to the crank (0.7) has no part in these quantities."""
+    engine = build_text(changed(more=DEVICES))
+    told = [tell_assumed([value]) for value in engine_values(engine, only)]
+    assert sorted(told) == sorted(listed)
+
+
+def engine_values(engine, only):
+    kinds = ("counterweight", "shaft", "slider")
+    return [value for value in analyze(engine, only=[only]).assumed or () if value.table in kinds]

@@ -72,6 +72,8 @@ EXTRAS = ("inner", "guide", "journals", "masses", "parts", "pru")  # computed on
 _OF_FORCES = {"peak", "sizing", "ladder", "inner", "pru"}
 _WITH_THROWS = list_with("throws") | _OF_FORCES
 _WITH_PLACES = list_with("planes") | _OF_FORCES | {"guide"}
+_WITH_ARMS = list_with("arms")
+_PLACES_OF_DEVICES = ("counterweight.position", "shaft.position", "slider.position")
 _ALL_BUT_MASSES = {*QUANTITIES, *GAS_KINDS, "inner", "guide", "journals", "pru"}
 # "gas" stands for loads with gas, which depend on rods as well.
 _WITH_RODS = list_with("rods") | {"gas", "guide", "journals", "masses"}
@@ -86,6 +88,10 @@ _DEPENDENT = {
     "layout.stagger": _WITH_PLACES,
     # Forces do not depend on the spacing; its listed default explains why no moments are printed.
     "crank.spacing": _WITH_PLACES | {"force", "journals"},
+    "counterweight.angle": _WITH_THROWS | {"parts"},
+    **dict.fromkeys(("shaft.angle", "slider.angle"), _WITH_THROWS | _WITH_ARMS | {"parts"}),
+    **dict.fromkeys(_PLACES_OF_DEVICES, _WITH_PLACES | {"parts"}),
+    **dict.fromkeys(("shaft.at", "slider.at"), _WITH_ARMS | {"parts"}),
 }
 DEFAULT_ORDERS = (1.0, 2.0)
 _OF_CRANK_DRIVE = frozenset(("journals", "masses", "pru"))

@@ -25,7 +25,7 @@ from ..core.records import HIDDEN, find_unit, list_figures, remove_unit, to_docu
 from ..engine.build import build
 from ..engine.engine import Engine, check_engine, find_row, refuse_geared
 from ..engine.load import FiguresOfVariants
-from ..file.assumed import Assumed
+from ..file.assumed import DEVICES, Assumed
 from ..file.model import EngineFile
 from ..forces.quantity import TargetQuantity, refuse_stranger
 from ..show.engine_facts import name_cylinders, tell_speed
@@ -233,7 +233,7 @@ def piston(engine: Engine) -> Pistons:
     return Pistons(
         speed_rpm=float(engine.speed_rpm),
         swept_volume_m3=float(engine.displacement_m3) if bore > 0 else None,
-        assumed=engine.list_assumed(),
+        assumed=engine.list_assumed(without=DEVICES),
         mechanisms=tuple(mechanisms),
         engine=engine,
     )

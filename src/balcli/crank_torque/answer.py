@@ -14,7 +14,7 @@ from ..core.speed_ripple import surplus
 from ..engine.engine import CylinderNumber, Engine, check_engine, find_row, refuse_geared
 from ..engine.layout import find_first
 from ..errors import ArgumentError, check_number, check_type, list_words
-from ..file.assumed import STEADY
+from ..file.assumed import DEVICES, STEADY
 from ..forces.crankshaft import refuse_too_many_forces
 from ..forces.curves import find_constant_inertia, find_moving_inertia, find_torque_curves
 from ..forces.spectrum import check_orders, compute_spectra, list_gas_orders, take_gas
@@ -104,7 +104,7 @@ def torque(
     highest = max(tops, key=lambda extreme: extreme.value, default=None)
     spectra = compute_spectra(steady, shown, KINDS_OF_TORQUE)
     single = compute_spectra(steady, shown, KINDS_OF_TORQUE, by_cylinder=True).select_place(row)
-    idle = {"crank.inertia"} if wanted else {*STEADY}
+    idle = {"crank.inertia", *DEVICES} if wanted else {*STEADY}
     if engine.flywheel_inertia is not None:
         idle.discard("crank.inertia")
     by_order = zip(spectra.orders, list_torques(spectra), list_torques(single), strict=True)

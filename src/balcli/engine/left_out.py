@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from ..core.phases import TURN
 from ..file.assumed import Assumed, assume
 from ..file.firing_order import NamedOrder
 from ..file.model import EngineFile, RodKeys
+from ..file.table import FileTable
 from ..file.units import INERTIA
 from .firing.fits import count_throws_from_first, list_gaps
 from .firing.letters import describe_letters
@@ -43,6 +44,7 @@ def list_inferred(parts: Parts) -> Iterator[Assumed]:
         yield assume("piston.offset", piston, piston.offset)
     if parts.model.gas is not None:
         yield from _list_gas_defaults(parts, parts.model.gas)
+    yield from _list_device_defaults(parts.model)
     yield from list_chapter_defaults(parts.model)
 
 
@@ -119,6 +121,28 @@ def _list_rod_defaults(parts: Parts) -> Iterator[Assumed]:
         of_two_masses = float(f"{1e6 * float(gear.spin):.{_DIGITS}g}")
         if of_two_masses > 0 and table.inertia is None and table.pendulum is None:
             yield assume(f"{path}.inertia", table, of_two_masses)
+
+
+def _list_device_defaults(model: EngineFile) -> Iterator[Assumed]:
+    """Yield angles and places of counterweights, shafts and sliders that the file does not give;
+    one value stands for all devices of a kind. Shafts without a fixed phase to the crank are not
+    among the forces of the engine.
+    """
+    shafts = [shaft for shaft in model.shaft if not shaft.drifts]
+    of_kinds: dict[str, Sequence[FileTable]] = {
+        "counterweight": model.counterweight,
+        "shaft": shafts,
+        "slider": model.slider,
+    }
+    for kind, tables in of_kinds.items():
+        for key in ("angle", "position", "at"):
+            if table := next((table for table in tables if _lacks(table, key)), None):
+                yield assume(f"{kind}.{key}", table, getattr(table, key))
+
+
+def _lacks(table: FileTable, key: str) -> bool:
+    """Return whether a table has a key that the file leaves out."""
+    return key in type(table).model_fields and not table.has(key)
 
 
 def _is_narrow_vee(parts: Parts) -> bool:

@@ -51,8 +51,9 @@ def assume(path: str, table: FileTable, value: Value) -> Assumed:
 
 # Tables on which only the results of certain commands depend.
 _OF_CHAPTERS = {"gas", "torsion", "body", "mount", "flywheel"}
-# Keys on which the torque at steady speed does not depend.
-STEADY = ("crank.spacing", "layout.stagger", "crank.throw_mass", "crank.inertia")
+DEVICES = ("counterweight", "shaft", "slider")  # tables on which only forces and moments depend
+# Keys and tables on which the torque at steady speed does not depend.
+STEADY = ("crank.spacing", "layout.stagger", "crank.throw_mass", "crank.inertia", *DEVICES)
 
 
 def select_assumed(

@@ -161,6 +161,14 @@ def _find_missing(model: EngineFile) -> Iterator[Doubt]:
         yield Doubt("piston.mass", "0 kg; give the mass of piston, pin, rings and locks")
     if model.rod.mass and model.rod.cg is None:
         yield Doubt("rod.cg", "is not given, and 0 is taken; measure it from the big-end centre")
+    for number, weight in enumerate(model.counterweight, 1):
+        if not weight.has("angle") and not weight.to_fit:
+            message = (
+                "is not given, and 0 is taken: the side of cylinder 1's crank pin; opposite it is "
+                "180"
+            )
+            yield Doubt(f"counterweight.{number}.angle", message)
+            break
     crank = model.crank
     throws, rods = _count_throws_and_rods(model)
     # A single figure is repeated for all throws; lists of a wrong length are rejected elsewhere.
