@@ -690,6 +690,8 @@ def _measure(residual: Residual, senses: Sequence[int], scales: Scales) -> _Canc
 def _takes_back(drawn: _Drawn, remedy: Remedy) -> bool:
     """Return whether new counterweights work against those of the file."""
     before = _list_counterweights(drawn.engine)
+    if not before:
+        return False
     after = _list_counterweights(fit_devices(drawn.engine, remedy))
     reference = drawn.first.reference
     added = _sum_effects(drawn.engine, after, reference)
