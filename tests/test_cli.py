@@ -303,6 +303,12 @@ def test_a_closed_pipe_ends_quietly(args, unread):
     assert (done.returncode, done.stderr) == (0, "")
 
 
+@pytest.mark.slow
+@cases("cli", "others_end_as_quietly")
+def test_others_end_as_quietly(args, unread):
+    test_a_closed_pipe_ends_quietly(args, unread)
+
+
 def test_mistakes_that_nobody_reads_have_their_status(unread):
     assert run_command("analyze", "nowhere.toml", stdout=unread, stderr=unread).returncode == 2
 

@@ -6,7 +6,7 @@ import mpmath as mp
 import numpy as np
 import pytest
 from oracle import gas
-from support.cases import cases
+from support.cases import cases, slow
 from support.pistons import slider_crank_piston
 
 from balcli.core.cylinder_pressure import GasError, find_highest, press
@@ -82,7 +82,10 @@ CASES = {
 }
 
 
-@pytest.mark.parametrize("case", CASES)
+SIMILAR = ["wiebe", "wiebe after the dead centre"]  # to others among them
+
+
+@pytest.mark.parametrize("case", [*(case for case in CASES if case not in SIMILAR), *slow(*SIMILAR)])
 def test_harmonics_and_imep(case):
     given, burn, goal, offset = CASES[case]
     process = Process(**given, **burn)

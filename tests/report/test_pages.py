@@ -68,7 +68,7 @@ def test_the_same_picture_is_the_same_bytes(form, drawn, four):
     assert drawn("all", form) == draw_page(PageSubject(Study(four)), "all", form)
 
 
-@pytest.mark.parametrize("form", get_args(style.Form))
+@pytest.mark.parametrize("form", ["svg", "png", *slow("pdf")])
 def test_a_hostile_name_stays_text_and_warns_of_nothing(form, four):
     subject = PageSubject(Study(analyze(replace(four.engine, name=HOSTILE), only=QUANTITIES)))
     with warnings.catch_warnings():

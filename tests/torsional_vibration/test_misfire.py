@@ -80,8 +80,13 @@ POINTS = LIMITED.replace(
 OF_MEAN = '[[torsion.excitation]]\nnode = "flywheel"\norder = 1.5\nshare = 0.2\nangle = 30\n'
 
 
-@pytest.mark.parametrize(("key", "compressing"), [("gas", False), ("heat", True)])
-@pytest.mark.parametrize("text", [LIMITED, PROPELLER, POINTS])
+SILENCED = [
+    *((LIMITED, "gas", False), (LIMITED, "heat", True), (PROPELLER, "heat", True), (POINTS, "gas", False)),
+    *(pytest.param(*case, marks=pytest.mark.slow) for case in ((PROPELLER, "gas", False), (POINTS, "heat", True))),
+]
+
+
+@pytest.mark.parametrize(("text", "key", "compressing"), SILENCED)
 def test_only_the_gas_of_the_silent_cylinder_is_computed_again(text, key, compressing):
     """Torques, means and imep at all speeds are those of a file in which this cylinder is silent."""
     file = text + OF_MEAN
