@@ -36,6 +36,8 @@ from .piecewise import Extreme, Function, PiecewiseCurve, find_zero, resolved
 Number = TypeVar("Number", np.float64, np.complex128)
 # An order over the angle that adds less than this share of itself to an order over the time adds 0.
 _FELT = 1e-13
+# The least inertia without a stall is larger by this share of itself than that at which it stalls.
+_NO_STALL = 1e-12
 _CONSTANT = 1e-12  # an inertia that changes by a smaller share of itself is constant
 
 
@@ -269,6 +271,41 @@ def small_fluctuation(surplus_energy: float, mean_inertia: float, mean_speed: fl
     return surplus_energy / (mean_inertia * mean_speed**2)
 
 
+class _Energy(NamedTuple):
+    """Work E of a torque, less that of a constant load equal to its mean, over the angle.
+
+    Attributes:
+        done: E, J.
+        least: Least E, where a shaft of constant inertia is slowest.
+    """
+
+    done: PiecewiseCurve
+    least: Extreme
+
+    @classmethod
+    def of(cls, torque: PiecewiseCurve) -> _Energy:
+        """Return the energy of a torque, N m."""
+        done = torque.antiderivative(torque.mean)
+        return cls(done, done.extremes()[0])
+
+    def rise(self, angle: Array) -> Array:
+        """Return E less its least value."""
+        return self.done.at(angle) - self.least.value
+
+    def find_speed(self, above: float, inertia: Function) -> PiecewiseCurve:
+        """Return the speed, rad/s, if `C + 2 E` is `above` at the angle of the least E."""
+
+        def omega(angle: Array) -> Array:
+            square = (above + 2 * self.rise(angle)) / inertia(angle)
+            return np.sqrt(np.maximum(square, 0))
+
+        return resolved(omega, np.unique(np.append(self.done.breaks, self.least.angle)))
+
+    def find_stall_speed(self, inertia: Function) -> float:
+        """Return the mean speed, rad/s, at which the shaft just does not stop."""
+        return self.find_speed(0.0, inertia).mean
+
+
 def speed_variation(torque: PiecewiseCurve, inertia: Function, mean_speed: float) -> SpeedVariation:
     """Return the speed under a torque (N m) and a constant load equal to its mean.
 
@@ -282,32 +319,25 @@ def speed_variation(torque: PiecewiseCurve, inertia: Function, mean_speed: float
         StallError: The shaft would stop.
     """
     wanted = mean_speed**2
-    done = torque.antiderivative(torque.mean)  # work of the torque less that of the load
-    slowest, _ = done.extremes()
-    panels = np.unique(np.append(done.breaks, slowest.angle))
-
-    def speed_from(above: float) -> PiecewiseCurve:
-        """Return the speed if `C + 2 E` is `above` at the angle of the least E."""
-
-        def omega(angle: Array) -> Array:
-            square = (above + 2 * (done.at(angle) - slowest.value)) / inertia(angle)
-            return np.sqrt(np.maximum(square, 0))
-
-        return resolved(omega, panels)
-
-    stalled = speed_from(0.0).mean ** 2
+    energy = _Energy.of(torque)
+    slowest = energy.least.angle
+    stalled = energy.find_stall_speed(inertia) ** 2
     if stalled >= wanted:
         raise StallError(
-            f"the shaft stalls at {math.degrees(slowest.angle):.1f}°: with this inertia it needs a "
+            f"the shaft stalls at {math.degrees(slowest):.1f}°: with this inertia it needs a "
             f"mean speed above {math.sqrt(stalled) / RPM:.4g} rpm"
         )
-    guess = wanted * float(inertia(np.array(slowest.angle)))
-    above = find_zero(lambda c: speed_from(c).mean ** 2 - wanted, guess, stalled - wanted)
-    speed = speed_from(above)
+
+    def excess(above: float) -> float:
+        return energy.find_speed(above, inertia).mean ** 2 - wanted
+
+    guess = wanted * float(inertia(np.array(slowest)))
+    above = find_zero(excess, guess, stalled - wanted)
+    speed = energy.find_speed(above, inertia)
     low, high = speed.extremes()
     # the difference of the squared speeds, without cancellation if the inertia is constant
     angles = np.array([high.angle, low.angle])
-    w, w0 = done.at(angles) - slowest.value
+    w, w0 = energy.rise(angles)
     i, i0 = inertia(angles)
     squares = float((2 * (w * i0 - w0 * i) + above * (i0 - i)) / (i * i0))
     return SpeedVariation(squares / (high.value + low.value) / mean_speed, low, high, speed)
@@ -333,19 +363,35 @@ def needed_inertia(
     course = resolved(moving, torque.breaks)
     mean = course.mean
     least, most = course.extremes()
+    energy = _Energy.of(torque)
     energy_above = surplus(torque).energy
     if not energy_above and most.value - least.value <= _CONSTANT * most.value:
         return -mean
 
-    def excess(inverse: float) -> float:
+    def add_own(inverse: float) -> Function | None:
+        """Return the inertia of all parts; None: it would be negative."""
         own = 1 / inverse - mean
-        if own + least.value <= 0:
+        return None if own + least.value <= 0 else lambda angle: own + course.at(angle)
+
+    def excess(inverse: float) -> float:
+        inertia = add_own(inverse)
+        if inertia is None:
             return math.inf
         try:
-            variation = speed_variation(torque, lambda angle: own + course.at(angle), mean_speed)
+            variation = speed_variation(torque, inertia, mean_speed)
         except StallError:
             return math.inf
         return variation.fluctuation - fluctuation
 
+    def excess_of_stall(inverse: float) -> float:
+        inertia = add_own(inverse)
+        if inertia is None:
+            return math.inf
+        return energy.find_stall_speed(inertia) - mean_speed
+
     guess = fluctuation * mean_speed**2 / max(energy_above, least.value * mean_speed**2)
+    if excess(guess) == math.inf:
+        largest = find_zero(excess_of_stall, guess, -mean_speed) * (1 - _NO_STALL)
+        if excess(largest) < 0:
+            return 1 / largest - mean
     return 1 / find_zero(excess, guess, -fluctuation) - mean
