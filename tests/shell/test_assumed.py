@@ -11,7 +11,7 @@ from support.commands import run_here
 from support.engines import GOOD, build_text, changed
 from support.paths import ENGINES, write
 
-from balcli import analyze
+from balcli import analyze, sweep
 from balcli.file.assumed import Assumed, Value
 from balcli.show.sheet import tell_assumed
 
@@ -221,6 +221,18 @@ def test_angles_and_places_of_devices_are_listed_where_they_matter(only, listed)
     engine = build_text(changed(more=DEVICES))
     told = [tell_assumed([value]) for value in engine_values(engine, only)]
     assert sorted(told) == sorted(listed)
+
+
+def test_angles_that_vary_are_not_assumed():
+    """An angle is assumed as long as one device of the kind takes it."""
+    text = changed(more="[[counterweight]]\nunbalance = 100\n" * 2)
+    engine = build_text(text)
+    one = {"counterweight.1.angle": [0, 90]}
+    both = {**one, "counterweight.2.angle": [0, 90]}
+    for varied, assumed in ((one, True), (both, False)):
+        result = sweep(engine, varied, ["force.1.major"])
+        named = [value.path for value in result.assumed or ()]
+        assert ("counterweight.angle" in named) == assumed
 
 
 def engine_values(engine, only):

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Container, Iterator
 from typing import TYPE_CHECKING
 
 from ..core.phases import TURN
-from ..file.assumed import Assumed, assume
+from ..file.assumed import DEVICES, Assumed, assume
 from ..file.firing_order import NamedOrder
-from ..file.model import EngineFile, RodKeys
+from ..file.model import EngineFile, RodKeys, Shaft
 from ..file.table import FileTable
 from ..file.units import INERTIA
 from .firing.fits import count_throws_from_first, list_gaps
@@ -128,16 +128,34 @@ def _list_device_defaults(model: EngineFile) -> Iterator[Assumed]:
     one value stands for all devices of a kind. Shafts without a fixed phase to the crank are not
     among the forces of the engine.
     """
-    shafts = [shaft for shaft in model.shaft if not shaft.drifts]
-    of_kinds: dict[str, Sequence[FileTable]] = {
-        "counterweight": model.counterweight,
-        "shaft": shafts,
-        "slider": model.slider,
-    }
-    for kind, tables in of_kinds.items():
-        for key in ("angle", "position", "at"):
-            if table := next((table for table in tables if _lacks(table, key)), None):
-                yield assume(f"{kind}.{key}", table, getattr(table, key))
+    for (kind, key), numbers in _find_lacking(model).items():
+        table = getattr(model, kind)[numbers[0] - 1]
+        yield assume(f"{kind}.{key}", table, getattr(table, key))
+
+
+def list_varied_defaults(model: EngineFile, varied: Container[str]) -> Iterator[str]:
+    """Yield the names of angles and places of devices that the file does not give, if all of them
+    vary.
+
+    Args:
+        model: Engine file.
+        varied: Names of the figures that vary.
+    """
+    for (kind, key), numbers in _find_lacking(model).items():
+        if all(f"{kind}.{number}.{key}" in varied for number in numbers):
+            yield f"{kind}.{key}"
+
+
+def _find_lacking(model: EngineFile) -> dict[tuple[str, str], list[int]]:
+    """Return the numbers of the devices that lack a key, by their kind and this key."""
+    lacking: dict[tuple[str, str], list[int]] = {}
+    for kind in DEVICES:
+        for number, table in enumerate(getattr(model, kind), 1):
+            drifts = isinstance(table, Shaft) and table.drifts
+            for key in ("angle", "position", "at"):
+                if _lacks(table, key) and not drifts:
+                    lacking.setdefault((kind, key), []).append(number)
+    return lacking
 
 
 def _lacks(table: FileTable, key: str) -> bool:

@@ -23,7 +23,7 @@ from ..core.phasors import Array, Figure, Phasors
 from ..engine.build import build
 from ..engine.engine import Engine
 from ..engine.figures import select_varied
-from ..engine.left_out import list_inferred
+from ..engine.left_out import list_inferred, list_varied_defaults
 from ..engine.load import JointEngine, build_jointly, concerns_gas, find_joint_figures
 from ..engine.parts import Parts
 from ..errors import BalcliError, naming_file
@@ -184,6 +184,7 @@ def list_assumed(
         elif q.kind in GAS_KINDS:
             tables.add("gas")
     idle = set(varied)
+    idle.update(list_varied_defaults(model, idle))
     if not model.operation.speed_ripple:
         off_axis = any((model.frame.reference or (0.0,))[:2])
         if not any(_depends_on_throws(q, off_axis=off_axis) for q in quantities):
