@@ -19,9 +19,17 @@ NAMES = {name: unit for name, unit in vars(unit_table).items() if isinstance(uni
 NAMES |= {"AN_ANGLE": AN_ANGLE, "A_LENGTH": A_LENGTH, "A_MASS": A_MASS}
 
 
-@cases("file/units", "common_units", **NAMES)
-def test_common_units(text, dimension, expected):
-    assert convert(text, dimension) == pytest.approx(expected, rel=1e-15)
+COMMON = cases("file/units", "common_units", **NAMES)
+
+
+def list_rows(table):
+    """The rows of a table of cases, of which there are many and each is tried in no time."""
+    return table.args[1]
+
+
+def test_common_units():
+    for text, dimension, expected in list_rows(COMMON):
+        assert convert(text, dimension) == pytest.approx(expected, rel=1e-15), text
 
 
 @given(st.integers(1, 10**6), st.integers(1, 10**6))
@@ -60,20 +68,15 @@ EXACT = cases("file/units", "a_unit_is_as_it_was_defined")
 PRINTED = cases("file/units", "a_unit_is_as_tables_print_it")
 
 
-@EXACT
-def test_a_unit_is_as_it_was_defined(names, value):
-    for name in names.split():
-        assert float(read_unit(name, PLAIN).scale) == pytest.approx(value, rel=2e-16), name
-
-
-@PRINTED
-def test_a_unit_is_as_tables_print_it(names, value):
-    for name in names.split():
-        assert float(read_unit(name, PLAIN).scale) == pytest.approx(value, rel=5e-7), name
+@pytest.mark.parametrize(("table", "share"), [(EXACT, 2e-16), (PRINTED, 5e-7)], ids=["defined", "printed"])
+def test_a_unit_is_as_it_was_defined_or_as_tables_print_it(table, share):
+    for names, value in list_rows(table):
+        for name in names.split():
+            assert float(read_unit(name, PLAIN).scale) == pytest.approx(value, rel=share), name
 
 
 def test_every_unit_is_among_them():
-    listed = {name for table in (EXACT, PRINTED) for names, _ in table.args[1] for name in names.split()}
+    listed = {name for table in (EXACT, PRINTED) for names, _ in list_rows(table) for name in names.split()}
     assert set(unit_table.DEFINITIONS) <= listed
 
 
