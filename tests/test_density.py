@@ -14,6 +14,7 @@ from support.trees import list_nodes
 COUNTED = (ast.ListComp, ast.SetComp, ast.DictComp, ast.GeneratorExp, ast.IfExp, ast.Lambda)
 STATEMENTS = (ast.Assign, ast.AnnAssign, ast.AugAssign, ast.Return, ast.Expr, ast.Raise)
 LISTINGS = (ast.List, ast.Tuple, ast.Set, ast.Dict, ast.Call)
+LEAVES = (ast.Name, ast.Constant, ast.expr_context, ast.operator)
 MOST_IN_A_PART = 2
 
 
@@ -31,6 +32,8 @@ def count_expressions(node: ast.AST) -> int:
     of a listing and arguments of a call stand side by side and are read one by one: the most
     crowded one counts.
     """
+    if isinstance(node, LEAVES):
+        return 0
     counts = [count_expressions(child) for child in ast.iter_child_nodes(node)]
     if isinstance(node, LISTINGS):
         return max(counts, default=0)
