@@ -90,7 +90,7 @@ def test_what_scatters_is_of_the_engine_or_of_its_mounts(four):
     told = refusal("scatter", four, "-q", "mode.1.Hz,force.2.major")
     assert told.startswith("mode.1.Hz, force.2.major: engine, mounts and torsion have different tolerances")
     told = refusal("scatter", four, "-q", "mode.1.Hz", "--samples", "100000")
-    assert told == "100 000 samples: give from 1 to 20 000, because mode.1.Hz is computed one by one"
+    assert told == "100 000 samples: give from 1 to 20 000, because mode.1.Hz takes longer to compute"
     told = refusal("scatter", four, "-q", "mode.1.Hz", "--stiffness-scatter", "0%")
     assert told == "all tolerances are 0; give one, such as --stiffness-scatter 15%"
 

@@ -22,7 +22,7 @@ from ..file.model import EngineFile
 from ..file.units import ANGLE
 from ..forces.kinds import DEFAULT_QUANTITIES, GAS_KINDS
 from ..forces.quantity import TargetQuantity, leave_out_unknown
-from ..limits import MOST_SINGLE_SAMPLES, MOST_TOLERANCE_SAMPLES
+from ..limits import MOST_SLOW_SAMPLES, MOST_TOLERANCE_SAMPLES
 from ..process import Tell, tell_nobody
 from ..shell.arguments import Words, check_count, join_names
 from ..shell.values import read_figure, read_share
@@ -39,11 +39,11 @@ from .quantities import (
 )
 from .quantity_names import ENGINE, MOUNTS, TORSION
 
-# Default numbers of samples if engines are computed together as arrays, and if one by one.
+# Default numbers of samples of quantities that are sums over the cylinders, and of slower ones.
 RANDOM_ENGINES = 100_000
-RANDOM_SINGLES = 500
+RANDOM_SLOW = 500
 CHUNK = 8_192
-SINGLES = 64  # number of slow variants at once, if some of them can be computed together
+SLOW_AT_ONCE = 64  # number of variants at once that are slow, but can be computed together
 AT_ONCE = 400_000  # most samples, and most (samples x parts), at once
 _EQUAL = 1e-8  # effects that differ by less than this share of the largest are equal
 _ROUNDING = 1e-12  # changes below this share of the nominal value are rounding errors
@@ -211,7 +211,7 @@ class Variants:
         of_gas = any(q.kind in GAS_KINDS for q in of_engine)
         self._slow = self._evaluator.one_by_one or (of_gas and any(map(concerns_gas, paths)))
         self._joint = all(self._evaluator.computes_jointly(path, paths) for path in paths)
-        self.usual = RANDOM_SINGLES if self._slow else RANDOM_ENGINES
+        self.usual = RANDOM_SLOW if self._slow else RANDOM_ENGINES
 
     def evaluate(self, deviations: Array) -> Array:
         """Return all quantities in SI units, shape (samples, quantities).
@@ -256,9 +256,9 @@ class Variants:
             BalcliError: The number of samples is too large or 0, or a variant is impossible.
         """
         samples = self.usual if samples is None else samples
-        most = MOST_SINGLE_SAMPLES if self._slow else MOST_TOLERANCE_SAMPLES
+        most = MOST_SLOW_SAMPLES if self._slow else MOST_TOLERANCE_SAMPLES
         if not 1 <= samples <= most:
-            why = f", because {self.asked[0].name} is computed one by one" if self._slow else ""
+            why = f", because {self.asked[0].name} takes longer to compute" if self._slow else ""
             raise BalcliError(
                 f"{count_name(samples)} samples: give from 1 to {count_name(most)}{why}"
             )
@@ -293,7 +293,7 @@ class Variants:
         least = [_LEAST if source.is_relative else -np.inf for source in self.sources]
         at_once = min(CHUNK, max(AT_ONCE // len(tolerances), 1))
         if self._slow:
-            at_once = SINGLES if self._joint else 1
+            at_once = SLOW_AT_ONCE if self._joint else 1
         for start in range(0, samples, at_once):
             size = min(at_once, samples - start), len(tolerances)
             if shape == "uniform":
