@@ -2,10 +2,10 @@
 that can vary.
 
 Quantities of forces and moments (`force.2.major`) are evaluated for all variants as arrays. Other
-quantities (`mode.roll.Hz`, `torsion.1.Hz`, `torque.mean`, `guide.6.H`) are evaluated one variant
-after the other by the module of their chapter (a subject such as mounts), which is loaded only if
-one of its quantities is requested. Gas torque is computed on demand, once for all variants with the
-same gas.
+quantities (`mode.roll.Hz`, `torsion.1.Hz`, `torque.mean`, `guide.6.H`) are evaluated by the module
+of their chapter (a subject such as mounts), which is loaded only if one of its quantities is
+requested: together the variants that the chapter can join (`JointVariants`), the others one after
+the other. Gas torque is computed on demand, once for all variants with the same gas.
 """
 
 from __future__ import annotations
@@ -302,7 +302,8 @@ class Evaluator:
 
     Attributes:
         of_engine: Quantities of forces and moments.
-        one_by_one: Whether some quantities are computed for one variant after another.
+        one_by_one: Whether some quantities are those of chapters, which compute one variant after
+            another, or some variants together (`computes_jointly`).
     """
 
     def __init__(self, model: EngineFile, quantities: Sequence[AnyQuantity]) -> None:

@@ -52,7 +52,7 @@ NEAR_AN_END = 1e-4  # a value closer to an end than this share of the range coun
 _ROUNDING = 1e-13  # objectives that differ by less than this ratio are equal
 _GRID = 720
 _SPREAD = 2048  # number of candidates for one number, and for several
-_SLOW = 32  # number of candidates for each number if they are computed one by one
+_SLOW = 32  # number of candidates for each number if quantities are no sums over the cylinders
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -289,7 +289,9 @@ def _search_numbers(
 
 
 def _choose_effort(box: Box, objective: Objective) -> Effort:
-    """Return the effort of the search, which is smaller if candidates are computed one by one."""
+    """Return the effort of the search, which is smaller if quantities are no sums over the
+    cylinders.
+    """
     if not objective.is_sum_over_cylinders:
         if box.size == 1:
             return Effort(_SLOW, 3, 1e-10, steps=5)

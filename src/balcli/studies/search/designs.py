@@ -1,8 +1,8 @@
 """Define the arrangements (designs) of a search and its objective, a weighted sum of quantities
 with limits; compute quantities and costs of candidates; write engine files with a design.
 
-If the quantities are sums over the cylinders, or if only a computed gas cycle varies, candidates
-are computed as arrays, otherwise one by one.
+Candidates are computed together if the quantities are sums over the cylinders, or if the variants
+of all varied figures can be joined (`Evaluator.computes_jointly`); otherwise one by one.
 """
 
 from __future__ import annotations
