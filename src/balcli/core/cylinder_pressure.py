@@ -126,11 +126,11 @@ class GasPiston:
         return self.swept / (compression_ratio - 1)
 
     def volume(self, angle: ArrayLike, compression_ratio: Figure) -> Array:
-        """Return the volume of the cylinder, m3, in the shape of the angles.
+        """Return the volume of the cylinder, m3.
 
         Args:
             angle: Cycle angles, rad, any shape.
-            compression_ratio: Largest volume over smallest volume; it broadcasts to the angles.
+            compression_ratio: Largest volume over smallest volume; it broadcasts with the angles.
         """
         travel = self.travel(np.asarray(angle, float))
         return self.clearance(compression_ratio) + self.area * travel

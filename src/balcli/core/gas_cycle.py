@@ -225,9 +225,9 @@ class _Cycle:
         self.pressure = p.intake * (self.closed / self.charge) ** p.compression_index
         self.constant = self.pressure * self.charge**self.index  # p V^n of the charge
         self.unit = self.pressure * self.charge  # of heat, J
-        self.least: Figure = 0.0
-        self.most: Figure = math.inf
-        self.released = 1.0  # heat limits, J; released share
+        self.least: Figure = 0.0  # heat, J
+        self.most: Figure = math.inf  # heat, J
+        self.released = 1.0  # share of the heat
         self.grown = self.charge ** (self.index - 1)  # integral of V^(n-1) dx, x: burnt share
         self.limit = self.pressure if p.cycle == "diesel" else None
         if p.cycle == "dual":

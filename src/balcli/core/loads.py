@@ -312,8 +312,8 @@ def share_by_lever(places: Array, planes: Array) -> Array:
 
 
 def sum_by_lever(loads: Phasors, places: Array, planes: Array) -> Phasors:
-    """Return the load of each plane by the lever rule, phasors (orders, planes). Sums
-    below their rounding error are set to 0. The time is proportional to the number of loads.
+    """Return the load of each plane by the lever rule, phasors (orders, planes). Sums below their
+    rounding error are set to 0. The time is proportional to the number of loads.
 
     Args:
         loads: Phasors of shape (orders, loads).

@@ -28,7 +28,7 @@ from numpy.typing import ArrayLike, NDArray
 from .peaks import Peak
 from .phasors import Array, Complex, Figure, open_axes
 
-Function: TypeAlias = Callable[[Array], Array]  # values at angles (rad), in the shape of the angles
+Function: TypeAlias = Callable[[Array], Array]  # values at angles (rad), shape (*angles, *figure)
 Number = TypeVar("Number", np.float64, np.complex128)
 Vectors: TypeAlias = Callable[[Array], Complex]  # values at angles, shape (vectors, angles)
 
