@@ -39,9 +39,8 @@ _REACHED = 1e-12  # the search ends if the peak exceeds its bound by a smaller s
 _MEASURED = "Opposite the pin: the counterweights that the measured mass implies"
 _BESIDE_WEBS = "At the pin: what the measured mass implies beyond the webs of the file"
 _UNCHANGED = 1e-9  # a bobweight that changes by a smaller share counts as unchanged
-_WRITTEN = (
-    1e-10  # a smaller share of the unbalances is not missing: figures of files have 12 digits
-)
+# Figures of files have 12 digits: a smaller share of the unbalances is not missing.
+_WRITTEN = 1e-10
 
 
 class _Pin(NamedTuple):
