@@ -182,7 +182,7 @@ def test_variants_that_are_computed_together_are_each_of_them(case):
     found = balcli.sweep(engine, grid, f"{OF_CYCLE},{OF_ORDERS}")
     every = np.stack([found[name] for name in [*OF_CYCLE.split(","), *OF_ORDERS.split(",")]])
     places = [*np.ndindex(every.shape[1:])]
-    for place in (places[0], places[len(places) // 2], places[-1]):
+    for place in (places[len(places) // 2], places[-1]):
         own = {path: values[k] for (path, values), k in zip(grid.items(), place, strict=True)}
         alone = balcli.sweep(engine, own, f"{OF_CYCLE},{OF_ORDERS}")
         expected = np.array([alone[name].item() for name in list(alone)[len(grid) :]])
