@@ -17,6 +17,7 @@ from support.pictures import without_pictures
 import balcli
 from balcli.engine.build import build
 from balcli.engine.parse import parse_dict
+from balcli.errors import BalcliError
 from balcli.forces.kinds import EVERY_KIND
 from balcli.forces.spectrum import compute_spectra
 
@@ -232,6 +233,11 @@ def test_a_sweep_is_its_variants_one_by_one(geared, path):
         own = balcli.sweep(both, {path: [value]}, SWEPT)
         assert [swept[name][k] for name in SWEPT] == pytest.approx([own[name][0] for name in SWEPT])
     assert not np.allclose(*(np.array([swept[name][k] for name in SWEPT]) for k in (0, 1)))
+
+
+def test_the_engine_whose_gas_cannot_be_varied_is_named(geared):
+    with pytest.raises(BalcliError, match=r"engine\.1: gas\.imep = -4: gas\.imep: is -4 bar"):
+        balcli.sweep(geared(), {"engine.1.gas.imep": [8, -4]}, "gas.1.amplitude")
 
 
 def test_a_swept_phase_is_that_of_the_file(geared):

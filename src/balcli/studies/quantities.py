@@ -242,10 +242,19 @@ def _list_variants(
 class _VariedGas:
     """Gas torque of variants by order, shape (orders, *parameters): each parameter has an axis,
     which has length 1 if the parameter has no effect on the gas.
+
+    Args:
+        model: Engine file.
+        figures: Figures that vary, by dotted name.
+        rank: Number of parameters.
+        within: Beginning of messages, which names the geared engine; empty for a single engine.
     """
 
-    def __init__(self, model: EngineFile, figures: Mapping[str, Figure], rank: int) -> None:
+    def __init__(
+        self, model: EngineFile, figures: Mapping[str, Figure], rank: int, within: str
+    ) -> None:
         self._model = model
+        self._within = within
         self._groups = list[JointEngine]()
         self._figures = {k: value for k, value in figures.items() if concerns_gas(k, model.gas)}
         self._shape = np.broadcast_shapes((1,) * rank, *map(np.shape, self._figures.values()))
@@ -273,22 +282,23 @@ class _VariedGas:
             yield group
         for place in sorted(left):
             own = variants[place]
-            with naming_file(tell_variant(own)):
+            with naming_file(f"{self._within}{tell_variant(own)}"):
                 yield JointEngine([place], build(self._model, own))
 
 
 def _vary_gas(
-    model: EngineFile, engine: Engine, figures: Mapping[str, Figure], rank: int
+    model: EngineFile, engine: Engine, figures: Mapping[str, Figure], rank: int, within: str = ""
 ) -> Engine:
     """Return an engine of variants with the gas of each variant, if the file has gas."""
     if not model.has_gas:
         return engine
     if not engine.placed:
-        return replace(engine, gas_of_variants=_VariedGas(model, figures, rank))
+        return replace(engine, gas_of_variants=_VariedGas(model, figures, rank, within))
     placed = []
     for k, (crank, one) in enumerate(zip(model.cranks, engine.placed, strict=True), 1):
         own = dict(select_varied(figures, k))
-        placed.append(one._replace(engine=_vary_gas(crank, one.engine, own, rank)))
+        varied = _vary_gas(crank, one.engine, own, rank, f"engine.{k}: ")
+        placed.append(one._replace(engine=varied))
     some = next(filter(None, (one.engine.gas_of_variants for one in placed)))
     return replace(engine, placed=tuple(placed), gas_of_variants=some)
 
