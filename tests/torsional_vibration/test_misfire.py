@@ -144,6 +144,15 @@ def test_a_compressing_cylinder_has_no_heat():
     assert ask_torsion(LIMITED, *SPEEDS, "--misfire", "2")["no_gas_in"] == [2]
 
 
+def test_a_cylinder_whose_gas_is_its_own_may_compress():
+    """The others of its [[gas.of]] burn as before."""
+    shared = LIMITED + "[[gas.of]]\ncylinders = [2, 3]\nheat = 1000\n"
+    by_option = ask_torsion(shared, *SPEEDS, "--misfire", "2", "--compressing")
+    apart = shared.replace("[2, 3]", "[3]") + "[[gas.of]]\ncylinders = [2]\nheat = 0\n"
+    assert by_option == ask_torsion(apart, *SPEEDS)
+    assert by_option["no_burning_in"] == [2]
+
+
 def test_the_worst_misfire_may_compress():
     answer = ask_torsion(LIMITED, *SPEEDS, "--misfire", "worst", "--compressing")
     assert answer["no_burning_in"] == [answer["misfire"]["worst"]]

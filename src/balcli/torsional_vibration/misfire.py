@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from ..engine.build import build
 from ..engine.engine import CylinderNumber, Engine, take_model
 from ..errors import ArgumentError
-from ..file.gas_tables import COMPRESSOR
+from ..file.gas_tables import COMPRESSOR, Gas, GasOf, take_of
 from ..file.model import EngineFile, Override
 from ..forces.curves import silence
 from ..shell.values import parse_cylinder
@@ -63,8 +63,8 @@ def stop_firing(engine: Engine, number: CylinderNumber, compressing: bool) -> En
     Args:
         engine: Engine with gas.
         number: Number of the cylinder.
-        compressing: Whether the cylinder compresses and expands its charge, as with `heat = 0` in
-            its table; this needs a computed cycle.
+        compressing: Whether the cylinder compresses and expands its charge, as with `heat = 0`;
+            this needs a computed cycle.
 
     Raises:
         BalcliError: The engine has no gas, no such cylinder, or no computed cycle for one that
@@ -93,20 +93,43 @@ def stop_burning(engine: Engine) -> Engine:
 
 
 def _stop_burning(model: EngineFile, numbers: Sequence[CylinderNumber]) -> Engine:
-    tables = dict(model.cylinder)
     for number in map(int, numbers):
-        table = tables.get(number, Override.model_construct())
-        tables[number] = table.model_copy(update={"heat": 0.0})
-    return build(model.model_copy(update={"cylinder": tables}))
+        gas = model.gas
+        if gas is not None and any(number in table.cylinders for table in gas.of):
+            of = tuple(_take_heat_out(gas, number))
+            model = model.model_copy(update={"gas": gas.model_copy(update={"of": of})})
+        else:
+            table = model.cylinder.get(number, Override.model_construct())
+            cold = table.model_copy(update={"heat": 0.0})
+            model = model.model_copy(update={"cylinder": {**model.cylinder, number: cold}})
+    return build(model)
+
+
+def _take_heat_out(gas: Gas, number: int) -> Iterator[GasOf]:
+    """Yield the tables [[gas.of]]; one cylinder gets a table of its own, without heat."""
+    for table in gas.of:
+        if number not in table.cylinders:
+            yield table
+            continue
+        others = tuple(other for other in table.cylinders if other != number)
+        if others:
+            yield table.model_copy(update={"cylinders": others})
+        own = take_of(gas, table)
+        keys = own.model_fields_set.intersection(GasOf.model_fields).difference(own.goals)
+        kept = {key: getattr(own, key) for key in keys}
+        yield GasOf.model_construct(**kept | {"cylinders": (number,), "heat": 0.0})
 
 
 def computes_cycle(model: EngineFile, number: CylinderNumber) -> bool:
     """Return whether the gas of a cylinder follows from a computed cycle with combustion."""
     gas = model.gas
-    if gas is None or gas.cycle in (None, COMPRESSOR):
-        return False
     own = model.cylinder.get(int(number))
-    return own is None or own.indicator is None
+    if gas is None or (own is not None and own.indicator is not None):
+        return False
+    for table in gas.of:
+        if int(number) in table.cylinders:
+            gas = take_of(gas, table)
+    return gas.cycle not in (None, COMPRESSOR)
 
 
 def compute_all_cycles(engine: Engine) -> bool:
