@@ -128,7 +128,7 @@ def concerns_gas(path: str, gas: Gas | None = None) -> bool:
 
 
 Values = tuple[tuple[str, float], ...]  # figures by dotted name
-_KEPT = 64  # number of variants that are cached: as many as are computed at a time
+_KEPT = 64  # number of variants that are cached
 
 
 SPEED = "operation.speed"
