@@ -15,7 +15,7 @@ from balcli.core.gas_cycle import GOALS, Goal, Process, find_least_imep, gas_cyc
 OF_THE_LARGEST = 1e-12  # harmonics
 RELATIVE = 1e-12  # imep
 LENGTHS = 0.045, 0.15, 0.086  # radius, rod, bore
-HALVES = [0, 1, 2, 31, 48]
+HALVES = [0, 1, 2, 3, 8, 31, 48]
 SPARK = {"compression_ratio": 10.5}
 DIESEL = {"compression_ratio": 17.0}
 LATE = {"exhaust_opens": 140.0, "intake_closes": 580.0}
