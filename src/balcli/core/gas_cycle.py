@@ -398,11 +398,11 @@ class _Cycle:
         """Raise GasError if a value is outside the range that the cycle can reach."""
         size, unit = (1e5, " bar") if name in ("imep", "max_pressure") else (1.0, "")
         for wanted, least, most in np.broadcast(value, lowest, highest):
-            message = f"is {wanted / size:g}{unit}: this cycle has"
-            if wanted < least:
-                raise GasError(name, f"{message} at least {least / size:.4g}{unit}")
-            if wanted > most:
-                raise GasError(name, f"{message} at most {most / size:.4g}{unit}")
+            if not (wanted < least or wanted > most):
+                continue
+            bound, end = ("at least", least) if wanted < least else ("at most", most)
+            message = f"is {wanted / size:g}{unit}: this cycle has {bound} {end / size:.4g}{unit}"
+            raise GasError(name, message)
 
 
 def _hold(pressure: Figure) -> Function:

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import suppress
 
 import numpy as np
@@ -117,12 +117,12 @@ class Variants(FiguresOfVariants[TargetQuantity]):
         self._names = [q.name for q in quantities]
         self._only_gas = FLUCTUATION in self._names
 
-    def joins(self, path: str, others: Iterable[str]) -> bool:
-        """Return whether variants that differ only in one figure are computed together; see
+    def joins(self, different: Collection[str], varied: Collection[str]) -> bool:
+        """Return whether variants that differ only in some figures are computed together; see
         `studies.quantities.JointVariants`.
         """
-        figures = find_joint_figures(self._model, (path, *others), only_gas=self._only_gas)
-        return path in figures.all
+        figures = find_joint_figures(self._model, varied, only_gas=self._only_gas)
+        return figures.all.issuperset(different)
 
     def evaluate_jointly(self, variants: Sequence[Mapping[str, float]]) -> dict[int, list[float]]:
         """Return the value of each quantity for the variants that can be computed together, by

@@ -61,12 +61,12 @@ class Variants(Protocol):
 class JointVariants(Variants, Protocol):
     """Object that can also evaluate some variants together."""
 
-    def joins(self, path: str, others: Iterable[str]) -> bool:
-        """Return whether variants that differ only in one figure are computed together.
+    def joins(self, different: Collection[str], varied: Collection[str]) -> bool:
+        """Return whether variants that differ only in some figures are computed together.
 
         Args:
-            path: Dotted name of the figure.
-            others: Dotted names of other figures that vary.
+            different: Dotted names of these figures.
+            varied: Dotted names of all figures that vary.
         """
 
     def evaluate_jointly(self, variants: Sequence[Mapping[str, float]]) -> dict[int, list[float]]:
@@ -312,7 +312,7 @@ class Evaluator:
 
     Attributes:
         of_engine: Quantities of forces and moments.
-        one_by_one: Whether some quantities are those of chapters, which compute one variant after
+        of_chapters: Whether some quantities are those of chapters, which compute one variant after
             another, or some variants together (`computes_jointly`).
     """
 
@@ -324,19 +324,19 @@ class Evaluator:
             (members, load_chapter(chapter).Variants(model, members))
             for chapter, members in group_by_chapter(quantities).items()
         ]
-        self.one_by_one = bool(self._chapters)
+        self.of_chapters = bool(self._chapters)
 
-    def computes_jointly(self, path: str, others: Iterable[str] = ()) -> bool:
-        """Return whether variants that differ only in one figure are computed together.
+    def computes_jointly(self, different: Collection[str], varied: Collection[str]) -> bool:
+        """Return whether variants that differ only in some figures are computed together.
 
         Args:
-            path: Dotted name of the figure.
-            others: Dotted names of other figures that vary.
+            different: Dotted names of these figures.
+            varied: Dotted names of all figures that vary.
         """
         if not self._chapters:
-            return path in find_joint_figures(self._model, (path, *others)).all
+            return find_joint_figures(self._model, varied).all.issuperset(different)
         return all(
-            isinstance(chapter, JointVariants) and chapter.joins(path, others)
+            isinstance(chapter, JointVariants) and chapter.joins(different, varied)
             for _, chapter in self._chapters
         )
 
@@ -369,10 +369,10 @@ class Evaluator:
             values = evaluate_quantities(engine, self.of_engine)
             of_quantities |= dict(zip(self.of_engine, values, strict=True))
         if self._chapters:
-            of_quantities |= self._evaluate_one_by_one(figures, shape)
+            of_quantities |= self._evaluate_chapters(figures, shape)
         return {q: np.broadcast_to(of_quantities[q], shape) for q in self._quantities}
 
-    def _evaluate_one_by_one(
+    def _evaluate_chapters(
         self, figures: Mapping[str, Array], shape: tuple[int, ...]
     ) -> dict[AnyQuantity, Array]:
         variants = list(_list_variants(figures, shape))
@@ -393,7 +393,9 @@ def _evaluate_jointly(
     chapter: Variants, variants: Sequence[Mapping[str, float]]
 ) -> dict[int, list[float]]:
     """Return what a chapter can evaluate together, as `JointVariants.evaluate_jointly`."""
-    return chapter.evaluate_jointly(variants) if isinstance(chapter, JointVariants) else {}
+    if len(variants) > 1 and isinstance(chapter, JointVariants):
+        return chapter.evaluate_jointly(variants)
+    return {}
 
 
 # ------------------------------------------------------------------ lists of names

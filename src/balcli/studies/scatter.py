@@ -209,8 +209,8 @@ class Variants:
         self._evaluator = Evaluator(self.model, asked)
         paths = [path for source in self.sources for path in source.figures]
         of_gas = any(q.kind in GAS_KINDS for q in of_engine)
-        self._slow = self._evaluator.one_by_one or (of_gas and any(map(concerns_gas, paths)))
-        self._joint = all(self._evaluator.computes_jointly(path, paths) for path in paths)
+        self._slow = self._evaluator.of_chapters or (of_gas and any(map(concerns_gas, paths)))
+        self._joint = self._evaluator.computes_jointly(paths, paths)
         self.usual = RANDOM_SLOW if self._slow else RANDOM_ENGINES
 
     def evaluate(self, deviations: Array) -> Array:

@@ -60,7 +60,7 @@ Box: TypeAlias = tuple[slice, ...]
 # Function that yields `work(item)` for each item, in order, and may share the work among threads:
 Share: TypeAlias = Callable[[Callable[[Any], Any], Iterable[Any]], Iterator[Any]]
 ALONE = 64  # number of variants in a box if each is computed by itself
-JOINT = 256  # number of variants in a box whose gas cycles are computed together
+JOINT = 256  # number of variants in a box if they are computed together
 CHUNK = 65_536  # largest number of variants in a box; larger boxes save no more work
 BYTES = 1 << 24  # size of the largest array of a box, which fits into the cache
 SAMPLES = 1 << 20  # largest number of crank-angle samples in a box; they take a tenth of a second
@@ -273,8 +273,8 @@ def count_at_once(sweep: Sweep) -> int:
     paths = [parameter.path for parameter in sweep.parameters]
     gas_varies = of_gas and any(concerns_gas(path, gas) for path in paths for gas in gases)
     most = CHUNK
-    if sweep.evaluator.one_by_one or gas_varies:
-        joint = sweep.evaluator.computes_jointly(paths[-1], paths)
+    if sweep.evaluator.of_chapters or gas_varies:
+        joint = sweep.evaluator.computes_jointly(paths[-1:], paths)
         most = JOINT if joint else ALONE
     if not sweep.evaluator.of_engine:
         return most

@@ -28,8 +28,10 @@ class Columns:
         self.count = curves + len(first.rings) + first.rubber_rings
         self._systems = systems
         self._curves = curves
-        self._sum = join_sums([expand_in_poles(system) for system in systems])
+        self._sum: PoleSum | None = None
         self._unphased: list[PoleSum] = []
+        if len(systems) == 1 or not first.unphased:
+            self._sum = join_sums([expand_in_poles(system) for system in systems])
         self._spanned = np.zeros(self.count, bool)
         if self._sum is not None:
             self._spanned[: len(self._sum.spanned)] = self._sum.spanned
@@ -38,7 +40,7 @@ class Columns:
     @property
     def are_sums(self) -> bool:
         """Whether torques of all systems are sums over poles, which are computed together."""
-        return self._sum is not None and not (self._unphased and len(self._systems) > 1)
+        return self._sum is not None
 
     def find_poles(self, system: int) -> Complex | None:
         """Return the poles of a system, rad/s; None if they were not needed."""

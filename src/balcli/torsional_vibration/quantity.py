@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import suppress
 from typing import NamedTuple
 
@@ -107,9 +107,9 @@ class Variants:
         """
         return self._evaluate([self._build(values)])[0]
 
-    def joins(self, path: str, others: Iterable[str]) -> bool:
-        """Return whether variants that differ only in one figure are computed together; see
-        `studies.quantities.JointVariants`.
+    def joins(self, different: Collection[str], varied: Collection[str]) -> bool:
+        """Return whether variants that differ only in some figures are computed together; see
+        `studies.quantities.JointVariants`. All figures are such figures.
         """
         return True
 

@@ -342,8 +342,7 @@ class NumbersJudge:
         """Number of points that are computed together."""
         if self.objective.is_sum_over_cylinders:
             return AT_ONCE
-        paths = self.paths
-        joint = all(self._evaluator.computes_jointly(path, paths) for path in paths)
+        joint = self._evaluator.computes_jointly(self.paths, self.paths)
         return AT_ONCE if joint else 1
 
     def _judge(self, points: Array) -> Array:
