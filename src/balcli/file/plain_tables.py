@@ -5,7 +5,7 @@ Change these tables.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from itertools import islice
 from pathlib import Path
 from typing import Any
@@ -104,17 +104,24 @@ def list_tables(value: object) -> Any:
     return RIGID if value == math.inf else value
 
 
-def _list_fields(table: FileTable) -> Node:
-    """Return the keys that a table gives, named as in a file."""
+def _list_fields(table: FileTable, only: Collection[str] | None = None) -> Node:
+    """Return the keys that a table gives, named as in a file; of these, `only` those with these
+    names.
+    """
     listed = {}
     for name, field in type(table).model_fields.items():
+        key = field.alias or name
+        if name not in table.model_fields_set or (only is not None and key not in only):
+            continue
         value = getattr(table, name)
-        if name in table.model_fields_set and value is not None and value != ():
-            listed[field.alias or name] = list_tables(value)
+        if value is not None and value != ():
+            listed[key] = list_tables(value)
     return listed
 
 
-def change_tables(model: EngineFile, changes: Mapping[str, object]) -> Node:
+def change_tables(
+    model: EngineFile, changes: Mapping[str, object], only: Collection[str] | None = None
+) -> Node:
     """Return the tables of a file with other values of some keys.
 
     Args:
@@ -122,11 +129,13 @@ def change_tables(model: EngineFile, changes: Mapping[str, object]) -> Node:
         changes: Values by dotted names (`rod.length`, `crank.throws.2`, `mount.left.stiffness.1`);
             None removes a key. Equivalent keys (`rod.ratio` for `rod.length`) are removed, unless
             they are changed as well.
+        only: Keys of the file whose tables are returned, those of all changes among them; None: all
+            keys.
 
     Raises:
         InputError: A name refers to a member that a list of the file does not have.
     """
-    tables = list_tables(model)
+    tables = _list_fields(model, only)
     for path, value in changes.items():
         *parents, last = path.split(".")
         if path == "locomotive.speed":

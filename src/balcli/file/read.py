@@ -333,7 +333,7 @@ def change_figures(
         if kind in tables:
             own[path] = value
             kinds.add(kind)
-    data = change_tables(model, own)
+    data = change_tables(model, own, kinds)
     reader = TableReader(ENGINE.name, is_engine=True)
     changed = {kind: _read_part(reader, kind, data[kind]) for kind in kinds}
     if reader.problems:
