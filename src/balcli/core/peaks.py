@@ -207,11 +207,8 @@ def _search(orders: ArrayLike, phasors: Complex, *, squared: bool) -> CyclePeak:
         size = np.abs(some).sum(axis=(1, 2))
         scaled = np.asarray(some / np.where(size > _SMALLEST, size, 1)[:, None, None], complex)
         waves = _sample(harmonics, scaled)
-        if not squared:  # the lowest value of a curve is the highest of its negative
-            scaled = np.concatenate([scaled, -scaled])
-            waves = np.concatenate([waves, -waves])
         curve, values, angles, at_zero = _find_tops(harmonics, scaled, waves, squared)
-        starts = np.searchsorted(curve, np.arange(len(waves)))
+        starts = np.searchsorted(curve, np.arange(len(at_zero)))
         top = np.maximum.reduceat(values, starts)
         among = values >= (top - _EQUAL)[curve]
         first = np.minimum.reduceat(np.where(among, angles, _TURN), starts)
@@ -237,7 +234,8 @@ def _find_tops(
 ) -> tuple[Indices, Real, Real, Real]:
     """Return the maxima that may be the highest of their curves, and the value of each curve at 0.
     Maxima are given by the indices of their curves (ascending), values, and angles in [0, 2 pi),
-    each of shape (tops,); values at 0 have shape (curves,).
+    each of shape (tops,); values at 0 have shape (curves,). Unless the curves are `squared`, their
+    negatives, whose maxima are the minima of the curves, follow them as further curves.
 
     Args:
         harmonics: Whole numbers, shape (orders,).
@@ -247,26 +245,34 @@ def _find_tops(
         squared: Whether the squared length is wanted, not the value of a single component.
     """
     samples = (waves**2).sum(axis=1) if squared else waves[:, 0]
-    count = samples.shape[1]
-    highest_at = samples.argmax(axis=1)
+    curves, count = samples.shape
     high = samples.max(axis=1)
-    swing = high - (0 if squared else samples.min(axis=1))
-    least = high - _NEAR * swing
-    curve, at = np.divmod(np.flatnonzero(samples >= least[:, None]), count)
-    before, here, after = (samples[curve, (at + k) % count] for k in (-1, 0, 1))
-    peaked = ((here > before) & (here >= after)) | (at == highest_at[curve])
-    curve = curve[peaked]
-    at = at[peaked]
+    low = np.zeros(curves) if squared else samples.min(axis=1)
+    margin = _NEAR * (high - low)
+    near = [samples >= (high - margin)[:, None]]
+    highest_at = [samples.argmax(axis=1)]
+    at_zero = [samples[:, 0]]
+    if not squared:
+        near.append(samples <= (low + margin)[:, None])
+        highest_at.append(samples.argmin(axis=1))
+        at_zero.append(-samples[:, 0])
+    row, at = np.divmod(np.flatnonzero(np.concatenate(near)), count)
+    curve = row % curves
+    sign = np.where(row < curves, 1.0, -1.0)
+    before, here, after = (sign * samples[curve, (at + k) % count] for k in (-1, 0, 1))
+    peaked = ((here > before) & (here >= after)) | (at == np.concatenate(highest_at)[row])
+    row, curve, at, sign = (each[peaked] for each in (row, curve, at, sign))
     vertex = _find_vertex(before[peaked], here[peaked], after[peaked])
     most = max(_AT_ONCE // parts[0].size, 1)  # maxima that are refined at once
     climbed = []
     for start in range(0, len(curve), most):
         some = slice(start, start + most)
-        tops = _climb(harmonics, parts[curve[some]], squared, at[some], vertex[some], count)
-        climbed.append(tops)
+        own = parts[curve[some]] * sign[some, None, None]
+        climbed.append(_climb(harmonics, own, squared, at[some], vertex[some], count))
     value, angle = np.concatenate(climbed, axis=1)
     angle = angle % _TURN
-    return curve, value, np.where(angle > _TURN - _ZERO, 0.0, angle), samples[:, 0]
+    angle[angle > _TURN - _ZERO] = 0.0
+    return row, value, angle, np.concatenate(at_zero)
 
 
 def _find_vertex(before: Real, here: Real, after: Real) -> Real:
@@ -357,7 +363,8 @@ def _differentiate(shares: tuple[float, ...]) -> Real:
 
 # ------------------------------------------------------------------ functions of one variable
 _PARTS = 8  # parts into which an interval is cut; the two next to a peak are the next interval
-_CUTS = 4  # number of times that an interval is cut
+_CUTS = 3  # number of times that an interval is cut
+_BESIDE = 1 / 16  # distance of the last three places, as a share of the last step
 
 
 def find_highest(
@@ -401,8 +408,9 @@ def find_peaks_between(
     and the interval no wider than the peak. The search ends early in all other intervals.
 
     Each interval is cut into eighths. Every peak among these places that may be the highest is
-    enclosed in a smaller interval, which is cut again. The peak is the vertex of a parabola through
-    the last three points. A peak that is narrower than an eighth may be missed.
+    enclosed in a smaller interval, which is cut again. The peak is near the vertex of a parabola
+    through the last three points; it is the vertex of a parabola through three points close to this
+    one. A peak that is narrower than an eighth may be missed.
 
     Args:
         judge: Function that computes several functions, one for each column of its arguments:
@@ -438,6 +446,10 @@ def find_peaks_between(
         around = around[:, may]
     middle = np.clip(top, 1, _PARTS - 3)
     vertex = np.clip(place + step * (middle - top + _find_vertex(*around)), low, high)
+    beside = step * _BESIDE
+    heights = judge(vertex + beside * np.array([[-1], [0], [1]]), which[going])
+    _raise(best, highest, going, vertex, heights[1])
+    vertex = np.clip(vertex + beside * _find_vertex(*heights), low, high)
     _raise(best, highest, going, vertex, judge(vertex[None], which[going])[0])
     return best, highest
 
