@@ -40,7 +40,7 @@ def unit(degrees: ArrayLike) -> Complex:
     return _UNITS[steps.astype(np.intp) % 24] * compose(np.cos(rest), np.sin(rest))
 
 
-def compose(real: Array, imaginary: Array) -> Complex:
+def compose(real: NDArray[np.floating[Any]], imaginary: NDArray[np.floating[Any]]) -> Complex:
     """Return real + i imaginary. This is quicker than a sum of complex arrays.
 
     Args:

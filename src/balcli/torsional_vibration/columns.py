@@ -10,7 +10,7 @@ import numpy as np
 
 from ..core.vibration import Complex, Indices, Real
 from .motion import compute_curves, compute_in_parts, find_half_swing
-from .poles import PoleSum, expand_in_poles, join_sums
+from .poles import PoleSum, expand_in_poles
 from .system import TorsionalSystem
 
 
@@ -19,43 +19,43 @@ class Columns:
     each pendulum (rad), and the heat of each damper (W), as functions of the speed.
 
     Args:
-        systems: Systems with an excitation; if they are more than one, variants of one system.
+        systems: Systems with excitations of the same orders; if they are more than one, variants of
+            one system.
     """
 
     def __init__(self, systems: Sequence[TorsionalSystem]) -> None:
         first = systems[0]
-        curves = len(first.shafts) + 1 + len(first.pendulums)
-        self.count = curves + len(first.rings) + first.rubber_rings
+        self.count = len(first.shafts) + 1 + len(first.pendulums) + len(first.rings)
+        self.count += first.rubber_rings
         self._systems = systems
-        self._curves = curves
-        self._sum: PoleSum | None = None
-        self._unphased: list[PoleSum] = []
-        if len(systems) == 1 or not first.unphased:
-            self._sum = join_sums([expand_in_poles(system) for system in systems])
-        self._spanned = np.zeros(self.count, bool)
-        if self._sum is not None:
-            self._spanned[: len(self._sum.spanned)] = self._sum.spanned
-            self._unphased = [self._sum.drive(own) for own in first.unphased]
-
-    @property
-    def are_sums(self) -> bool:
-        """Whether torques of all systems are sums over poles, which are computed together."""
-        return self._sum is not None
+        self._orders = first.require_excitation().orders
+        self._swings = len(first.shafts) + 1 + len(first.pendulums)
+        self._sums = [expand_in_poles(system) for system in systems]
+        self._spanned = np.zeros((len(systems), self.count), bool)
+        for own, summed in zip(self._spanned, self._sums, strict=True):
+            if summed is not None:
+                own[: len(summed.spanned)] = summed.spanned
+        self._unphased: list[list[PoleSum]] = []
+        for system, summed in zip(systems, self._sums, strict=True):
+            unphased = [] if summed is None else [summed.drive(own) for own in system.unphased]
+            self._unphased.append(unphased)
 
     def find_poles(self, system: int) -> Complex | None:
         """Return the poles of a system, rad/s; None if they were not needed."""
-        return None if self._sum is None else self._sum.poles[system]
+        summed = self._sums[system]
+        return None if summed is None else summed.poles
 
     def bound(self, rpm: Real, which: Indices, system: int = 0) -> Real:
         """Return upper bounds at speeds (speeds,) for a system, shape (speeds, len(which))."""
-        if self._sum is not None and np.all(self._spanned[which]):
-            sums = self._sum.sum_amplitudes(rpm, which, system)
-            for unphased in self._unphased:
-                sums = sums + unphased.sum_amplitudes(rpm, which)
-            return sums
+        summed = self._sums[system]
+        if summed is not None and np.all(self._spanned[system, which]):
+            bounds = summed.sum_amplitudes(rpm, which)
+            for unphased in self._unphased[system]:
+                bounds += unphased.sum_amplitudes(rpm, which)
+            return bounds
         parts = compute_in_parts(self._systems[system], rpm)
-        bounds = [np.append(part.sums, part.heat, axis=1) for part in parts]
-        return np.concatenate(bounds)[:, which]
+        all_bounds = [np.append(part.sums, part.heat, axis=1) for part in parts]
+        return np.concatenate(all_bounds)[:, which]
 
     def find(self, rpm: Real, which: Indices, system: Indices | None = None) -> Real:
         """Return values at speeds (places,), each of the column in `which`, by sums over poles
@@ -69,25 +69,43 @@ class Columns:
         if system is None:
             system = np.zeros(len(rpm), int)
         values = np.zeros(len(rpm))
-        summed = self._spanned[which]
-        if self._sum is not None and np.any(summed):
-            places = rpm[summed], system[summed], which[summed]
-            values[summed] = find_half_swing(self._sum.orders, self._sum.find_curves(*places))
-            for unphased in self._unphased:
-                values[summed] += np.abs(unphased.find_curves(*places)[0])
-        for k in np.unique(system[~summed]).tolist():
-            own = ~summed & (system == k)
-            values[own] = self.find_exactly(rpm[own], which[own], k)
+        spanned = self._spanned[system, which]
+        if np.any(spanned):
+            values[spanned] = self._sum_poles(rpm[spanned], which[spanned], system[spanned])
+        if not np.all(spanned):
+            others = rpm[~spanned], which[~spanned], system[~spanned]
+            values[~spanned] = self.find_exactly(*others)
         return values
 
-    def find_exactly(self, rpm: Real, which: Indices, system: int = 0) -> Real:
-        """Return values of a system at speeds (places,), each of the column in `which`."""
+    def _sum_poles(self, rpm: Real, which: Indices, system: Indices) -> Real:
+        """Return values as `find` does, of columns that are sums over poles."""
+        curves = np.empty((len(self._orders), len(rpm)), complex)
+        unphased = np.zeros(len(rpm))
+        for k in np.unique(system).tolist():
+            summed = self._sums[k]
+            if summed is None:
+                continue  # such a system has no column that is a sum
+            own = np.flatnonzero(system == k)
+            curves[:, own] = summed.find_curves(rpm[own], which[own])
+            for alone in self._unphased[k]:
+                unphased[own] += np.abs(alone.find_curves(rpm[own], which[own])[0])
+        return find_half_swing(self._orders, curves) + unphased
+
+    def find_exactly(self, rpm: Real, which: Indices, system: Indices) -> Real:
+        """Return values at speeds (places,), each of the column and of the system whose indices are
+        given.
+        """
         values = np.zeros(len(rpm))
-        if not len(rpm):
-            return values
-        speeds, place = np.unique(rpm, return_inverse=True)
-        curves = compute_curves(self._systems[system], speeds)
-        swings = which < self._curves
-        values[swings] = curves.select(place[swings], which[swings]).swings
-        values[~swings] = curves.heat[place[~swings], which[~swings] - self._curves]
+        curves = np.zeros((len(self._orders), len(rpm)), complex)
+        for k in np.unique(system).tolist():
+            own = np.flatnonzero(system == k)
+            speeds, place = np.unique(rpm[own], return_inverse=True)
+            found = compute_curves(self._systems[k], speeds)
+            swings = which[own] < self._swings
+            single = found.select(place[swings], which[own[swings]])
+            curves[:, own[swings]] = single.phasors
+            values[own[swings]] = single.unphased.sum(axis=0)
+            heats = own[~swings]
+            values[heats] = found.heat[place[~swings], which[heats] - self._swings]
+        values += find_half_swing(self._orders, curves)
         return values

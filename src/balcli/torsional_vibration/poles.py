@@ -7,20 +7,22 @@ and a load `g e^{s t}` causes the vibration
 
     z = -V (1 - (s - sigma) mu)^-1 V^-1 (A - sigma B)^-1 g
 
-Massless nodes have mu = 0 and no pole. Angles are in rad; the equations are divided by the largest
-stiffness, and their unit of time makes frequencies about 1.
+where each factor `-1/(1 - (s - sigma) mu)` is `1/(mu (s - p))` with the pole `p = sigma + 1/mu`.
+Massless nodes have mu = 0, an infinite pole and the factor -1. Angles are in rad; the equations are
+divided by the largest stiffness, and their unit of time makes frequencies about 1.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..core.phases import RPM
+from ..core.phasors import compose
 from ..core.vibration import UNDAMPED, Complex, Indices, Real
 from .chain import (
     Chain,
@@ -38,12 +40,13 @@ from .system import Excitation, TorsionalSystem
 # a quarter of the time.
 _SIGMA = 0.836
 _HELD = -0.25  # stiffness of a motion that turns freely: its poles 0.5 and -0.5 are no _SIGMA
-_INFINITE = 1e-6  # eigenvalues mu below this share of the largest count as 0: they have no pole
+_INFINITE = 1e-6  # eigenvalues mu below this share of the largest: no resonance is that high
+_MASSLESS = 1e-14  # eigenvalues mu below this share of the largest are 0 but for rounding
 # Eigenvectors with a larger condition number, of poles that almost coincide, lose too many digits.
 _ILL = 1e7
 _MOST = 128  # terms; the tree of nodes takes less time than the eigenvectors of more poles
 _SLOW = 1e-6  # poles with a lower frequency do not swing
-_AT_ONCE = 1 << 14  # number of terms that are computed at once: more leave the cache
+_AT_ONCE = 1 << 17  # number of values that are computed at once: more leave the cache
 
 
 class _Equations(NamedTuple):
@@ -53,6 +56,7 @@ class _Equations(NamedTuple):
         chain: Chain, with viscous rings as its last nodes.
         damping: Damping of this chain.
         follow: (nodes, dof) angle of every node for unit angles of the independent nodes.
+        independent: (dof,) indices of the independent nodes.
         twist: (shafts, dof) twist of every shaft for the same.
         stiffness: K, (dof, dof).
         damped: C, (dof, dof).
@@ -64,6 +68,7 @@ class _Equations(NamedTuple):
     chain: Chain
     damping: Damping
     follow: Real
+    independent: Indices
     twist: Real
     stiffness: Complex | Real
     damped: Real
@@ -71,25 +76,31 @@ class _Equations(NamedTuple):
     scale: float
     unit: float
 
-    def shift(self) -> tuple[Complex | Real, Real]:
+    def shift(self) -> tuple[NDArray[np.inexact], Real]:
         """Return the matrices `A - sigma B` and B."""
-        identity = np.eye(len(self.mass))
-        none = np.zeros_like(identity)
-        below = -self.damped - _SIGMA * self.mass
-        shifted = np.block([[-_SIGMA * identity, identity], [-self.stiffness, below]])
-        return shifted, np.block([[identity, none], [none, self.mass]])
+        dof = len(self.mass)
+        angles = np.arange(dof)
+        speeds = angles + dof
+        shifted = np.zeros_like(self.stiffness, shape=(2 * dof, 2 * dof))
+        shifted[angles, angles] = -_SIGMA
+        shifted[angles, speeds] = 1
+        shifted[dof:, :dof] = -self.stiffness
+        shifted[dof:, dof:] = -self.damped - _SIGMA * self.mass
+        second = np.zeros((2 * dof, 2 * dof))
+        second[angles, angles] = 1
+        second[dof:, dof:] = self.mass
+        return shifted, second
 
     def list_free_turns(self) -> Real:
         """Return the rigid motions (motions, dof) that nothing holds, springs or dampers."""
         held = self.chain.stiffness + self.damping.dashpots
         turns = rigid_motions(self.chain._replace(stiffness=held))
         free = turns**2 @ self.damping.nodes == 0
-        _, independent = follow_gears(self.chain)
-        return np.asarray(turns[free][:, independent])
+        return np.asarray(turns[free][:, self.independent])
 
 
 def _write_equations(chain: Chain, damping: Damping) -> _Equations:
-    follow, _ = follow_gears(chain)
+    follow, independent = follow_gears(chain)
     twist = incidence(chain) @ follow
     bends = np.isfinite(chain.stiffness)
     stretched = twist[bends]
@@ -106,7 +117,7 @@ def _write_equations(chain: Chain, damping: Damping) -> _Equations:
         k = k / scale
         c = c * (unit / scale)
         m = m * (unit**2 / scale)
-    return _Equations(chain, damping, follow, twist, k, c, m, scale, unit)
+    return _Equations(chain, damping, follow, independent, twist, k, c, m, scale, unit)
 
 
 def find_chain_poles(chain: Chain, damping: Damping) -> Complex:
@@ -141,6 +152,8 @@ def _attach_rings(system: TorsionalSystem, order: float | None) -> tuple[Chain, 
     chain = system.chain
     damping = system.damping
     rings = system.rings
+    if not rings and not system.pendulums:
+        return chain, damping
     inertia = chain.inertia
     more = (0, len(rings))
     if order is not None:
@@ -156,147 +169,156 @@ def _attach_rings(system: TorsionalSystem, order: float | None) -> tuple[Chain, 
 
 
 class DrivenTerms(NamedTuple):
-    """Sizes of terms for an excitation.
+    """Sizes of terms for an excitation, as a sum over inputs. Without an `excitation`, the inputs
+    are 1 and the square of the speed (rad/s); with it, they are the torques of its sources.
 
     Attributes:
-        steady: (systems, orders, terms) part that does not depend on the speed.
-        growing: (systems, orders, terms) part that is proportional to the square of the speed,
-            divided by this square, (s/rad)^2; None: there is no such part.
-        excitation: Excitation of a single system that depends on the speed in another way; it
-            replaces the two parts. None: it does not.
-        by_source: (sources, terms) size of each term for 1 N m of each source of this excitation.
+        sizes: (orders or 1, inputs, terms) size of each term for 1 unit of each input.
+        excitation: Excitation that depends on the speed in its own way; None: it does not.
     """
 
-    steady: Complex
-    growing: Complex | None
+    sizes: Complex
     excitation: Excitation | None
-    by_source: Complex
 
-    def at(self, speeds: Real, system: int | Indices) -> Complex:
-        """Return the sizes of the terms at speeds (places,), rad/s, shape (places or 1, orders,
-        terms).
+    def add_inputs(self, parts: Real, speeds: Real) -> Complex:
+        """Return the sum over inputs (orders, curves, places) at speeds (places,), rad/s.
 
         Args:
+            parts: Real and imaginary part for 1 unit of each input, shape (orders, curves, inputs,
+                2, places).
             speeds: Speeds.
-            system: Index of the system, or (places,) of the system of each place.
         """
         if self.excitation is not None:
-            torques = self.excitation.at(speeds)
-            return np.asarray((torques @ self.by_source).swapaxes(0, 1))
-        systems = np.atleast_1d(system)
-        steady = self.steady[systems]
-        if self.growing is None:
-            return steady
-        growing = self.growing[systems] * (speeds**2)[:, None, None]
-        return np.add(growing, steady, out=growing)
+            torques = self.excitation.at(speeds).swapaxes(1, 2)
+            by_input = compose(parts[..., 0, :], parts[..., 1, :]) * torques[:, None]
+            return np.asarray(by_input.sum(axis=2))
+        steady = parts[:, :, 0]
+        if parts.shape[2] > 1:
+            steady = steady + parts[:, :, 1] * speeds**2
+        return compose(steady[..., 0, :], steady[..., 1, :])
 
 
 @dataclass(frozen=True)
 class PoleSum:
-    """Torques of elastic shafts and the swing of the free end as sums of terms: one for each pole,
-    and one for each rigid motion that nothing holds. The systems are one or more variants of a
-    system, whose terms have the same meaning.
+    """Torques of elastic shafts and the swing of the free end as sums over poles.
+
+    Each sum has a term `1/(i w - p)` for each finite pole p, the same constant for all infinite
+    poles, and the same function of w for all rigid motions that nothing holds. Written in real
+    numbers, with p = a + i b and d = w - b, the term is `-(a + i d)/(a^2 + d^2)`. So real functions
+    of the frequency, which all curves share, are multiplied by constant weights.
 
     The sums take a fraction of the time of `compute_curves` for some curves, or if each speed asks
     for another curve. They lose some digits where poles almost coincide.
 
     Attributes:
-        poles: Poles of each system, rad/s.
+        poles: (poles,) finite poles, rad/s.
         orders: (orders,) orders of the excitation.
-        spanned: (curves,) whether a curve is such a sum in all systems; rigid shafts are not.
-        unit: (systems,) frequency that counts as 1, rad/s.
-        mu: (systems, poles) eigenvalues.
-        driven: Size of each term for the excitation.
-        of_nodes: (systems, terms, nodes) size of each term for 1 N m on each node.
-        felt: (systems, curves, terms) share of each term in each twist, and in the angle of the
-            free end.
-        stiffness: (systems, curves) factor of this twist or angle, N m/rad.
-        dashpots: (systems, curves) factor of its rate, N m s/rad.
+        spanned: (curves,) whether a curve is such a sum; torques of rigid shafts are not.
+        unit: Frequency that counts as 1, rad/s.
+        driven: Size of each term for the excitation: finite poles, infinite poles, rigid motions.
+        of_nodes: (terms, nodes) size of each term for 1 N m on each node.
+        felt: (curves, terms) share of each term in each twist, and in the angle of the free end.
+        infinite: Number of infinite poles.
+        stiffness: (curves,) factor of this twist or angle, N m/rad.
+        dashpots: (curves,) factor of its rate, N m s/rad.
+        weights: Weights of the curves that were asked for so far; see `_weigh`.
     """
 
-    poles: tuple[Complex, ...]
+    poles: Complex
     orders: Real
     spanned: NDArray[np.bool_]
-    unit: Real
-    mu: Complex
+    unit: float
     driven: DrivenTerms
     of_nodes: Complex
     felt: Complex
+    infinite: int
     stiffness: Complex
     dashpots: Real
-
-    def can_join(self, other: PoleSum) -> bool:
-        """Return whether the sums of both systems can be computed as one."""
-        mine = self.driven
-        others = other.driven
-        return (
-            mine.excitation is None
-            and others.excitation is None
-            and (mine.growing is None) == (others.growing is None)
-            and self.mu.shape[1:] == other.mu.shape[1:]
-            and self.felt.shape[1:] == other.felt.shape[1:]
-            and np.array_equal(self.orders, other.orders)
-            and np.array_equal(self.spanned, other.spanned)
-        )
+    weights: dict[int, Real] = field(default_factory=dict, repr=False)
 
     def drive(self, excitation: Excitation) -> PoleSum:
-        """Return the sums of a single system for another excitation."""
+        """Return the sums for another excitation."""
         driven = _drive_terms(self.of_nodes, excitation)
-        return replace(self, orders=excitation.orders, driven=driven)
+        return replace(self, orders=excitation.orders, driven=driven, weights={})
 
-    def find_curves(self, rpm: Real, system: Indices, which: Indices) -> Complex:
-        """Return phasors (orders, places) at speeds (places,), each of the system and the curve
-        that the other two arguments name by their indices.
-        """
-        curves = np.empty((len(rpm), len(self.orders)), complex)
-        several = len(self.mu) > 1
+    def find_curves(self, rpm: Real, which: Indices) -> Complex:
+        """Return phasors (orders, places) at speeds (places,), each of the curve in `which`."""
+        curves = np.empty((len(self.orders), len(rpm)), complex)
+        by_curve = np.argsort(which, kind="stable")
         for some in self._divide(len(rpm)):
-            own = system[some] if several else 0
-            w, terms = self._respond(rpm[some], own)
-            named = system[some], which[some]
-            twist = (terms @ self.felt[named][..., None])[..., 0]
-            stiffness = self.stiffness[named][:, None]
-            curves[some] = twist * (stiffness + 1j * w * self.dashpots[named][:, None])
-        return curves.T
+            places = by_curve[some]
+            speeds = rpm[places] * RPM
+            functions = self._find_functions(speeds)
+            asked, starts = np.unique(which[places], return_index=True)
+            for curve, start, end in zip(asked, starts, [*starts[1:], len(places)], strict=True):
+                own = slice(start, end)
+                terms = self._add_terms(functions[..., own], speeds[own], [int(curve)])
+                curves[:, places[own]] = terms[:, 0]
+        return curves
 
-    def sum_amplitudes(self, rpm: Real, which: Indices, system: int = 0) -> Real:
+    def sum_amplitudes(self, rpm: Real, which: Indices) -> Real:
         """Return the sums of the amplitudes of all orders, shape (speeds, len(which))."""
         sums = np.empty((len(rpm), len(which)))
-        felt = self.felt[system, which].T
-        stiffness = self.stiffness[system, which]
-        dashpots = self.dashpots[system, which]
         for some in self._divide(len(rpm)):
-            w, terms = self._respond(rpm[some], system)
-            curves = terms @ felt
-            curves *= stiffness + 1j * w[..., None] * dashpots
-            sums[some] = np.abs(curves).sum(axis=1)
+            speeds = rpm[some] * RPM
+            curves = self._add_terms(self._find_functions(speeds), speeds, which.tolist())
+            sums[some] = np.abs(curves).sum(axis=0).T
         return sums
 
     def _divide(self, count: int) -> Iterator[slice]:
         """Yield consecutive parts of this number of places, few enough to be computed at once."""
-        terms = len(self.orders) * self.felt.shape[-1]
-        step = max(_AT_ONCE // max(terms, 1), 1)  # without a phase there may be no order at all
+        values = len(self.orders) * (2 * len(self.poles) + 2)
+        step = max(_AT_ONCE // max(values, 1), 1)  # without a phase there may be no order at all
         for start in range(0, count, step):
             yield slice(start, start + step)
 
-    def _respond(self, rpm: Real, system: int | Indices) -> tuple[Real, Complex]:
-        """Return frequencies (places, orders), rad/s, and the terms (places, orders, terms)."""
-        speeds = rpm * RPM
-        w = np.multiply.outer(speeds, self.orders)
-        paced = w / self.unit[system, None]
-        mu = self.mu[system][..., None, :]
-        terms = np.empty((*w.shape, self.felt.shape[-1]), complex)
-        poles = self.mu.shape[-1]
-        of_poles = terms[..., :poles]
-        np.multiply(paced[..., None], 1j * mu, out=of_poles)
-        of_poles -= 1 + _SIGMA * mu
-        np.reciprocal(of_poles, out=of_poles)
-        if terms.shape[-1] > poles:
-            paced_twice = paced**2
-            of_turns = 1 / (paced_twice - _HELD) - 1 / paced_twice
-            terms[..., poles:] = of_turns[..., None]
-        terms *= self.driven.at(speeds, system)
-        return w, terms
+    def _find_functions(self, speeds: Real) -> Real:
+        """Return the functions of the frequency (functions, orders, places) at speeds (places,),
+        rad/s: `1/(a^2 + d^2)` and `d/(a^2 + d^2)` of each finite pole, 1, and the function of the
+        rigid motions.
+        """
+        poles = self.poles[:, None] / self.unit
+        count = len(poles)
+        w = np.multiply.outer(self.orders, speeds / self.unit).ravel()
+        functions = np.empty((2 * count + 2, len(w)))
+        inverse = functions[:count]
+        away = functions[count : 2 * count]
+        np.subtract(w, poles.imag, out=away)
+        np.multiply(away, away, out=inverse)
+        inverse += poles.real**2
+        np.reciprocal(inverse, out=inverse)
+        away *= inverse
+        functions[-2] = 1
+        functions[-1] = 1 / (w**2 - _HELD) - 1 / w**2
+        return functions.reshape(len(functions), len(self.orders), len(speeds))
+
+    def _weigh(self, curve: int) -> Real:
+        """Return the weights of the functions for a curve, shape (orders or 1, inputs x 2,
+        functions): for each input, those of the real and of the imaginary part.
+        """
+        if curve not in self.weights:
+            terms = self.driven.sizes * self.felt[curve]
+            poles = self.poles / self.unit
+            finite = terms[..., : len(poles)]
+            infinite = terms[..., len(poles) : len(poles) + self.infinite]
+            turns = terms[..., len(poles) + self.infinite :]
+            one_each = [part.sum(axis=-1, keepdims=True) for part in (infinite, turns)]
+            weights = np.concatenate([-poles.real * finite, -1j * finite, *one_each], axis=-1)
+            both = np.stack([weights.real, weights.imag], axis=2)
+            self.weights[curve] = both.reshape(len(both), 2 * both.shape[1], both.shape[-1])
+        return self.weights[curve]
+
+    def _add_terms(self, functions: Real, speeds: Real, curves: Sequence[int]) -> Complex:
+        """Return phasors (orders, len(curves), places) at speeds (places,), rad/s."""
+        weights = np.concatenate([self._weigh(curve) for curve in curves], axis=1)
+        parts = weights @ functions.swapaxes(0, 1)
+        inputs = self.driven.sizes.shape[1]
+        parts = parts.reshape(len(self.orders), len(curves), inputs, 2, len(speeds))
+        twist = self.driven.add_inputs(parts, speeds)
+        stiffness = self.stiffness[curves, None]
+        rate = self.dashpots[curves, None] * np.multiply.outer(self.orders, speeds)[:, None]
+        twist *= compose(stiffness.real, stiffness.imag + rate)
+        return twist
 
 
 def expand_in_poles(system: TorsionalSystem) -> PoleSum | None:
@@ -323,72 +345,45 @@ def expand_in_poles(system: TorsionalSystem) -> PoleSum | None:
         inverse = np.linalg.inv(vectors)
     except np.linalg.LinAlgError:
         return None
-    poles = _find_finite(mu, equations.unit)
+    finite = np.abs(mu) > _MASSLESS * np.abs(mu).max()
+    poles = equations.unit * (_SIGMA + 1 / mu[finite])
     swinging = poles.imag > _SLOW * equations.unit
     undamped = swinging & (-poles.real <= UNDAMPED * np.abs(poles))
     if np.any(undamped) or np.linalg.norm(vectors) * np.linalg.norm(inverse) > _ILL:
         return None
     dof = len(equations.mass)
     by_torque = np.linalg.solve(shifted.T, inverse.T).T[:, dof:]
-    driven = np.concatenate([by_torque, turns / weights[:, None]]) @ equations.follow.T
+    of_finite = by_torque[finite] / mu[finite, None]
+    of_turns = turns / weights[:, None]
+    driven = np.concatenate([of_finite, -by_torque[~finite], of_turns]) @ equations.follow.T
     shafts = len(system.shafts)
     seen = np.concatenate([equations.twist[:shafts], equations.follow[[system.ends[0]]]])
-    felt = np.concatenate([vectors[:dof].T @ seen.T, turns @ seen.T])
+    by_pole = vectors[:dof].T @ seen.T
+    felt = np.concatenate([by_pole[finite], by_pole[~finite], turns @ seen.T])
     elastic = np.isfinite(system.chain.stiffness)
     stiffness = np.where(elastic, system.chain.stiffness, 0) * (1 + 1j * system.damping.loss)
     of_nodes = np.asarray(driven / equations.scale, complex)
     excitation = system.require_excitation()
     return PoleSum(
-        poles=(poles,),
+        poles=poles,
         orders=excitation.orders,
         spanned=np.append(elastic, True),
-        unit=np.array([equations.unit]),
-        mu=mu[None],
-        driven=_drive_terms(of_nodes[None], excitation),
-        of_nodes=of_nodes[None],
-        felt=np.ascontiguousarray(felt.T, complex)[None],
-        stiffness=np.append(stiffness, 1)[None],
-        dashpots=np.append(system.damping.dashpots, 0)[None],
+        unit=equations.unit,
+        driven=_drive_terms(of_nodes, excitation),
+        of_nodes=of_nodes,
+        felt=np.ascontiguousarray(felt.T, complex),
+        infinite=int(np.count_nonzero(~finite)),
+        stiffness=np.append(stiffness, 1),
+        dashpots=np.append(system.damping.dashpots, 0),
     )
 
 
 def _drive_terms(of_nodes: Complex, excitation: Excitation) -> DrivenTerms:
-    """Return the sizes of the terms of a single system for an excitation."""
-    by_source = of_nodes[0][:, excitation.nodes].T
+    """Return the sizes of the terms for an excitation."""
+    by_source = of_nodes[:, excitation.nodes].T
     if excitation.gas is not None or excitation.further:
-        none = np.zeros((1, 0, len(by_source)), complex)
-        return DrivenTerms(none, None, excitation, by_source)
-    steady = excitation.steady @ by_source
-    growing = excitation.growing @ by_source if np.any(excitation.growing) else None
-    return DrivenTerms(steady[None], None if growing is None else growing[None], None, by_source)
-
-
-def join_sums(sums: Sequence[PoleSum | None]) -> PoleSum | None:
-    """Return the sums of several variants of a system as one; None if there are none, or if their
-    terms differ.
-    """
-    known = [own for own in sums if own is not None]
-    if len(known) < len(sums):
-        return None
-    first, *others = known
-    if not others:
-        return first
-    if not all(first.can_join(own) for own in known):
-        return None
-    growing = [own.driven.growing for own in known if own.driven.growing is not None]
-    driven = first.driven._replace(
-        steady=np.concatenate([own.driven.steady for own in known]),
-        growing=np.concatenate(growing) if growing else None,
-    )
-    return PoleSum(
-        poles=tuple(poles for own in known for poles in own.poles),
-        orders=first.orders,
-        spanned=first.spanned,
-        unit=np.concatenate([own.unit for own in known]),
-        mu=np.concatenate([own.mu for own in known]),
-        driven=driven,
-        of_nodes=np.concatenate([own.of_nodes for own in known]),
-        felt=np.concatenate([own.felt for own in known]),
-        stiffness=np.concatenate([own.stiffness for own in known]),
-        dashpots=np.concatenate([own.dashpots for own in known]),
-    )
+        return DrivenTerms(by_source[None], excitation)
+    inputs = [excitation.steady @ by_source]
+    if np.any(excitation.growing):
+        inputs.append(excitation.growing @ by_source)
+    return DrivenTerms(np.stack(inputs, axis=1), None)

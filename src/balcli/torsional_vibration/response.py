@@ -79,12 +79,12 @@ def find_largest_of_each(
     Raises:
         BalcliError: As for `find_largest`.
     """
+    orders = [system.require_excitation().orders for system in systems]
+    if not all(np.array_equal(own, orders[0]) for own in orders):
+        return [find_largest(*each, weights) for each in zip(systems, rpm, strict=True)]
     for system, own in zip(systems, rpm, strict=True):
         refuse_unbounded(system, own)
-    columns = Columns(systems)
-    if columns.are_sums:
-        return _Search(columns, systems, rpm, weights).find()
-    return [find_largest(*each, weights) for each in zip(systems, rpm, strict=True)]
+    return _Search(Columns(systems), systems, rpm, weights).find()
 
 
 class _Search:
@@ -164,13 +164,14 @@ class _Search:
         if together:
             level[:] = level.max()
         places, _ = find_highest(self.judge, self.speeds, heights, level, _NEAR)
+        system, number = np.divmod(functions, len(self.wanted))
+        exact = self.columns.find_exactly(places, self.wanted[number], system)
         largest: list[tuple[Real, Real]] = []
-        for k, place in enumerate(places.reshape(len(self.rpm), -1)):
-            best = np.full(self.columns.count, self.rpm[k][0])
-            best[self.wanted] = place
+        for k, rpm in enumerate(self.rpm):
+            best = np.full(self.columns.count, rpm[0])
+            best[self.wanted] = places[system == k]
             highest = np.zeros(self.columns.count)
-            exact = self.columns.find_exactly(place, self.wanted, k)
-            highest[self.wanted] = exact * self.factors[self.wanted]
+            highest[self.wanted] = exact[system == k] * self.factors[self.wanted]
             largest.append((best, highest))
         return largest
 
