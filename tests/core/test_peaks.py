@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from balcli.core import peaks
-from balcli.core.peaks import find_largest, find_peak, find_peaks
+from balcli.core.peaks import find_largest, find_peak, find_peaks, find_swing
 from balcli.core.phasors import Phasors
 
 RELATIVE = 1e-14
@@ -148,3 +148,20 @@ def test_trailing_axes_and_blocks(monkeypatch):
     assert np.array_equal(find_largest(grid), whole)
     one = curves(many.orders, grid.forward[:, 1, 2], grid.backward[:, 0, 0])
     assert whole[1, 2] == pytest.approx(find_peak(one).value, rel=4e-15, abs=0)
+
+
+def test_curves_below_the_least_swing_have_bounds():
+    """Half of 60 curves stay below it; the values of the others are the same as without it."""
+    orders = np.arange(1, 13) / 2
+    rng = np.random.default_rng(3)
+    phasors = rng.normal(size=(12, 60, 2)) @ [1, 1j]
+    exact = find_swing(orders, phasors).half
+    least = np.full(60, np.median(exact))
+    found = find_swing(orders, phasors, least).half
+    above = exact >= least
+    assert np.array_equal(found[above], exact[above])
+    low = ~above & (found != exact)
+    assert np.count_nonzero(low) > 20
+    assert np.all(found[~above] < least[~above])
+    assert np.all(found[low] >= exact[low])
+    assert found[low] == pytest.approx(exact[low], rel=1 / np.cos(np.pi / 16) - 1 + 1e-9)

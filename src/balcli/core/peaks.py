@@ -41,8 +41,9 @@ _SHORT = 1e-6
 # the highest order away, the next term is below 0.39^13/13! = 1e-15 of the sum of all amplitudes.
 _TERMS = 13
 _ZERO = 1e-12  # rad; an angle this close to a whole turn is 0
+_SAMPLED = math.cos(math.pi / _SAMPLES)  # least share of the swing that samples have
 # Part of the swing below the highest sample in which the samples next to the highest peak lie.
-_NEAR = 1 - math.cos(math.pi / _SAMPLES) ** 2
+_NEAR = 1 - _SAMPLED**2
 _EQUAL = 1e-12  # peaks that differ by a smaller share of the sum of all amplitudes are equal
 
 
@@ -138,17 +139,20 @@ def _list_components(curves: Phasors) -> Complex:
 
 
 # ------------------------------------------------------------------ curves by their harmonics
-def find_swing(orders: ArrayLike, phasors: Complex) -> Swing:
+def find_swing(orders: ArrayLike, phasors: Complex, least: Real | None = None) -> Swing:
     """Return the highest and lowest values of curves over the cycle.
 
     Args:
         orders: Multiples of 1/2, shape (orders,).
         phasors: Phasors of the curves, shape (orders, *curves).
+        least: Half of the peak-to-peak value from which a curve matters, shape (*curves). Curves
+            that stay below it take less time: instead of their values, bounds of these are
+            returned, which stay below it, too. None: all curves matter.
 
     Raises:
         ValueError: An order is no multiple of 1/2, is negative or comes twice.
     """
-    values, angles = _search(orders, phasors[..., None], squared=False)
+    values, angles = _search(orders, phasors[..., None], squared=False, least=least)
     return Swing(CyclePeak(values[0], angles[0]), CyclePeak(-values[1], angles[1]))
 
 
@@ -182,9 +186,12 @@ def largest_of_ellipse(phasors: Complex) -> Real:
     return np.sqrt((power + np.abs(np.sum(phasors**2, axis=-1))) / 2)
 
 
-def _search(orders: ArrayLike, phasors: Complex, *, squared: bool) -> CyclePeak:
+def _search(
+    orders: ArrayLike, phasors: Complex, *, squared: bool, least: Real | None = None
+) -> CyclePeak:
     """Return the largest lengths (`squared`) or the highest values of the curves and of their
-    negatives, and the first angles of these, each of shape (1 or 2, *curves).
+    negatives, and the first angles of these, each of shape (1 or 2, *curves). See `find_swing` for
+    `least`.
     """
     halves = 2 * np.asarray(orders, float)
     present = (phasors != 0).any(axis=tuple(range(1, phasors.ndim)))
@@ -207,16 +214,34 @@ def _search(orders: ArrayLike, phasors: Complex, *, squared: bool) -> CyclePeak:
         size = np.abs(some).sum(axis=(1, 2))
         scaled = np.asarray(some / np.where(size > _SMALLEST, size, 1)[:, None, None], complex)
         waves = _sample(harmonics, scaled)
-        curve, values, angles, at_zero = _find_tops(harmonics, scaled, waves, squared)
-        starts = np.searchsorted(curve, np.arange(len(at_zero)))
-        top = np.maximum.reduceat(values, starts)
-        among = values >= (top - _EQUAL)[curve]
-        first = np.minimum.reduceat(np.where(among, angles, _TURN), starts)
-        first[at_zero >= top - _EQUAL] = 0.0
-        value = (np.sqrt(top) if squared else top).reshape(signs, -1) * size
-        tops.append(np.stack([value, first.reshape(signs, -1) * 2 / common]))
+        going = np.arange(len(some))
+        values, angles = np.zeros((2, signs, len(some)))
+        if least is not None:
+            values[:] = np.ptp(waves[:, 0], axis=1) / 2 / _SAMPLED
+            going = np.flatnonzero(values[0] * size >= least.ravel()[start : start + step])
+        if len(going):
+            highest = _find_first_tops(harmonics, scaled[going], waves[going], squared)
+            values[:, going] = highest.value
+            angles[:, going] = highest.angle
+        tops.append(np.stack([values * size, angles * 2 / common]))
     value, angle = np.concatenate(tops, axis=2).reshape(2, signs, *shape)
     return CyclePeak(value, angle)
+
+
+def _find_first_tops(
+    harmonics: NDArray[np.int64], parts: Complex, waves: Real, squared: bool
+) -> CyclePeak:
+    """Return the highest values as `_search` does, shape (1 or 2, curves), of scaled curves; see
+    `_find_tops` for the arguments.
+    """
+    curve, values, angles, at_zero = _find_tops(harmonics, parts, waves, squared)
+    starts = np.searchsorted(curve, np.arange(len(at_zero)))
+    top = np.maximum.reduceat(values, starts)
+    among = values >= (top - _EQUAL)[curve]
+    first = np.minimum.reduceat(np.where(among, angles, _TURN), starts)
+    first[at_zero >= top - _EQUAL] = 0.0
+    value = np.sqrt(top) if squared else top
+    return CyclePeak(value.reshape(-1, len(parts)), first.reshape(-1, len(parts)))
 
 
 def _sample(harmonics: NDArray[np.int64], parts: Complex) -> Real:

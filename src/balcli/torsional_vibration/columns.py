@@ -57,7 +57,13 @@ class Columns:
         all_bounds = [np.append(part.sums, part.heat, axis=1) for part in parts]
         return np.concatenate(all_bounds)[:, which]
 
-    def find(self, rpm: Real, which: Indices, system: Indices | None = None) -> Real:
+    def find(
+        self,
+        rpm: Real,
+        which: Indices,
+        system: Indices | None = None,
+        least: Real | None = None,
+    ) -> Real:
         """Return values at speeds (places,), each of the column in `which`, by sums over poles
         where these exist. They may have fewer digits than those of `find_exactly`.
 
@@ -65,19 +71,25 @@ class Columns:
             rpm: Speeds, shape (places,).
             which: Index of the column of each place.
             system: Index of the system of each place; None: the first system.
+            least: Least value of interest at each place, which saves time; instead of a smaller
+                value, an upper bound may be returned that is smaller than it, too. None: all values
+                are of interest.
         """
         if system is None:
             system = np.zeros(len(rpm), int)
+        if least is None:
+            least = np.zeros(len(rpm))
         values = np.zeros(len(rpm))
         spanned = self._spanned[system, which]
         if np.any(spanned):
-            values[spanned] = self._sum_poles(rpm[spanned], which[spanned], system[spanned])
+            sums = rpm[spanned], which[spanned], system[spanned], least[spanned]
+            values[spanned] = self._sum_poles(*sums)
         if not np.all(spanned):
             others = rpm[~spanned], which[~spanned], system[~spanned]
             values[~spanned] = self.find_exactly(*others)
         return values
 
-    def _sum_poles(self, rpm: Real, which: Indices, system: Indices) -> Real:
+    def _sum_poles(self, rpm: Real, which: Indices, system: Indices, least: Real) -> Real:
         """Return values as `find` does, of columns that are sums over poles."""
         curves = np.empty((len(self._orders), len(rpm)), complex)
         unphased = np.zeros(len(rpm))
@@ -89,7 +101,7 @@ class Columns:
             curves[:, own] = summed.find_curves(rpm[own], which[own])
             for alone in self._unphased[k]:
                 unphased[own] += np.abs(alone.find_curves(rpm[own], which[own])[0])
-        return find_half_swing(self._orders, curves) + unphased
+        return find_half_swing(self._orders, curves, least - unphased) + unphased
 
     def find_exactly(self, rpm: Real, which: Indices, system: Indices) -> Real:
         """Return values at speeds (places,), each of the column and of the system whose indices are

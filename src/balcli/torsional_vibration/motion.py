@@ -262,11 +262,13 @@ class Curves(NamedTuple):
         return Curves(self.orders, phasors, self.heat, self.unphased[:, speeds, curves])
 
 
-def find_half_swing(orders: Real, phasors: Complex) -> Real:
-    """Return half of peak to peak of curves, shape (...), from their phasors (orders, ...)."""
+def find_half_swing(orders: Real, phasors: Complex, least: Real | None = None) -> Real:
+    """Return half of peak to peak of curves, shape (...), from their phasors (orders, ...); where
+    this is below `least`, shape (...), an upper bound that is below it, too.
+    """
     if not len(orders):
         return np.zeros(phasors.shape[1:])
-    return np.asarray(find_swing(orders, phasors).half)
+    return np.asarray(find_swing(orders, phasors, least).half)
 
 
 def _move(system: TorsionalSystem, excitation: Excitation, rpm: Real) -> tuple[Complex, Real]:

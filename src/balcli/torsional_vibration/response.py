@@ -120,12 +120,16 @@ class _Search:
         speeds = [np.pad(each, (0, most - len(each)), mode="edge") for each in own]
         self.speeds = np.repeat(np.stack(speeds, axis=1), len(self.wanted), axis=1)
 
-    def judge(self, at: Real, which: Indices) -> Real:
-        """Return the values at speeds `at`, each of the function in `which`."""
+    def judge(self, at: Real, which: Indices, least: Real | None = None) -> Real:
+        """Return the values at speeds `at`, each of the function in `which`; see `Columns.find` for
+        `least`, which has the shape of `at`.
+        """
         speeds, function = (each.ravel() for each in np.broadcast_arrays(at, which))
         system, number = np.divmod(function, len(self.wanted))
         column = self.wanted[number]
-        values = self.columns.find(speeds, column, system) * self.factors[column]
+        factors = self.factors[column]
+        of_columns = None if least is None else least.ravel() / factors
+        values = self.columns.find(speeds, column, system, of_columns) * factors
         return np.asarray(values.reshape(np.shape(at)))
 
     def bound(self) -> Real:
@@ -157,9 +161,11 @@ class _Search:
             unknown[given] = False
             heights[given] = known[:, self.wanted] * self.factors[self.wanted]
             level = heights[given].max(axis=0)
-        least = _NEAR * (level.max() if together else level)
+        if together:
+            level[:] = level.max()
+        least = _NEAR * level
         near = np.nonzero(unknown & (heights > 0) & (heights >= least))
-        heights[near] = self.judge(self.speeds[near], near[1])
+        heights[near] = self.judge(self.speeds[near], near[1], least[near[1]])
         level = heights.max(axis=0)
         if together:
             level[:] = level.max()
