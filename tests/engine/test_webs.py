@@ -288,6 +288,16 @@ def test_other_figures_of_webs_do_not_vary(path, value, told):
         sweep(engine, {path: [value]}, ["force.1.major"])
 
 
+@pytest.mark.parametrize(("key", "narrow"), [("outer_radius", 68), ("opening", 60)])
+def test_variants_of_webs_hold_their_holes(key, narrow):
+    """As a file does: a hole through the outline of a variant is refused."""
+    engine = find_parts(WEB | {"holes": [{"x": -55, "y": 35, "diameter": 10}]})
+    wide = sweep(engine, {f"web.1.{key}": [WEB[key] - 1, WEB[key]]}, ["force.1.major"])
+    assert np.isfinite(wide["force.1.major"]).all()
+    with pytest.raises(BalcliError, match=rf"web.1.{key} = {narrow}: web.1.holes: .*not within the outline"):
+        sweep(engine, {f"web.1.{key}": [WEB[key], narrow]}, ["force.1.major"])
+
+
 def test_csv_has_the_figures_of_every_web(tmp_path):
     """For the foundry: one line a figure, with x and y of the centre of mass."""
     rows = ask_csv("analyze", write_four(tmp_path, WEB | {"angle": 186}), "--only", "parts")

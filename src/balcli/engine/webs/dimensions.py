@@ -13,11 +13,11 @@ from typing import NamedTuple, cast
 
 import numpy as np
 
-from ...core.outline import Moments, find_direction, find_moments
+from ...core.outline import Cheek, Moments, Sector, find_direction, find_moments
 from ...core.phasors import Complex, Figure
 from ...errors import InputError, Problem
 from ...file.web_tables import VARIABLE, Web
-from .bodies import MM, ROUNDING_DEG, WebBody, WebShape
+from .bodies import MM, ROUNDING_DEG, WebBody, WebShape, refuse_stray_holes
 
 _SECTOR = ("outer_radius", "opening")
 
@@ -130,6 +130,32 @@ def refuse_impossible(body: WebBody, table: Web, path: str, varied: Mapping[str,
     if smallest <= shape.cheek.hub / MM:
         message = f"{smallest:g} mm; give more than the hub's radius, {shape.cheek.hub / MM:g} mm"
         raise InputError([Problem(f"{path}.outer_radius", message)])
+    if shape.sector is not None:
+        _refuse_stray_holes(shape, shape.cheek, shape.sector, path, varied)
+
+
+def _refuse_stray_holes(
+    shape: WebShape, cheek: Cheek, sector: Sector, path: str, varied: Mapping[str, Figure]
+) -> None:
+    """Raise InputError if a hole is not within the outline of a variant. The smallest outer radius
+    with the smallest opening has an outline within all others, and is tried first.
+
+    Args:
+        shape: Outline and holes as the file gives them.
+        cheek: Cheek of the web.
+        sector: Counterweight as the file gives it.
+        path: Dotted name of the table.
+        varied: Dimensions that vary, by their keys, in the units of the file.
+    """
+    radii = MM * np.asarray(varied.get("outer_radius", sector.radius / MM))
+    openings = np.asarray(varied.get("opening", sector.opening))
+    smallest = sector._replace(radius=float(radii.min()), opening=float(openings.min()))
+    if not shape._replace(outline=tuple(cheek.draw(smallest))).stray_holes:
+        return
+    for radius, opening in np.broadcast(radii, openings):
+        outline = cheek.draw(sector._replace(radius=radius, opening=opening))
+        variant = shape._replace(outline=tuple(outline))
+        refuse_stray_holes(variant, path, "the outline of the web")
 
 
 def vary_body(body: WebBody, table: Web, varied: Mapping[str, Figure]) -> WebBody:

@@ -73,7 +73,8 @@ def _find_scale(name: str, pairs: list[tuple[int, str]]) -> float:
     """Return the millimetres in a unit of the drawing; `name`: name of the file, for messages.
 
     Raises:
-        ValueError: $INSUNITS is no number, or the file ends after it.
+        ValueError: $INSUNITS is no number.
+        BalcliError: It is a unit other than millimetres and inches.
     """
     for pair, (_, text) in pairwise(pairs):
         if pair == (9, "$INSUNITS"):
