@@ -169,6 +169,11 @@ def test_engine_file_reference_is_up_to_date() -> None:
     )
 
 
+def test_engine_file_reference_keeps_abbreviations() -> None:
+    """A meaning begins with a small letter, but not CSV or IACS."""
+    assert not re.findall(r"\| [a-z][A-Z]{2}\w* ", reference.document())
+
+
 def test_every_json_format_is_described() -> None:
     source = "".join(file.read_text(encoding="utf-8") for file in (guide.ROOT / "src").rglob("*.py"))
     described = (guide.ROOT / "docs" / "json.md").read_text(encoding="utf-8")

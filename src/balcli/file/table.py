@@ -235,9 +235,11 @@ def _read_documents(table: type[FileTable]) -> dict[str, KeyDocument]:
                 ast.Expr(value=ast.Constant(value=str(document))),
             ):
                 words, _, example = " ".join(document.split()).partition(". Example: ")
-                lower = words[0].lower() + words[1:].removesuffix(".")
+                meaning = words.removesuffix(".")
+                if not meaning[1].isupper():  # no abbreviation, such as CSV
+                    meaning = meaning[0].lower() + meaning[1:]
                 read = tomllib.loads(f"example = {example}")["example"] if example else None
-                documents[name] = KeyDocument(lower, read)
+                documents[name] = KeyDocument(meaning, read)
     return documents
 
 
