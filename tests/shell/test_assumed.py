@@ -234,6 +234,15 @@ def test_angles_that_vary_are_not_assumed():
         assert ("counterweight.angle" in [value.path for value in values]) == assumed
 
 
+@pytest.mark.parametrize(
+    ("quantity", "listed"), [("force.1.major", True), ("roll.2.amplitude", True), ("torque.2.amplitude", False)]
+)
+def test_sweeps_list_angles_of_devices_where_they_matter(quantity, listed):
+    model = parse(changed(more=DEVICES))
+    values = quantities.list_assumed(model, quantities.parse_quantities(quantity)) or ()
+    assert ("shaft.angle" in [value.path for value in values]) == listed
+
+
 def engine_values(engine, only):
     kinds = ("counterweight", "shaft", "slider")
     return [value for value in analyze(engine, only=[only]).assumed or () if value.table in kinds]

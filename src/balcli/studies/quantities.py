@@ -27,7 +27,7 @@ from ..engine.left_out import list_inferred, list_varied_defaults
 from ..engine.load import JointEngine, build_jointly, concerns_gas, find_joint_figures
 from ..engine.parts import Parts
 from ..errors import BalcliError, naming_file
-from ..file.assumed import Assumed, join_assumed, select_assumed
+from ..file.assumed import DEVICES, Assumed, join_assumed, select_assumed
 from ..file.fields import RIGID, suggest_nearest
 from ..file.model import EngineFile
 from ..file.table import document_keys
@@ -160,7 +160,7 @@ def refuse_unknown(model: EngineFile, engine: Engine, wanted: Iterable[AnyQuanti
 # Tables whose default values affect the quantities of a chapter, besides tables that affect all.
 _TABLES = {MOUNTS: {"gas", "body", "mount"}, TORSION: {"gas", "torsion"}, PISTON: set[str]()}
 # Beginnings of the names of quantities of chapters that do not depend on the inertia of rods, and
-# of those that depend on the masses of throws.
+# of those that depend on the masses of throws and on devices.
 _WITHOUT_RODS = ("mode.", "torque.mean", "piston.")
 _WITH_THROWS = ("mount.", "point.")
 
@@ -193,6 +193,8 @@ def list_assumed(
             idle.add("crank.inertia")
     if not any(map(_depends_on_rods, quantities)):
         idle.add("rod.inertia")
+    if not any(map(_depends_on_devices, quantities)):
+        idle.update(DEVICES)
     lists = [select_assumed(list_inferred(Parts(crank)), tables, idle) for crank in model.cranks]
     if not model.engine:
         return lists[0] or None
@@ -212,6 +214,13 @@ def _depends_on_throws(q: AnyQuantity, *, off_axis: bool) -> bool:
     causes = EVERY_KIND[q.kind].causes
     has_order = q.order == 1 or q.part == "peak"
     return has_order and ("throws" in causes or (off_axis and "arms" in causes))
+
+
+def _depends_on_devices(q: AnyQuantity) -> bool:
+    """Return whether a quantity depends on counterweights, shafts and sliders."""
+    if isinstance(q, TargetQuantity):
+        return q.name.startswith(_WITH_THROWS)
+    return not {"throws", "arms"}.isdisjoint(EVERY_KIND[q.kind].causes)
 
 
 def _depends_on_rods(q: AnyQuantity) -> bool:
