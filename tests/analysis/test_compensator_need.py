@@ -60,13 +60,23 @@ def test_needs_of_compensators_by_power_related_unbalance(related, need, is_need
 def test_each_order_has_its_own_sentence(tmp_path):
     told = read_verdict(write(tmp_path / "five.toml", FIVE))
     assert (
-        "First order: vertical moment of 744.2 kN·m, PRU 62.5 N·m/kW: a compensator is unlikely to be needed." in told
+        "First order: longitudinal moment of 744.2 kN·m about y, PRU 62.5 N·m/kW: a compensator is unlikely to be "
+        "needed." in told
     )
     assert (
-        "Second order: vertical moment of 2332 kN·m, PRU 196 N·m/kW: a compensator is likely needed; pairs at the "
-        "engine's ends cancel it." in told
+        "Second order: longitudinal moment of 2332 kN·m about y, PRU 196 N·m/kW: a compensator is likely needed; "
+        "pairs at the engine's ends cancel it." in told
     )
     assert "shaft" not in told
+
+
+def test_a_moment_is_vertical_only_if_the_file_says_which_way_is_up(tmp_path):
+    standing = write(tmp_path / "standing.toml", f"{FIVE}[frame]\nup = 0\n")
+    assert "Second order: vertical moment of 2332 kN·m, PRU 196" in read_verdict(standing)
+    assert "vertical" not in read_verdict(write(tmp_path / "five.toml", FIVE))
+    fitted = tmp_path / "fitted.toml"
+    ask("balance", standing, "--write", fitted)
+    assert "Second order: vertical moment balanced by the compensators" in read_verdict(fitted)
 
 
 def test_json_has_the_needs(tmp_path):
@@ -89,7 +99,7 @@ def test_the_need_does_not_depend_on_the_speed_of_the_analysis(tmp_path):
 def test_without_a_power_the_verdict_asks_for_it(tmp_path):
     text = SHIP.format(throws="[0, 144, 216, 288, 72]", power="")
     told = read_verdict(write(tmp_path / "five.toml", text))
-    assert "Second order: vertical moment of 2332 kN·m." in told
+    assert "Second order: longitudinal moment of 2332 kN·m about y." in told
     assert told.count("Give operation.power: compensators are judged by power related unbalance.") == 1
 
 
@@ -118,7 +128,7 @@ def test_an_order_with_compensators_is_not_judged(tmp_path):
     fitted = tmp_path / "fitted.toml"
     ask("balance", SIX, "--write", fitted)
     told = read_verdict(fitted)
-    assert "vertical moment balanced by the compensators" in told
+    assert "moment about y balanced by the compensators" in told
     assert "PRU" not in told
     assert ask_json("analyze", fitted)["verdict"]["compensators"] == []
 

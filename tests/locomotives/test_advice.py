@@ -131,8 +131,9 @@ def test_verdict_and_ladder_offer_a_locomotive_no_shaft():
 
 
 @pytest.mark.parametrize(("locomotive", "compensated"), [(False, True), (True, False)])
-def test_a_steam_engine_with_crossheads_gets_no_compensators_in_a_locomotive(locomotive, compensated):
-    steam = {"layout": {"strokes": 2}, "crosshead": {"mass": 80}, "piston": {"mass": 200, "bore": 500}}
+def test_a_steam_engine_of_long_stroke_gets_no_compensators_in_a_locomotive(locomotive, compensated):
+    crank = {**TABLES["crank"], "stroke": 900}
+    steam = {"crank": crank, "layout": {"strokes": 2}, "piston": {"mass": 280, "bore": 500}}
     ladder = find_ladder(build(locomotive=locomotive, **steam))
     names = {step.step for step in (*ladder.steps, *ladder.left_out)}
     assert (name_compensators(1) in names) is compensated

@@ -9,6 +9,7 @@ from support.paths import ROOT, write
 
 from balcli import load
 from balcli.analysis.answer import analyze
+from balcli.analysis.ladder_show import tell_usual
 from balcli.balancing.answer import balance, insert_remedy
 from balcli.errors import BalcliError
 from balcli.forces.crankshaft import find_crank_loads
@@ -20,12 +21,12 @@ from balcli.sizing.ladder import (
     WEIGHTS,
     WEIGHTS_AT_THROWS,
     find_ladder,
-    is_crosshead_two_stroke,
     name_compensators,
 )
 from balcli.sizing.options import SchemeOptions
 from balcli.sizing.remedy import fit_devices, remove_counterweights
 from balcli.sizing.residual import is_small
+from balcli.sizing.ship_engines import is_judged_by_power, is_type_open
 from balcli.sizing.steps import add_at_throws
 
 ECOBOOST = ROOT / "engines" / "car" / "ford_ecoboost_1_0.toml"
@@ -349,27 +350,76 @@ def test_without_a_power_a_ship_gets_nothing_by_default(tmp_path):
     assert "--scheme counterweights --planes throws" in refused.err
 
 
+MASSES_MOVED = {"[piston]\nbore = 600\nmass = 2300\n[crosshead]\nmass = 2500": "[piston]\nbore = 600\nmass = 4800"}
+WITHOUT_POWER = {"power = 10000\n": ""}
+BY_THROWS = "throws = [0, 120, 240, 180, 300, 60]\n"
+LYING = {"strokes = 2": "strokes = 2\n[frame]\nup = 90"}
+STANDING = {"strokes = 2": "strokes = 2\n[frame]\nup = 10"}
+PUMP_GAS = {"[operation]": '[gas]\ncycle = "compressor"\nsuction = 1\ndischarge = 4\nclearance = 0.1\n[operation]'}
+
+
 @pytest.mark.parametrize(
-    ("changes", "is_crosshead"),
+    ("changes", "is_ship"),
     [
         ({}, True),
+        (MASSES_MOVED, True),
+        ({"stroke = 2400": "stroke = 801", "bore = 600": "bore = 900"}, True),
+        ({"stroke = 2400": "stroke = 800", "bore = 600": "bore = 200"}, False),
+        ({"stroke = 2400": "stroke = 800", **MASSES_MOVED}, False),
         ({"strokes = 2": "strokes = 4"}, False),
-        ({"mass = 2500": "mass = 0"}, True),  # its stroke is above 1 m
-        ({"mass = 2500": "mass = 0", "stroke = 2400": "stroke = 1001", "bore = 600": "bore = 900"}, True),
-        ({"mass = 2500": "mass = 0", "stroke = 2400": "stroke = 999", "bore = 600": "bore = 900"}, False),
-        ({"mass = 2500": "mass = 0", "stroke = 2400": "stroke = 999", "bore = 600": "bore = 399"}, True),
-        ({"mass = 2500": "mass = 0", "stroke = 2400": "stroke = 999", "bore = 600": "bore = 401"}, False),
-        ({"stroke = 2400": "stroke = 999", "bore = 600": "bore = 900"}, True),
+        (STANDING, True),
+        (LYING, False),
+        (PUMP_GAS, False),
     ],
 )
-def test_which_engines_have_crossheads(changes, is_crosshead):
-    text = SHIP.format(power=10_000)
+def test_which_engines_are_judged_by_power(changes, is_ship):
+    engine = build_text(replace_all(SHIP.format(power=10_000), changes))
+    assert is_judged_by_power(engine) == is_ship
+    assert any("compensators" in step.step for step in find_ladder(engine).steps) == is_ship
+
+
+def replace_all(text: str, changes: dict[str, str]) -> str:
+    """Return a text in which every old text, which it must have, is replaced by the new one."""
     for old, new in changes.items():
         assert old in text
         text = text.replace(old, new)
-    engine = build_text(text)
-    assert is_crosshead_two_stroke(engine) == is_crosshead
-    assert any("compensators" in step.step for step in find_ladder(engine).steps) == is_crosshead
+    return text
+
+
+@pytest.mark.parametrize(("highest_deg", "is_ship"), [(90, True), (270, False)])
+def test_a_gas_that_takes_power_is_not_that_of_a_ship(tmp_path, highest_deg, is_ship):
+    """An engine has the higher pressure after the outer dead center (0 deg), a pump before it."""
+    lines = ["angle_deg,pressure_bar"]
+    lines += [f"{angle},{30 + 20 * np.cos(np.radians(angle - highest_deg)):.3f}" for angle in range(0, 360, 10)]
+    write(tmp_path / "card.csv", "\n".join([*lines, ""]))
+    text = replace_all(SHIP.format(power=10_000), {"[operation]": '[gas]\nindicator = "card.csv"\n[operation]'})
+    engine = load(write(tmp_path / "machine.toml", text))
+    assert is_judged_by_power(engine) == is_ship
+
+
+@pytest.mark.parametrize(
+    ("changes", "is_open"),
+    [
+        (WITHOUT_POWER, True),
+        ({}, False),
+        ({**WITHOUT_POWER, BY_THROWS: "", "strokes = 2": "strokes = 2\nfiring_order = [1, 5, 3, 4, 2, 6]"}, False),
+    ],
+)
+def test_what_only_the_size_tells_is_said(tmp_path, changes, is_open):
+    path = write(tmp_path / "ship.toml", replace_all(SHIP.format(power=10_000), changes))
+    assert is_type_open(load(path)) == is_open
+    told = " ".join(ask("analyze", path, "--only", "verdict,ladder").split())
+    asks = "give [gas] if it is a pump, a compressor or a steam engine."
+    assert told.count(asks) == (2 if is_open else 0)
+
+
+def test_bearings_are_not_said_to_be_governed_by_a_gas_that_is_not_known(tmp_path):
+    told = " ".join(
+        ask("analyze", write(tmp_path / "ship.toml", FIVE.format(power=11_900)), "--only", "ladder").split()
+    )
+    assert "left out; these bearings also carry gas forces, which the file does not give." in told
+    marine = " ".join(ask("analyze", ROOT / "engines" / "marine" / "marine6.toml", "--only", "ladder").split())
+    assert "left out, because gas, not inertia, governs these bearings." in marine
 
 
 WITHOUT_MASS = FIVE.format(power=11_900).replace("mass = 4600", "mass = 0").replace("mass = 2300", "mass = 0")
@@ -384,7 +434,7 @@ def test_a_left_out_step_is_explained_without_a_share_of_pistons_without_mass():
     ladder = find_ladder(build_text(WITHOUT_MASS))
     assert ladder.scale.force_N == 0
     assert WEIGHTS_AT_THROWS in [out.step for out in ladder.left_out]
-    with pytest.raises(BalcliError, match="gas governs the bearings"):
+    with pytest.raises(BalcliError, match="the bearings of a ship's two-stroke engine also carry its gas forces"):
         ladder.fit(WEIGHTS_AT_THROWS)
 
 
@@ -499,6 +549,46 @@ def test_a_step_that_is_left_out_is_named_with_its_size():
     told = " ".join(ask("analyze", ROOT / "engines" / "vr6.toml", "--only", "ladder").split())
     assert "Shafts at +2 and -2 would each remove up to 156.9 N·m (4.9 % of one" in told
     assert "Below the limit of a shaft: step 3 cancels 10.4 % (limit 18 %)." in told
+
+
+# The cross-plane four has both counterweight steps and a shaft at -1; the five of a ship nothing but order 2.
+@pytest.mark.parametrize(
+    ("text", "fits"),
+    [
+        (
+            FIVE.format(power=11_900),
+            "the devices of step 3 without those of steps 1 and 2; `--step 3` fits all of row 3.",
+        ),
+        (SHIP.format(power=5_000), "step 1."),
+        ((ROOT / "engines" / "i3.toml").read_text(), "steps 2 and 3."),
+        ((ROOT / "engines" / "vr6.toml").read_text(), "step 2."),
+    ],
+)
+def test_what_is_fitted_by_default_is_a_row_or_said_not_to_be_one(text, fits):
+    ladder = find_ladder(build_text(text))
+    assert tell_usual(ladder) == f"By default, `balcli balance` fits {fits}"
+    row = ladder.find_row(ladder.auto[-1])
+    assert (ladder.fit(row).devices == ladder.fit().devices) == ("without" not in fits)
+
+
+def test_limits_are_named_with_what_sets_them():
+    limits = "Limits from makers' practice:"
+    of_order_2 = "12 % in order 2 for each cylinder, counted as at least 3."
+    for name, told in (
+        ("i3", f"{limits} {of_order_2}"),
+        ("vr6", f"{limits} 18 % in order 1."),
+        ("vtwin90", f"{limits} 18 % in order 1, {of_order_2}"),
+    ):
+        assert told in " ".join(ask("analyze", ROOT / "engines" / f"{name}.toml", "--only", "ladder").split())
+    assert limits not in ask("analyze", ROOT / "engines" / "v8_crossplane.toml", "--only", "ladder")
+
+
+@pytest.mark.parametrize(("name", "has_percentage"), [("v8_crossplane", False), ("i3", True), ("v6_60", True)])
+def test_percentages_are_explained_where_there_are_some(name, has_percentage):
+    told = ask("-q", "analyze", ROOT / "engines" / f"{name}.toml", "--only", "ladder")
+    before, _, after = told.partition("Percentages are of one")
+    assert bool(after) == has_percentage
+    assert ("%" in before) == has_percentage
 
 
 def test_balance_says_what_is_left():

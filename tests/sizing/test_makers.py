@@ -34,8 +34,8 @@ def test_the_document_counts_right(engines, choices, document):
     assert f"agrees with the makers for {right} of {len(choices)} shafts" in text
     assert f"one limit of 30 % for all shafts agrees for {with_one_limit}" in text
     wrong = [choice for choice in choices if not choice.agrees]
-    assert len(wrong) == 11
-    assert sum(bool(choice.maker.rival) for choice in wrong) == 9
+    assert len(wrong) == 12
+    assert sum(bool(choice.maker.rival) for choice in wrong) == 10
 
 
 def test_no_limit_can_have_both_of_two_makers_that_differ(choices):

@@ -166,7 +166,7 @@ def test_the_force_of_a_compensator_is_meant_to_remain(tmp_path):
     verdict = " ".join(told[told.index("Verdict") : told.index("Largest by")].split())
     force = size_text(ask_json("balance", I5, *COMPENSATED)["details"]["force_introduced_N"], SI.force)
     assert (
-        "Second order: vertical moment balanced by the compensator at z = 3000 mm; the compensator introduces "
+        "Second order: moment about y balanced by the compensator at z = 3000 mm; the compensator introduces "
         f"a force of {force} by design." in verdict
     )
     assert "+2 and -2" not in verdict

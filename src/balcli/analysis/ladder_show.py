@@ -5,7 +5,7 @@ is left out, and what the steps do to the loads of the bearings.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 from ..core.records import list_figures, remove_unit, to_document
@@ -13,7 +13,12 @@ from ..engine.half_orders import list_half_orders, list_shafts_of_order
 from ..file.fields import join_words
 from ..forces.kinds import FORCE, MOMENT, Kind
 from ..forces.power import LIKELY
-from ..limits import SMALL
+from ..limits import (
+    FEWEST_CYLINDERS_COUNTED,
+    SMALL,
+    WORTH_A_SHAFT_OF_ORDER_1,
+    WORTH_A_SHAFT_OF_ORDER_2,
+)
 from ..show.sheet import (
     NEGLIGIBLE,
     UNKNOWN,
@@ -30,7 +35,8 @@ from ..show.sheet import (
 )
 from ..sizing.ladder import NO_SHAFTS, SHAFTS, SINGLE_SHAFTS, Ladder, LeftOut, Step
 from ..sizing.room import assume_skirt
-from .verdict_words import name_order, tell_own_shafts
+from ..sizing.ship_engines import is_type_open
+from .verdict_words import GIVE_GAS, GIVE_POWER, name_order, tell_own_shafts
 
 if TYPE_CHECKING:
     from ..engine.engine import Engine
@@ -84,17 +90,20 @@ def ladder_grid(
     if tell_skirt:
         notes += _tell_skirt(ladder, engine)
     notes += _tell_loads(ladder, system)
-    notes += filter(None, [_tell_left_out(out, ladder, system) for out in ladder.left_out])
+    has_gas = engine.gas is not None
+    for out in ladder.left_out:
+        notes.append(_tell_left_out(out, ladder, system, has_gas=has_gas))
     if ladder.of_locomotive:
         notes.append(sentence(NO_SHAFTS))
     notes += _tell_half_orders(engine)
     notes += _tell_roll(ladder, system)
     if tell_fitted:
-        notes.append(" ".join(_tell_fitted(ladder)))
-    notes.append(_tell_scale(ladder, system))
+        notes.append(" ".join(_tell_fitted(ladder, engine)))
+    if _has_percentages(ladder, tell_fitted=tell_fitted):
+        notes.append(_tell_scale(ladder, system))
     at = "mean " if engine.ripple else ""
     title = f"What balances it, step by step ({at}{given(float(engine.speed_rpm))} rpm)"
-    return Grid(title, columns, "\n".join(notes))
+    return Grid(title, columns, "\n".join(filter(None, notes)))
 
 
 # ------------------------------------------------------------------ columns
@@ -120,9 +129,16 @@ def _size_cell(size: float, of_one: float, unit: ShownUnit) -> str:
     """
     if size <= _ROUNDING * of_one:
         return size_cell(0.0, unit)
-    if size < NEGLIGIBLE * of_one:
+    if _is_share(size, of_one):
         return _HARDLY_ANYTHING
     return size_cell(size, unit)
+
+
+def _is_share(size: float, of_one: float) -> bool:
+    """Return whether a size is printed as a share of that of one cylinder: it is negligible, but
+    more than rounding.
+    """
+    return _ROUNDING * of_one < size < NEGLIGIBLE * of_one
 
 
 def _load_column(ladder: Ladder, system: System) -> Column:
@@ -179,10 +195,16 @@ def _tell_rise(before: float, after: float, system: System) -> str:
     return f"from {number(unit.of(before))} to {number(unit.of(after))} {unit.name}"
 
 
-def _tell_left_out(out: LeftOut, ladder: Ladder, system: System) -> str:
+def _tell_left_out(out: LeftOut, ladder: Ladder, system: System, *, has_gas: bool) -> str:
     """Return a sentence on an omitted step: the force or the moment that it would remove, or the
     change of the main bearing load. Empty if its effect would be printed as 0, or if the engine has
     no room for it.
+
+    Args:
+        out: Omitted step.
+        ladder: Ladder without it.
+        system: System of units.
+        has_gas: Whether the gas of the engine is known.
     """
     percent = abs(ladder.measure_percent(out))
     fall = out.main_bearing_N
@@ -203,8 +225,10 @@ def _tell_left_out(out: LeftOut, ladder: Ladder, system: System) -> str:
     else:
         verb = "lower" if fall >= 0 else "raise"
         does = f"{verb} the largest main bearing load by {size_text(abs(fall), system.force)}"
-        if ladder.by_power:
+        if ladder.by_power and has_gas:
             why = "left out, because gas, not inertia, governs these bearings"
+        elif ladder.by_power:
+            why = "left out; these bearings also carry gas forces, which the file does not give"
     return f"{capitalized(name)} would {does}{share}: {why}."
 
 
@@ -242,12 +266,20 @@ def _tell_roll(ladder: Ladder, system: System) -> Iterator[str]:
 
 def tell_usual(ladder: Ladder) -> str:
     """Return a sentence on the steps that are fitted by default."""
-    numbers = [str(k) for k, step in enumerate(ladder.steps) if step.step in ladder.auto]
     last = len(ladder.steps) - 1
-    if numbers:
+    if ladder.auto:
         option = "" if ladder.small == SMALL else f" --small {100 * ladder.small:g}%"
-        steps = "step" if len(numbers) == 1 else "steps"
-        return f"By default, `balcli balance{option}` fits {steps} {join_words(numbers)}."
+        fits = f"By default, `balcli balance{option}` fits"
+        steps = _number_steps(ladder, ladder.auto)
+        row = ladder.find_row(ladder.auto[-1])
+        of_row = ladder.list_fitted(row)
+        if of_row == ladder.auto:
+            return f"{fits} {steps}."
+        skipped = [name for name in of_row if name not in ladder.auto]
+        return (
+            f"{fits} the devices of {steps} without those of {_number_steps(ladder, skipped)}; "
+            f"`--step {row}` fits all of row {row}."
+        )
     if last > 1:
         return f"Nothing is worth fitting by default; `--step 1` to `--step {last}` fit a row."
     if last == 1:
@@ -255,35 +287,68 @@ def tell_usual(ladder: Ladder) -> str:
     return "Nothing is worth fitting."
 
 
-def _tell_fitted(ladder: Ladder) -> Iterator[str]:
+def _number_steps(ladder: Ladder, names: Sequence[str]) -> str:
+    """Return the numbers of listed steps in words: `step 3`, `steps 1 and 2`."""
+    numbers = [str(ladder.find_row(name)) for name in names]
+    return f"{'step' if len(numbers) == 1 else 'steps'} {join_words(numbers)}"
+
+
+def _tell_fitted(ladder: Ladder, engine: Engine) -> Iterator[str]:
     """Yield sentences on the steps that are fitted by default, and on the reasons."""
     yield tell_usual(ladder)
     if ladder.by_power:
-        yield from _tell_power(ladder)
+        yield from _tell_power(ladder, engine)
         return
     if any(step.takes_back for step in ladder.steps):
         yield "The counterweights of the file settle order 1 in their own way."
-    below = []
-    for row, step in enumerate(ladder.steps):
-        if step.limit is None or step.worth_it:
-            continue
-        size = _percent_below(100 * step.share, 100 * step.limit)
+    below = _list_below_limit(ladder)
+    if not below:
+        return
+    told = []
+    for step in below:
+        row = ladder.find_row(step.step)
+        limit = _find_limit(step)
+        size = _percent_below(100 * step.share, 100 * limit)
         does = f"step {row} cancels {size}"
         if step.step == SHAFTS:
             does = f"each shaft of step {row} cancels up to {size}"
-        below.append(f"{does} (limit {100 * step.limit:.4g} %)")
-    if below:
-        yield f"Below the limit of a shaft: {', '.join(below)}."
+        told.append(f"{does} (limit {100 * limit:.4g} %)")
+    yield f"Below the limit of a shaft: {', '.join(told)}."
+    yield _tell_limits({step.order for step in below})
 
 
-def _tell_power(ladder: Ladder) -> Iterator[str]:
-    """Yield sentences on the power related unbalance that each step of a two-stroke engine with
-    crossheads faces.
+def _list_below_limit(ladder: Ladder) -> list[Step]:
+    """Return the steps with shafts that are not worth it; none if power decides."""
+    return [step for step in ladder.steps if step.limit is not None and not step.worth_it]
+
+
+def _find_limit(step: Step) -> float:
+    """Return the limit of a step that is judged by its share of one cylinder's first order."""
+    assert step.limit is not None
+    return step.limit
+
+
+def _tell_limits(orders: Collection[int]) -> str:
+    """Return a sentence on what sets the limits of shafts of these orders."""
+    limits = []
+    if 1 in orders:
+        limits.append(f"{100 * WORTH_A_SHAFT_OF_ORDER_1:g} % in order 1")
+    if 2 in orders:
+        each = f"{100 * WORTH_A_SHAFT_OF_ORDER_2:g} % in order 2"
+        limits.append(f"{each} for each cylinder, counted as at least {FEWEST_CYLINDERS_COUNTED}")
+    return f"Limits from makers' practice: {', '.join(limits)}."
+
+
+def _tell_power(ladder: Ladder, engine: Engine) -> Iterator[str]:
+    """Yield sentences on the power related unbalance that each step of a ship's two-stroke
+    engine faces.
     """
     if len(ladder.steps) == 1:
         return
     if ladder.power is None:
-        yield "Give operation.power: compensators are judged by power related unbalance."
+        yield GIVE_POWER
+        if is_type_open(engine):
+            yield GIVE_GAS
         return
     related = []
     for row, step in enumerate(ladder.steps):
@@ -294,6 +359,25 @@ def _tell_power(ladder: Ladder) -> Iterator[str]:
             "A step is fitted if its power related unbalance (PRU) is above "
             f"{LIKELY:g} N·m/kW ({', '.join(related)})."
         )
+
+
+def _has_percentages(ladder: Ladder, *, tell_fitted: bool) -> bool:
+    """Return whether the table or its notes have a percentage of one cylinder's first order.
+
+    Args:
+        ladder: Ladder to show.
+        tell_fitted: Whether a note names the steps that `balcli balance` fits.
+    """
+    scale = ladder.scale
+    in_cells = []
+    for step in ladder.steps:
+        in_cells.append(_is_share(step.peak_force_N, scale.force_N))
+        in_cells.append(_is_share(step.main_bearing_N or 0.0, scale.force_N))
+        in_cells.append(_is_share(step.peak_moment_Nm or 0.0, scale.moment_Nm or 0.0))
+    shares = [abs(ladder.measure_percent(out)) for out in ladder.left_out if out.buildable]
+    is_left_out = any(share >= _HARDLY for share in shares)  # False for nan
+    is_below = tell_fitted and not ladder.by_power and bool(_list_below_limit(ladder))
+    return any(in_cells) or is_left_out or is_below
 
 
 def _tell_scale(ladder: Ladder, system: System) -> str:

@@ -88,7 +88,8 @@ class Compensated(NamedTuple):
         order: Order.
         at_m: Positions of the compensators.
         introduced_N: Force that the compensators introduce by design; 0 if they introduce none.
-        vertical_Nm: Vertical moment that is left, 0 if it is balanced; left out if not known.
+        vertical_Nm: Moment about y that is left, vertical in ships' engines; 0 if it is
+            balanced; left out if not known.
         across_Nm: Largest moment about x that is left; left out if not known.
         force_N: Largest force of the engine without the compensators; left out if not known.
     """
@@ -141,8 +142,8 @@ class Verdict:
             first-order force times the crank radius, or not computed.
         rocking: The largest roll; left out if it was not computed, and without gas if it is below a
             quarter of one cylinder's first-order force times the crank radius.
-        compensators: Orders 1 and 2 whose vertical moment is not small, with the need of
-            compensators; left out unless the engine is a two-stroke engine with crossheads.
+        compensators: Orders 1 and 2 whose moment about y is not small, with the need of
+            compensators; left out unless the engine is a ship's two-stroke engine.
     """
 
     matter: tuple[Finding, ...] = ()

@@ -25,6 +25,7 @@ from ..show.sheet import (
 )
 from ..show.units import ShownUnit, System
 from ..sizing.residual import Scales
+from ..sizing.ship_engines import is_type_open, stands
 from .compensator_need import CompensatorNeed
 from .couple import Couple, CoupleCause
 from .verdict import (
@@ -68,7 +69,11 @@ _NEEDS = {  # sentences on compensators, by the need in the words of project gui
 }
 _NEEDED = ("likely", "most likely")
 _AT_ENDS = "pairs at the engine's ends cancel it"
-_GIVE_POWER = "Give operation.power: compensators are judged by power related unbalance."
+GIVE_POWER = "Give operation.power: compensators are judged by power related unbalance."
+GIVE_GAS = (
+    "Only its size says that it is a ship's two-stroke engine; give [gas] if it is a pump, a "
+    "compressor or a steam engine."
+)
 _EQUIVALENT_ROD = "a rod dynamically equivalent to two masses at its ends has none"
 
 
@@ -208,7 +213,13 @@ class VerdictWords(NamedTuple):
             elif finding.order <= 2:
                 yield self.write_order(finding)
         if any(need.need is None for need in needs.values()):
-            yield _GIVE_POWER
+            yield from self._ask_for_power()
+
+    def _ask_for_power(self) -> Iterator[str]:
+        """Yield sentences on what the file has to give so that compensators can be judged."""
+        yield GIVE_POWER
+        if self.engine is not None and is_type_open(self.engine):
+            yield GIVE_GAS
 
     def _prepare(self, part: Part) -> _PartInWords:
         """Return a force or moment with what its words need."""
@@ -241,12 +252,12 @@ class VerdictWords(NamedTuple):
     def write_need(self, finding: Finding, need: CompensatorNeed) -> str:
         """Return the sentence on an order that compensators may have to cancel."""
         moment = self._prepare(Part(finding.order, "moment"))
-        vertical = size_text(float(abs(moment.phasors.y[0])), moment.unit)
+        size = size_text(float(abs(moment.phasors.y[0])), moment.unit)
         written = f"{name_order(finding.order)}: "
         if "force" in finding.large:
             force = self._prepare(Part(finding.order, "force"))
             written += f"{force.describe_with_direction()} and "
-        written += f"vertical moment of {vertical}"
+        written += self._tell_moment_about_y(size)
         if need.need is None or need.Nm_per_kW is None:
             return f"{written}."
         written += f", PRU {number(need.Nm_per_kW, 3)} N·m/kW: {_NEEDS[need.need]}"
@@ -254,6 +265,18 @@ class VerdictWords(NamedTuple):
             return f"{written}."
         cure = _AT_ENDS if finding.order > 1 else f"counterweights and {_AT_ENDS}"
         return f"{written}; {cure}."
+
+    def _tell_moment_about_y(self, size: str) -> str:
+        """Return in words a moment about y, which compensators cancel: that of the forces along x.
+        It is called vertical if the file says that x points up.
+        """
+        if self._is_x_up():
+            return f"vertical moment of {size}"
+        return f"{_NAMED['moment']} of {size} about y"
+
+    def _is_x_up(self) -> bool:
+        """Return whether the file says that x points up."""
+        return self.spectra.up_deg is not None and stands(self.spectra.up_deg)
 
     def _write_higher(self, high: Sequence[Finding]) -> str:
         """Return one sentence on several orders above 2."""
@@ -292,7 +315,7 @@ class VerdictWords(NamedTuple):
         return " ".join(sentences)
 
     def _write_vertical(self, compensated: Compensated) -> str:
-        """Return a sentence on the vertical moment that compensators leave, unless moments were not
+        """Return a sentence on the moment about y that compensators leave, unless moments were not
         asked for, and on their force.
         """
         vertical_Nm = compensated.vertical_Nm
@@ -312,9 +335,8 @@ class VerdictWords(NamedTuple):
         order = name_order(compensated.order)
         if vertical_Nm is None:
             return f"{order}: the {named} at {where} {verb} {force}."
-        return (
-            f"{order}: vertical moment {left} the {named} at {where}; the {named} {verb} {force}."
-        )
+        moment = "vertical moment" if self._is_x_up() else "moment about y"
+        return f"{order}: {moment} {left} the {named} at {where}; the {named} {verb} {force}."
 
     # -------------------------------------------------------------- couple and roll
     def write_couple(self, couple: Couple) -> str:

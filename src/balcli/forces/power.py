@@ -57,15 +57,28 @@ def find_power(engine: Engine) -> Power | None:
         return Power(engine.rated.power_W, "file")
     if engine.gas is None:
         return None
-    rated = at_rated_speed(engine)
-    torque = find_torque_curves(replace(rated, ripple=())).gas.mean
-    indicated = torque * float(rated.omega)
+    indicated = _find_gas_power(engine)
     if indicated <= 0:
         return None
-    efficiency = rated.mechanical_efficiency
+    efficiency = at_rated_speed(engine).mechanical_efficiency
     if efficiency is None:
         return Power(indicated, "indicated")
     return Power(indicated * efficiency, "brake")
+
+
+def takes_power(engine: Engine) -> bool:
+    """Return whether the gas takes power, as that of pumps and compressors does; False without gas.
+
+    Args:
+        engine: One engine, not an array of variants.
+    """
+    return engine.gas is not None and _find_gas_power(engine) < 0
+
+
+def _find_gas_power(engine: Engine) -> float:
+    """Return the power of the gas at the speed of the file, W; negative if the gas takes power."""
+    rated = at_rated_speed(engine)
+    return find_torque_curves(replace(rated, ripple=())).gas.mean * float(rated.omega)
 
 
 def name_need(related: float) -> str | None:

@@ -24,10 +24,11 @@ from ..file.model import Counterweight, Shaft
 from ..forces.kinds import FORCE, MOMENT
 from ..forces.spectrum import Spectra, compute_spectra, find_relevant_orders
 from ..forces.stars import find_stars
-from ..sizing.ladder import Ladder, Step, find_ladder, is_judged_by_power
+from ..sizing.ladder import Ladder, Step, find_ladder
 from ..sizing.planes import DeviceTable, find_free, find_unbalance, name_kind
 from ..sizing.remedy import Remedy, fit_devices
 from ..sizing.room import find_rooms, weigh_steel
+from ..sizing.ship_engines import is_judged_by_power
 
 MOST_STARS = 8
 _KINDS = (FORCE.name, MOMENT.name)

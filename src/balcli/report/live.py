@@ -60,7 +60,7 @@ from ..show.figures import clean
 from ..show.sheet import NEGLIGIBLE, sentence
 from ..show.units import SI, ShownUnit, System
 from ..sizing.fitting import LEFT
-from ..sizing.ladder import is_judged_by_power
+from ..sizing.ship_engines import CROSSHEAD_STROKE_M, is_judged_by_power, may_be_ship_engine
 from ..studies.parameters import find_places
 
 # tables with numbers to change
@@ -176,7 +176,7 @@ def describe_engine(model: EngineFile, engine: Engine, text: str) -> Node:
         "frees": _free_throws(model, parts),
         "known": engine.places_known,
         "look": describe_look(engine),
-        "strokes": engine.strokes,
+        "crossheadStroke": CROSSHEAD_STROKE_M if may_be_ship_engine(engine) else None,
         "fires": [*engine.fires_deg] if engine.fires_deg else None,
         "facts": [
             (name, "" if name in _COMPUTED else text)

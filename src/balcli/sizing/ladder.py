@@ -3,9 +3,10 @@ leaves.
 
 Counterweights in the end planes cancel the part of order 1 that turns with the crank.
 Counterweights at every throw cancel it where it arises, so that main bearings do not carry it.
-Shafts cancel the part of order 1 that turns against the crank, and order 2. Two-stroke engines with
-crossheads get compensators in place of shafts. A step is listed if the part that it cancels, or its
-reduction of the main bearing load, is not small compared with one cylinder's first order.
+Shafts cancel the part of order 1 that turns against the crank, and order 2. Ships' two-stroke
+engines (`ship_engines`) get compensators in place of shafts. A step is listed if the part that it
+cancels, or its reduction of the main bearing load, is not small compared with one cylinder's first
+order.
 
 Each step is judged by itself: shafts by the share of one cylinder's first order that they cancel,
 compensators by their moment divided by the power of the engine. The steps that are worth their
@@ -68,6 +69,7 @@ from .residual import (
     measure_length,
 )
 from .room import find_rooms, weigh_steel
+from .ship_engines import is_judged_by_power
 from .steps import (
     add_at_ends,
     add_at_throws,
@@ -84,8 +86,6 @@ NO_SHAFTS = (
     "a locomotive has no room for shafts; `balcli locomotive` sizes the weights in its wheels"
 )
 
-_LONG_STROKE_M = 1.0  # only crosshead engines have longer strokes,
-_LONG_STROKE_IN_BORES = 2.5  # or longer ones in proportion to the bore
 _OF_WEIGHTS = (*FORWARD, *BACKWARD)  # parts of order 1 to which counterweights may add
 _SAME_SENSE = 1e-9  # a smaller share of the product of two sums of weights is rounding
 _SUM = re.compile(r"\s+\+\s+|(?<=\d)\+(?=\d)")  # the plus in "2+4"; not the one in "shaft at +2"
@@ -177,7 +177,7 @@ class Step:
             radius of the room around the crank, eccentrics of shafts as long as their diameter;
             left out if this room is not known.
         pru_Nm_per_kW: Power related unbalance of the moment that the step faces; only for
-            two-stroke engines with crossheads and known power.
+            ships' two-stroke engines of known power.
         order: Order that the step balances; 0 as drawn.
         share: Largest force or moment that the step cancels, as a share of one cylinder's first
             order.
@@ -240,7 +240,7 @@ class Ladder:
         left_out: Steps that would cancel something but are not listed.
         small: Forces and moments below this share of one cylinder's first order are not balanced.
         by_power: Whether steps are judged by the power related unbalance: the engine is a
-            two-stroke engine with crossheads.
+            ship's two-stroke engine.
         power: Power of such an engine; None if it is not known.
         of_locomotive: Whether the engine is that of a locomotive, for which no shaft is listed.
     """
@@ -301,6 +301,10 @@ class Ladder:
         """Return the listed step of this name."""
         return next(step for step in self.steps if step.step == name)
 
+    def find_row(self, name: str) -> int:
+        """Return the number of the row of a listed step."""
+        return [step.step for step in self.steps].index(name)
+
     def _choose(self, text: str) -> tuple[str, ...]:
         """Return the names of the steps that a text names or numbers, in the ladder's order."""
         names = [self._find_name(part, text) for part in _SUM.split(text)]
@@ -333,7 +337,7 @@ class Ladder:
         fall = out.main_bearing_N
         if fall is not None and self.by_power:
             return Message(
-                "gas governs the bearings of a two-stroke engine with crossheads; {scheme} "
+                "the bearings of a ship's two-stroke engine also carry its gas forces; {scheme} "
                 "counterweights {planes} throws fits them"
             )
         percent = self.measure_percent(out)
@@ -411,28 +415,6 @@ def _draw(engine: Engine, small: float) -> _Drawn:
         by_power=by_power,
         power=find_power(engine) if by_power else None,
     )
-
-
-def is_judged_by_power(engine: Engine) -> bool:
-    """Return whether devices are judged by the power related unbalance: every crank belongs to a
-    two-stroke engine with crossheads, and the engine is not that of a locomotive.
-    """
-    if engine.of_locomotive:
-        return False
-    return all(is_crosshead_two_stroke(crank.engine) for crank in engine.cranks)
-
-
-def is_crosshead_two_stroke(engine: Engine) -> bool:
-    """Return whether a single engine is a two-stroke engine with crossheads: its file gives the
-    mass of a crosshead, or its stroke is longer than any trunk piston allows. Compressors and
-    double-acting steam engines are not meant, although they work in every turn.
-    """
-    if engine.strokes != 2 or engine.is_pump:
-        return False
-    stroke = 2 * float(np.max(engine.throw_radii_m))
-    long_for_its_bore = stroke > _LONG_STROKE_IN_BORES * float(engine.bore_m)
-    has_crosshead = any(float(masses.crosshead) > 0 for masses in engine.weighed)
-    return has_crosshead or stroke > _LONG_STROKE_M or long_for_its_bore
 
 
 # ------------------------------------------------------------------ steps on offer

@@ -15,8 +15,6 @@ const Kernel = (() => {
   const ONE_PLACE = 1e-9;                                     // m
   const GRAVITY = 9.80665;                                    // m/s²
   const MOST_STARS = 8;
-  const LONG_STROKE = 1;                                      // m; only engines with crossheads have longer strokes,
-  const LONG_STROKE_IN_BORES = 2.5;                           // or longer ones beside the bore
   const STEEL = 7850;                                         // kg/m³
   const SHARE_OF_DISTANCE = 0.7;                              // radius of the room over piston pin distance, without a skirt
   const NONE = [[0, 0], [0, 0]];                              // both phasors of an order that is balanced
@@ -86,10 +84,8 @@ const Kernel = (() => {
     const throws = joinThrows(cylinders, pins, bore, data.known);
     for (const each of throws) each.z = sum(each.files.map((number) => places[number])) / each.files.length;
     const middle = (Math.min(...places) + Math.max(...places)) / 2;
-    const isLong = 2 * r > LONG_STROKE || (bore && 2 * r > LONG_STROKE_IN_BORES * bore);
-    const hasCrossheads = entries.some(({ crosshead }) => take(crosshead) > 0);
     const firstAxis = findFirst(cylinders).axis;
-    const crossheads = data.strokes === 2 && (isLong || hasCrossheads);
+    const crossheads = data.crossheadStroke !== null && 2 * r > data.crossheadStroke;   // m; null: no ship's engine
     if (crossheads && data.powerOfGas) {
       throw new Error("crank.stroke: so long a stroke makes it an engine with crossheads, whose compensators depend on the power "
         + "of the gas; the page does not compute it");
