@@ -536,10 +536,8 @@ def _list_masses(model: EngineFile, parts: Parts, cell: Cell) -> Node:
     if place.rod.pendulum is not None:
         rod["period"] = float(place.rod.pendulum.period)
         rod["pivot"] = place.rod.pendulum.pivot
-    crosshead = name("crosshead_mass", "crosshead.mass")
     return {
-        "piston": [*pistons, crosshead],
-        "crosshead": crosshead,
+        "piston": [*pistons, name("crosshead_mass", "crosshead.mass")],
         "offset": name("piston_offset", "piston.offset"),
         "share": 1 / parts.plan.rods_on_throw,
         "extra": float(weighed.rod_bearing + weighed.oil),
