@@ -10,7 +10,9 @@ from balcli.core.peaks import find_highest, find_least, find_least_smooth, find_
 
 def find_each(function, low, high):
     """One function for each interval."""
-    return find_peaks_between(lambda x, which: function(x, which), low, high, np.arange(len(low), dtype=np.intp))
+    between = np.stack([low, high])
+    which = np.arange(len(low))
+    return find_peaks_between(function, between, function(between, which), which)
 
 
 def test_a_parabola_is_found_exactly_and_an_end_is_an_end():
@@ -21,7 +23,7 @@ def test_a_parabola_is_found_exactly_and_an_end_is_an_end():
     at, heights = find_each(lambda x, k: 4 - (x - places[k]) ** 2, low, high)
     assert at[:2] == pytest.approx(places[:2], rel=1e-12)
     assert heights[:2] == pytest.approx(4, rel=1e-15)
-    assert at[2] == pytest.approx(-3, abs=2e-3)
+    assert (at[2], heights[2]) == (-3, 4)
 
 
 def test_resonances_as_wide_as_the_interval():
@@ -46,7 +48,10 @@ def test_intervals_that_do_not_have_the_highest_are_given_up():
         return np.maximum(3 - (x - 1) ** 2, 4 - (x - 6) ** 2)
 
     which = np.zeros(2, np.intp)
-    _, heights = find_peaks_between(judge, np.array([0.0, 5]), np.array([1.5, 7.5]), which)
+    between = np.array([[0.0, 5], [1.5, 7.5]])
+    ends = judge(between, which)
+    seen.clear()
+    _, heights = find_peaks_between(judge, between, ends, which)
     assert heights.max() == pytest.approx(4, rel=1e-12)
     assert seen[0] == 2
     assert seen[-1] == 1
@@ -72,8 +77,34 @@ def test_of_two_peaks_in_an_interval_the_one_that_looks_lower_may_be_higher():
     def judge(x, _):
         return np.maximum(1 - 0.1 * (x - 2) ** 2, 1.01 - 0.1 * (x - 5.5) ** 2)
 
-    at, height = find_peaks_between(judge, np.zeros(1), np.full(1, 8.0), np.zeros(1, np.intp))
+    between = np.array([[0.0], [8.0]])
+    at, height = find_peaks_between(judge, between, judge(between, None), np.zeros(1, np.intp))
     assert (at[0], height[0]) == (pytest.approx(5.5), pytest.approx(1.01, rel=1e-12))
+
+
+def test_a_peak_in_a_wide_interval_is_seen_by_the_chords_beside_it():
+    """The highest place is elsewhere, at 20; the peak, 10.5 at 6, rises no place as high, and its values change little."""
+    places = np.array([0.0, 3.8, 4.0, 8.0, 8.2, 12, 16, 20, 24])
+
+    def judge(x, _=None):
+        return np.maximum(10.5 - 0.15 * (x - 6) ** 2, 10.2 - 0.6 * (x - 20) ** 2)
+
+    heights = judge(places)[:, None]
+    assert heights.argmax() == 7
+    best, highest = find_highest(judge, places, heights, heights.max(axis=0), 0.9)
+    assert best == pytest.approx([6])
+    assert highest == pytest.approx([10.5])
+
+
+def test_a_peak_beside_an_end_may_be_higher_than_one_inside():
+    """Of the eighths, 3 is the highest, 1.041; 1, 1.035, is beside the higher peak, 1.05 at 0.8."""
+
+    def judge(x, _):
+        return np.maximum(1.05 - 0.375 * (x - 0.8) ** 2, 1.041 - 0.008 * (x - 3) ** 2)
+
+    between = np.array([[0.0], [8.0]])
+    at, height = find_peaks_between(judge, between, judge(between, None), np.zeros(1, np.intp))
+    assert (at[0], height[0]) == (pytest.approx(0.8), pytest.approx(1.05, rel=1e-12))
 
 
 @pytest.mark.parametrize("place", [0.0, 0.1, np.pi / 10, 0.5, 0.9, 1.0])

@@ -399,8 +399,9 @@ def find_highest(
     lie between the given places.
 
     An interval between neighbouring places is searched under two conditions. The higher of the
-    values at its ends must be at least `near * level`. The sum of this value and of the largest
-    change of the function, over this interval or one of its two neighbours, must reach the level.
+    values at its ends must be at least `near * level`. A peak in it may reach the level: either the
+    sum of this value and of the largest change of the function, over this interval or one of its
+    two neighbours, does, or the point where the chords of the two neighbours meet.
 
     Args:
         judge: The functions, as in `find_peaks_between`.
@@ -416,17 +417,36 @@ def find_highest(
     higher = np.maximum(heights[1:], heights[:-1])
     rise = np.abs(np.diff(np.pad(heights, ((1, 1), (0, 0)), mode="edge"), axis=0))
     beside = np.maximum(np.maximum(rise[:-2], rise[1:-1]), rise[2:])
-    may = (higher >= near * level) & (higher + beside >= level) & (level > 0)
+    reach = np.maximum(higher + beside, _extend_chords(places, heights))
+    may = (higher >= near * level) & (reach >= level) & (level > 0)
     at, which = np.nonzero(may)
     if len(at):
-        ends = places[at, which], places[at + 1, which]
-        place, height = find_peaks_between(judge, *ends, which)
+        between = np.stack([places[at, which], places[at + 1, which]])
+        ends = np.stack([heights[at, which], heights[at + 1, which]])
+        place, height = find_peaks_between(judge, between, ends, which)
         _raise(best, highest, which, place, height)
     return best, highest
 
 
+def _extend_chords(places: Real, heights: Real) -> Real:
+    """Return the height at which the chords of the two neighbours of each interval meet, shape
+    (intervals, functions); -inf where they do not meet within the interval. A concave function
+    stays below it.
+    """
+    width = np.diff(places, axis=0)
+    slope = np.diff(heights, axis=0) / np.where(width > 0, width, np.inf)
+    none = np.zeros_like(slope[:1])
+    before = np.concatenate([none, slope[:-1]])
+    after = np.concatenate([slope[1:], none])
+    turn = before - after
+    # distance from the start of the interval at which the chords meet
+    away = (heights[1:] - heights[:-1] - after * width) / np.where(turn > 0, turn, 1)
+    inside = (turn > 0) & (away > 0) & (away < width)
+    return np.where(inside, heights[:-1] + before * away, -np.inf)
+
+
 def find_peaks_between(
-    judge: Callable[[Real, Indices], Real], low: Real, high: Real, which: Indices
+    judge: Callable[[Real, Indices], Real], between: Real, ends: Real, which: Indices
 ) -> tuple[Real, Real]:
     """Return place and height of a peak of a function in each of several intervals, shape
     (intervals,). The highest peak of each function is accurate to 1e-8 if the function is smooth
@@ -440,36 +460,41 @@ def find_peaks_between(
     Args:
         judge: Function that computes several functions, one for each column of its arguments:
             places, shape (places, columns), and indices of the functions, shape (columns,).
-        low: Lower ends of the intervals, shape (intervals,).
-        high: Upper ends of the intervals, shape (intervals,).
+        between: Lower and upper ends of the intervals, shape (2, intervals).
+        ends: Values of the functions at these ends, shape (2, intervals).
         which: Index of the function of each interval, shape (intervals,).
     """
     shares = np.arange(1, _PARTS)[:, None] / _PARTS
-    best = low.copy()
-    highest = np.full(len(low), -np.inf)
+    low, high = between
+    best = np.where(ends[1] > ends[0], high, low)
+    highest = ends.max(axis=0)
     going = np.arange(len(low))
     for _ in range(_CUTS):
         step = (high - low) / _PARTS
-        heights = judge(low + (high - low) * shares, which[going])
-        ends = np.full((1, len(low)), -np.inf)
-        rises = np.diff(np.concatenate([ends, heights, ends]), axis=0) >= 0
+        inner = judge(low + (high - low) * shares, which[going])
+        heights = np.concatenate([ends[:1], inner, ends[1:]])
+        beyond = np.full((1, len(low)), -np.inf)
+        rises = np.diff(np.concatenate([beyond, heights, beyond]), axis=0) >= 0
         top, at = np.nonzero(rises[:-1] & ~rises[1:])
         going = going[at]
         step = step[at]
-        place = low[at] + step * (1 + top)
+        place = low[at] + step * top
         here = heights[top, at]
-        middle = np.clip(top, 1, _PARTS - 3)
+        middle = np.clip(top, 1, _PARTS - 1)
         around = np.stack([heights[middle + k, at] for k in (-1, 0, 1)])
         _raise(best, highest, going, place, here)
         of_function = np.full(which.max(initial=0) + 1, -np.inf)
         np.maximum.at(of_function, which, highest)
         # The peak may lie above the value at its place by as much as the next values lie below it.
         may = 2 * here - around.min(axis=0) >= of_function[which[going]]
-        going, place, step, top = (each[may] for each in (going, place, step, top))
-        low = place - step
-        high = place + step
+        going, at, place, step, top = (each[may] for each in (going, at, place, step, top))
         around = around[:, may]
-    middle = np.clip(top, 1, _PARTS - 3)
+        left = np.maximum(top - 1, 0)
+        right = np.minimum(top + 1, _PARTS)
+        ends = np.stack([heights[left, at], heights[right, at]])
+        low = place - step * (top - left)
+        high = place + step * (right - top)
+    middle = np.clip(top, 1, _PARTS - 1)
     vertex = np.clip(place + step * (middle - top + _find_vertex(*around)), low, high)
     beside = step * _BESIDE
     heights = judge(vertex + beside * np.array([[-1], [0], [1]]), which[going])

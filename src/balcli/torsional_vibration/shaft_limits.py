@@ -181,8 +181,9 @@ def _add_turns(shares: _Shares, speeds: Real) -> Real:
         """Return the shares, with the valleys turned into peaks."""
         return shares.judge(at, limit[which]) * signs[which]
 
-    each = np.arange(len(place))
-    tops, _ = find_peaks_between(judge, speeds[place], speeds[place + 2], each)
+    between = np.stack([speeds[place], speeds[place + 2]])
+    ends = np.stack([heights[place, limit], heights[place + 2, limit]]) * signs
+    tops, _ = find_peaks_between(judge, between, ends, np.arange(len(place)))
     return np.unique(np.append(speeds, tops))
 
 
