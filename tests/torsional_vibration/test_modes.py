@@ -91,13 +91,33 @@ def test_shafts_without_stiffness_join_nothing():
 
 
 def count_nodes(chain):
-    return [sum(map(len, locate_nodes(chain, shape))) for shape in find_chain_modes(chain).shapes]
+    modes = find_chain_modes(chain)
+    located = [locate_nodes(chain, shape, omega) for shape, omega in zip(modes.shapes, modes.omega, strict=True)]
+    return [sum(map(len, nodes)) for nodes in located]
 
 
 @pytest.mark.parametrize("seed", range(4))
 def test_the_rth_mode_of_a_chain_has_r_nodes(seed):
     chain = random_chain("plain", seed, 0.5)
     assert count_nodes(chain) == list(range(len(chain.inertia)))
+
+
+@pytest.mark.parametrize("throws", [5, 8, 20])
+@pytest.mark.parametrize("stiffness", [742.0, 0.742])
+def test_angles_behind_soft_shafts_keep_their_signs(throws, stiffness):
+    """The angles of the highest modes fall to 1e-12 of the largest, or far below its rounding error."""
+    chain = chain_of([0.006, *[0.017] * throws, 0.15], [2.5e5, *[stiffness] * (throws - 1), 8e5])
+    assert count_nodes(chain) == list(range(throws + 2))
+
+
+def test_a_branch_on_a_node_at_rest_is_at_rest():
+    """Two equal discs swing against each other about a hub; shafts behind the hub have no node."""
+    shafts = [ChainShaft(0, 1, 1e4), ChainShaft(0, 2, 1e4), ChainShaft(0, 3, 5e3), ChainShaft(3, 4, 2e3)]
+    chain = join_chain([1.0, 0.1, 0.1, 3.0, 2.0], shafts)
+    modes = find_chain_modes(chain)
+    [swinging] = np.flatnonzero(np.isclose(modes.omega, np.sqrt(1e4 / 0.1)))
+    in_shafts, at_nodes = locate_nodes(chain, modes.shapes[swinging], modes.omega[swinging])
+    assert (in_shafts.tolist(), at_nodes.tolist()) == ([], [0])
 
 
 def test_a_node_at_rest_hides_no_node_of_vibration_and_gears_that_reverse_are_none():

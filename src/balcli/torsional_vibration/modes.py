@@ -13,6 +13,7 @@ from operator import attrgetter
 from typing import Annotated, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..core.phases import RPM
 from ..core.records import HIDDEN
@@ -30,7 +31,10 @@ from .chain import (
 )
 from .system import Excitation, TorsionalSystem
 
-_AT_REST = 1e-9  # a node whose angle is below this share of the largest counts as at rest
+# A node is at rest if its angle is below this share of the largest angle, and of the angle of the
+# node through which it is reached from those that move.
+_AT_REST = 1e-9
+_SMALL = 1e-6  # angles below this share of the largest are computed anew, because of rounding
 
 
 def find_chain_modes(chain: Chain) -> Modes:
@@ -100,7 +104,7 @@ def chain_loss(
     return np.where(modes.omega > 0, lost / np.where(modes.omega > 0, modes.omega, 1) ** 2, 0)
 
 
-def locate_nodes(chain: Chain, shape: Real) -> tuple[Indices, Indices]:
+def locate_nodes(chain: Chain, shape: Real, omega: float) -> tuple[Indices, Indices]:
     """Return the positions of the vibration nodes of a mode: the shafts whose ends turn against
     each other, and the nodes of the chain that are at rest between neighbours that turn against
     each other. Of meshed wheels at rest, only the first is listed.
@@ -108,8 +112,10 @@ def locate_nodes(chain: Chain, shape: Real) -> tuple[Indices, Indices]:
     Args:
         chain: Inertias and shafts.
         shape: (nodes,) angle of each node.
+        omega: Angular frequency of the mode, rad/s.
     """
-    moves = np.abs(shape) > _AT_REST * np.abs(shape).max()
+    shape = _refine_small_angles(chain, shape, omega)
+    moves = _find_moving(chain, shape)
     ahead = np.where(moves, np.sign(shape), 0)
     across = ahead[chain.start] * ahead[chain.end] * np.sign(chain.ratio)
     meshes = find_pieces(chain, np.isinf(chain.stiffness))
@@ -120,6 +126,49 @@ def locate_nodes(chain: Chain, shape: Real) -> tuple[Indices, Indices]:
         pulled[0, wheel[way > 0]] = pulled[1, wheel[way < 0]] = True
     at_rest = pulled.all(axis=0) & ~moves & ~find_still(chain)
     return np.flatnonzero((across < 0) & np.isfinite(chain.stiffness)), np.flatnonzero(at_rest)
+
+
+def _refine_small_angles(chain: Chain, shape: Real, omega: float) -> Real:
+    """Return the angles of a mode, the small ones with their own accuracy. Behind soft shafts,
+    angles fall by a factor from inertia to inertia, and soon below the rounding error of the
+    largest one, by which their signs would be lost. They follow from the large angles, because no
+    torque is left over at their inertias.
+
+    Args:
+        chain: Inertias and shafts.
+        shape: (nodes,) angle of each node.
+        omega: Angular frequency of the mode, rad/s.
+    """
+    follow, independent = follow_gears(chain)
+    angles = shape[independent]
+    small = np.abs(angles) < _SMALL * np.abs(angles).max(initial=0.0)
+    if not np.any(small):
+        return shape
+    elastic = np.isfinite(chain.stiffness)
+    springs = incidence(chain)[elastic] @ follow
+    left_over = (springs.T * chain.stiffness[elastic]) @ springs
+    left_over -= omega**2 * np.diag(chain.inertia @ follow**2)
+    applied = left_over[np.ix_(small, ~small)] @ angles[~small]
+    try:
+        refined = np.linalg.solve(left_over[np.ix_(small, small)], -applied)
+    except np.linalg.LinAlgError:
+        return shape  # these inertias could also vibrate by themselves
+    if np.abs(refined).max() > _SMALL * np.abs(angles).max():
+        return shape  # nearly so
+    angles[small] = refined
+    exact: Real = follow @ angles
+    return exact
+
+
+def _find_moving(chain: Chain, shape: Real) -> NDArray[np.bool_]:
+    """Return a mask (nodes,) of the nodes that move in a mode."""
+    size = np.abs(shape)
+    moves = size > _AT_REST * size.max()
+    roots = np.flatnonzero(moves).tolist()
+    for branch in grow_branches(chain, roots, chain.stiffness > 0):
+        follows = size[branch.child] > _AT_REST * size[branch.parent]
+        moves[branch.child] = moves[branch.parent] and follows
+    return moves
 
 
 # Work below this share of the work that all torques would do in phase is a rounding error.
@@ -201,7 +250,7 @@ def find_natural_modes(system: TorsionalSystem) -> tuple[NaturalMode, ...]:
     loss = chain_loss(system.chain, system.damping, modes, system.attached_rings(modes.omega))
     natural_modes = []
     for k, shape in enumerate(scale_shapes(modes.shapes)[modes.rigid :], modes.rigid):
-        in_shafts, at_nodes = locate_nodes(system.chain, shape)
+        in_shafts, at_nodes = locate_nodes(system.chain, shape, float(modes.omega[k]))
         mode = NaturalMode(
             frequency_Hz=float(modes.omega[k]) / (2 * np.pi),
             shape=shape,
