@@ -1,6 +1,7 @@
 """Figures compared with others of the same file: both sides of each limit, at two sizes of engine, and angles."""
 
 import math
+import re
 
 import pytest
 import tomli_w
@@ -117,6 +118,56 @@ LIMITS |= {
         True,
         1,
         lambda x: {"bearing": {"main_positions": [500, 500 + x, 900]}},
+    ),
+}
+
+
+def give_torsion(key):
+    return lambda x: {"torsion": {key: x}}
+
+
+def give_shaft(key, **other):
+    """A flywheel on a shaft."""
+    return lambda x: {"torsion": {"rear": [{"name": "flywheel", "stiffness": 1e6, **other, key: x}]}}
+
+
+BORE2_STROKE = (BORE / 1e3) ** 2 * STROKE / 1e3
+RIGIDITY = 79.3e9 * math.pi / 32  # of a steel shaft, over the fourth power of its diameter
+LIMITS |= {
+    "torsion.throw_stiffness": (2.5e7 * BORE2_STROKE, True, 3, give_torsion("throw_stiffness")),
+    "torsion.throw_stiffness most": (
+        4e10 * BORE2_STROKE,
+        False,
+        3,
+        lambda x: give_torsion("throw_stiffness")([1e5, x]),
+    ),
+    "torsion.throw_diameter": (0.05 * STROKE, True, 1, give_torsion("throw_diameter")),
+    "torsion.throw_diameter most": (4 * STROKE, False, 1, give_torsion("throw_diameter")),
+    "torsion.web_thickness": (0.05 * STROKE, True, 1, give_torsion("web_thickness")),
+    "torsion.web_width": (0.2 * STROKE, True, 1, give_torsion("web_width")),
+    "torsion.rear.1.stiffness": (RIGIDITY * 0.07**3 / 500, True, 3, give_shaft("stiffness", diameter=70)),
+    "torsion.rear.1.diameter": (1e3 * (0.02 * 1e6 / RIGIDITY) ** (1 / 3), True, 1, give_shaft("diameter")),
+    "torsion.rear.1.diameter rigid": (0.05 * STROKE, True, 1, give_shaft("diameter", stiffness="rigid")),
+    "torsion.rear.1.diameter most": (4 * STROKE, False, 1, give_shaft("diameter", stiffness="rigid")),
+    "torsion.throw_inertia": (0.02 * SWUNG * (STROKE / 2) ** 2, True, 5, give_torsion("throw_inertia")),
+    "crank.inertia": (
+        0.1 * 3 * 3000,
+        True,
+        5,
+        lambda x: {"crank": {"inertia": x}, "torsion": {"throw_inertia": 3000.0}},
+    ),
+    "crank.inertia most": (
+        10 * (3000 + 5000 + 9000),
+        False,
+        5,
+        lambda x: {"crank": {"inertia": x}, "torsion": {"throw_inertia": [3000.0, 5000.0, 9000.0]}},
+    ),
+    "bearing.pin_diameter": (0.1 * STROKE, True, 1, lambda x: {"bearing": {"pin_diameter": x}}),
+    "bearing.main_diameter": (
+        3 * STROKE,
+        False,
+        1,
+        lambda x: {"bearing": {"main_diameter": x, "main_width": 20}},
     ),
 }
 
@@ -280,12 +331,12 @@ def test_positions_that_do_not_rise_are_doubted():
         assert ("crank.positions" in list_doubted(tables)) == doubted
 
 
-@pytest.mark.parametrize("size", [25.4, 1000.0])
-def test_the_unit_that_is_proposed_is_read_as_such(size):
-    """Spacing in inches or metres: what the doubt proposes gives the right spacing, and no doubt."""
+@pytest.mark.parametrize(("size", "place"), [(25.4, 0), (10.0, 1), (1000.0, 0)])
+def test_the_unit_that_is_proposed_is_read_as_such(size, place):
+    """Spacing in inches, centimetres or metres: what the doubt proposes gives the right spacing, and no doubt."""
     bare = 90 / size
     (doubt,) = find_suspicious(parse(tomli_w.dumps(make(crank={"spacing": bare}))))
-    proposed = doubt.message.rpartition('write it: "')[2].rstrip('"')
+    proposed = re.findall(r'"([^"]+)"', doubt.message)[place]
     model = parse(tomli_w.dumps(make(crank={"spacing": proposed})))
     assert model.crank.spacing == pytest.approx(90, rel=1e-4)
     assert find_suspicious(model) == []

@@ -106,6 +106,11 @@ def find_suspicious(model: EngineFile) -> list[Doubt]:
         from .web_ranges import list_web_ranges  # loaded only for files with [[web]]
 
         figures += find_unusual(list_web_ranges(model))
+    if model.torsion is not None:
+        from .torsion_ranges import list_torsion_ranges  # loaded only for files with [torsion]
+
+        throws, _ = _count_throws_and_rods(model)
+        figures += find_unusual(list_torsion_ranges(model, model.torsion, throws))
     doubts = [
         *doubt_drifting(model),
         *_find_missing(model),

@@ -29,7 +29,7 @@ from .model import (
 )
 from .plain_tables import list_tables
 from .table import FileTable
-from .units import ANGLE, INERTIA, LENGTH, PRESSURE, UNBALANCE, Dimension, convert
+from .units import ANGLE, LENGTH, PRESSURE, UNBALANCE, Dimension, convert
 
 
 class Sizes(NamedTuple):
@@ -116,7 +116,7 @@ class Range(NamedTuple):
 
 
 # Units that may be meant, the likeliest first
-LENGTHS = ("in", "m")
+LENGTHS = ("in", "cm", "m")
 _PRESSURES = ("MPa", "psi", "kPa")
 INERTIAS = ("kg m^2", "kg cm^2", "g m^2")
 _UNBALANCES = ("kg mm", "g cm", "oz in", "kg m")
@@ -128,7 +128,8 @@ _STROKE = ("crank.stroke",)
 _BORE = ("piston.bore", *_STROKE)
 _ROD = ("rod.length", "rod.ratio")
 MASSES_OF_PISTON = (*(f"piston.{key}" for key in ("mass", *PISTON_PARTS)), "crosshead.mass")
-_MASSES = (*_STROKE, *MASSES_OF_PISTON, "rod.mass", "rod.small_end", "rod.big_end")
+MASSES = (*_STROKE, *MASSES_OF_PISTON, "rod.mass", "rod.small_end", "rod.big_end")
+_JOURNAL = 0.1, 3.0  # diameter of a crank pin or main journal, strokes
 _GRAMS = 1e3  # in a kg: unbalances are in g mm
 
 
@@ -182,7 +183,7 @@ def list_ranges(model: EngineFile) -> Iterator[Range]:
     yield from _list_devices(model, size, stroke)
     yield from _list_points(model, size, stroke)
     yield from _list_pressures(model)
-    yield from _list_inertias(model, size)
+    yield from _list_bearings(model, size)
     yield from _list_room(model, size, bore)
 
 
@@ -228,8 +229,39 @@ def _list_devices(model: EngineFile, size: Sizes, stroke: str) -> Iterator[Range
         if unbalance:
             basis = f"rods and pistons of {size.mass:.4g} kg"
             yield Range(
-                given, 0.001 * unbalance, math.inf, UNBALANCE, _UNBALANCES, basis, also=_MASSES
+                given, 0.001 * unbalance, math.inf, UNBALANCE, _UNBALANCES, basis, also=MASSES
             )
+
+
+def _list_bearings(model: EngineFile, size: Sizes) -> Iterator[Range]:
+    """Yield ranges of the diameters of crank pins and main journals."""
+    if model.bearing is not None:
+        for key in ("pin_diameter", "main_diameter"):
+            diameter = getattr(model.bearing, key)
+            yield compare_with_stroke(f"bearing.{key}", diameter, _JOURNAL, size)
+
+
+def compare_with_stroke(
+    path: str, length: float | None, shares: tuple[float, float], size: Sizes
+) -> Range:
+    """Return the range of a length.
+
+    Args:
+        path: Dotted name of the length.
+        length: The length, mm; None: the file does not give it.
+        shares: Lower and upper end of its range, strokes.
+        size: Sizes of the engine.
+    """
+    least, most = shares
+    return Range(
+        figures=[(path, length or 0.0)],
+        least=least * size.stroke,
+        most=most * size.stroke,
+        dimension=LENGTH,
+        others=LENGTHS,
+        basis=f"a stroke of {size.stroke:g} mm",
+        also=_STROKE,
+    )
 
 
 def _list_room(model: EngineFile, size: Sizes, bore: str) -> Iterator[Range]:
@@ -298,16 +330,6 @@ def _list_pressures(model: EngineFile) -> Iterator[Range]:
             )
 
 
-def _list_inertias(model: EngineFile, size: Sizes) -> Iterator[Range]:
-    torsion = model.torsion
-    if torsion is None or not torsion.throw_inertia or not size.mass:
-        return
-    swung = size.mass * size.radius**2
-    inertias = [("torsion.throw_inertia", inertia) for inertia in torsion.throw_inertia]
-    basis = f"rods and pistons of {size.mass:.4g} kg"
-    yield Range(inertias, 0.02 * swung, 1000 * swung, INERTIA, INERTIAS, basis, also=_MASSES)
-
-
 def find_unusual(ranges: Iterable[Range]) -> Iterator[Figure]:
     """Yield the figure of each range that is farthest outside it."""
     for usual in ranges:
@@ -336,12 +358,18 @@ def _find_distance(value: float, usual: Range) -> float:
     return max(usual.least / abs(value), abs(value) / usual.most)
 
 
+_UNITS_NAMED = 2  # largest number of units that a remedy names
+
+
 def _guess_unit(value: float, usual: Range) -> str:
-    """Return the remedy: the first unit with which the figure lies in its range."""
+    """Return the remedy: the first units with which the figure lies in its range."""
+    fitting = []
     for unit in usual.others:
         meant = abs(value) * convert(f"1 {unit}", usual.dimension)
         if usual.least <= meant <= usual.most:
-            return f'with another unit, write it: "{value:g} {unit}"'
+            fitting.append(f'"{value:g} {unit}"')
+    if fitting:
+        return f"with another unit, write it: {' or '.join(fitting[:_UNITS_NAMED])}"
     return f"bare numbers are in {usual.dimension.unit}"
 
 

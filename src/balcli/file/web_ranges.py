@@ -32,7 +32,7 @@ _OF_STROKE = {
 }
 _CG = 0.005  # least distance of a centre of mass from the axis, strokes
 _HOLE = _Share(0.01, 1.5)  # diameter of a hole, strokes
-_PIN = _Share(0.1, 2.0)  # diameter and length of a crank pin, strokes
+_PIN = _Share(0.1, 2.0)  # length of a crank pin, strokes
 _CLEARANCE = 0.2  # largest clearance, strokes
 _WEB_MASS = 0.03, 30.0  # mass of a web / mass of a rod and piston
 _GYRATION = 0.1, 2.0  # radius of gyration about the crank axis, strokes
@@ -58,9 +58,8 @@ def list_web_ranges(model: EngineFile) -> Iterator[Range]:
         yield _compare_with_stroke(figures, share, size, stroke)
     yield from _list_room_between_throws(model)
     pins = []
-    for key in ("pin_diameter", "pin_length"):
-        if model.bearing is not None:
-            pins.append((f"bearing.{key}", getattr(model.bearing, key) or 0.0))
+    if model.bearing is not None:
+        pins.append(("bearing.pin_length", model.bearing.pin_length or 0.0))
     yield _compare_with_stroke(pins, _PIN, size, stroke)
     yield _compare_with_stroke(_list_given(model, "clearance"), _Share(0, _CLEARANCE), size, stroke)
     holes = []
