@@ -2,11 +2,12 @@
 
 import pytest
 from support.cases import cases
-from support.engines import GOOD, changed
+from support.engines import GOOD, build_text, changed
 from support.paths import ENGINE_FILES
 
 from balcli.engine.parse import parse
 from balcli.file import examples as new
+from balcli.file.assumed import Assumed
 from balcli.file.doubt import Doubt, name_files
 from balcli.file.doubts import find_suspicious
 
@@ -59,6 +60,34 @@ def test_engines_of_the_project_are_of_usual_size():
     assert len(ENGINE_FILES) > 60
     doubts = {file.name: find_suspicious(parse(file.read_text("utf-8"))) for file in ENGINE_FILES}
     assert {name: told for name, told in doubts.items() if told} == {}
+
+
+@pytest.mark.parametrize(
+    ("layout", "doubted"),
+    [
+        ("", True),
+        ("bank_angle = 90\n", True),
+        ("firing_order = [1, 3, 4, 2]\n", False),
+        ("radial = 5\nrows = 1\n", False),
+    ],
+)
+def test_a_spacing_without_several_throws_is_doubted(layout, doubted):
+    """A four whose firing order was forgotten: it was a single, and nothing said so."""
+    text = changed(("throws = [0, 180, 180, 0]\n", ""), ("firing_order = [1, 3, 4, 2]\n", layout))
+    told = (
+        "crank.throws: is not given, and one throw is taken, although the file has crank.spacing, for several throws; "
+        "give layout.firing_order, or the angle of every throw"
+    )
+    assert list_doubts(text) == [told] * doubted
+    assert list_doubts(text.replace("spacing = 100\n", "")) == []
+    assert (Assumed("crank.throws", (0.0,), "deg") in build_text(text).list_assumed()) == doubted
+
+
+def test_a_stiffness_between_throws_without_throws_is_doubted():
+    text = changed(("throws = [0, 180, 180, 0]\n", ""), ("firing_order = [1, 3, 4, 2]\n", ""), more=TWIST)
+    [doubt] = find_suspicious(parse(text))
+    assert doubt.also == ("crank.spacing", "torsion.throw_stiffness")
+    assert "the file has crank.spacing and torsion.throw_stiffness, for several throws" in str(doubt)
 
 
 TWIST = """

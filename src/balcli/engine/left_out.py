@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from ..core.phases import TURN
 from ..file.assumed import DEVICES, Assumed, assume
+from ..file.doubts import list_keys_between_throws
 from ..file.firing_order import NamedOrder
 from ..file.model import EngineFile, RodKeys, Shaft
 from ..file.table import FileTable
@@ -86,6 +87,8 @@ def _list_crank_defaults(parts: Parts) -> Iterator[Assumed]:
         yield assume("operation.speed", running, running.speed)
     if crank.throws is None and parts.order is None and throws == 2:
         yield assume("crank.throws", crank, (0.0, 180.0))
+    if list_keys_between_throws(model):
+        yield assume("crank.throws", crank, (0.0,))
     if layout.rows is not None and layout.row_angle is None:
         turn = find_row_angle(layout, throws, parts.figures)
         yield assume("layout.row_angle", layout, float(turn))

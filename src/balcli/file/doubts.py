@@ -113,6 +113,7 @@ def find_suspicious(model: EngineFile) -> list[Doubt]:
         figures += find_unusual(list_torsion_ranges(model, model.torsion, throws))
     doubts = [
         *doubt_drifting(model),
+        *_doubt_single_throw(model),
         *_find_missing(model),
         *_doubt_piston_rods(model),
         *doubt_figures(figures),
@@ -213,6 +214,33 @@ def _find_missing(model: EngineFile) -> Iterator[Doubt]:
     if model.flywheel is not None and torsion is not None and not (torsion.front or torsion.rear):
         message = "is missing; `torsion` does not use [flywheel]: also write it as [[torsion.rear]]"
         yield Doubt("torsion.rear", message)
+
+
+def list_keys_between_throws(model: EngineFile) -> tuple[str, ...]:
+    """Return the keys of a file that are about neighbouring throws, if the file says nothing of
+    several throws: neither their angles, nor a firing order, nor rows of a radial. A single throw
+    is then taken.
+    """
+    layout = model.layout
+    if model.crank.throws is not None or layout.firing_order is not None or layout.has("rows"):
+        return ()
+    keys = []
+    if model.crank.spacing:
+        keys.append("crank.spacing")
+    if model.torsion is not None and model.torsion.throw_stiffness is not None:
+        keys.append("torsion.throw_stiffness")
+    return tuple(keys)
+
+
+def _doubt_single_throw(model: EngineFile) -> Iterator[Doubt]:
+    """Yield a warning if a single throw is taken in a file that seems to be about several."""
+    keys = list_keys_between_throws(model)
+    if keys:
+        message = (
+            f"is not given, and one throw is taken, although the file has {join_words(keys)}, for "
+            "several throws; give layout.firing_order, or the angle of every throw"
+        )
+        yield Doubt("crank.throws", message, keys)
 
 
 def _doubt_piston_rods(model: EngineFile) -> Iterator[Doubt]:

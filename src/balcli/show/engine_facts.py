@@ -171,9 +171,13 @@ def tell_place(point: Iterable[Figure], system: System) -> str:
 
 def _tell_inferred(engine: Engine) -> str:
     """Return the assumed values of keys that the file leaves out. Throws and intervals of a single
-    engine are named without values, because other lines show these.
+    engine are named without values where other lines show these.
     """
-    shown = set() if engine.placed else {"crank.throws", "layout.firing_intervals"}
+    shown = set[str]()
+    if not engine.placed:
+        shown.add("layout.firing_intervals")
+        if _throws(engine):
+            shown.add("crank.throws")
     return tell_assumed(engine.list_assumed("gas") or (), shown)
 
 
