@@ -36,6 +36,22 @@ clearance = 0.15
 SWEPT = {"head": np.pi / 4 * 0.3**2 * 0.25, "crank": np.pi / 4 * (0.3**2 - 0.07**2) * 0.25}
 
 
+@pytest.mark.parametrize(("strokes", "start"), [(2, "the outer dead centre"), (4, "firing")])
+def test_a_pump_with_a_diagram_does_not_fire(tmp_path, strokes, start):
+    """Its diagram absorbs work. A four-stroke engine that is motored still has a dead centre of firing."""
+    rows = []
+    for angle in range(0, 180 * strokes, 10):
+        pressure = 4 if 10 <= angle % 360 <= 180 else 300
+        rows.append(f"{angle},{pressure}\n")
+    (tmp_path / "p.csv").write_text("angle_deg,pressure_bar\n" + "".join(rows))
+    file = tmp_path / "pump.toml"
+    layout = f"[layout]\nfiring_order = [1]\nstrokes = {strokes}"
+    file.write_text(
+        PUMP.partition("[gas]")[0].replace("[layout]\nstrokes = 2", layout) + '[gas]\nindicator = "p.csv"\n'
+    )
+    assert f"0.0 deg after {start}\n" in run_here("torque", file).out
+
+
 @pytest.fixture
 def pump(tmp_path):
     path = tmp_path / "pump.toml"

@@ -2,6 +2,7 @@
 
 import math
 import os
+import re
 
 import numpy as np
 import pytest
@@ -170,6 +171,19 @@ def test_a_diagram_may_have_so_many_rows(beside):
 def test_a_mistake_by_its_path(text, told):
     (found,) = list_problems(text)
     assert found.startswith(told)
+
+
+@pytest.mark.parametrize(("share", "asked"), [(0.049, False), (0.051, True), (0.49, True), (0.51, False)])
+def test_a_pressure_in_megapascals_is_asked_back(share, asked):
+    """A tenth of a pressure that is possible; a file that names the unit is not asked."""
+    lowest = WIEBE.replace("imep = 9", "max_pressure = 3")
+    least = float(re.search(r"at least (\S+) bar", list_problems(FOUR + lowest)[0])[1])
+    for unit, may_ask in (("", True), (" bar", False)):
+        figure = f"{least * share:.6g}"
+        given = f'"{figure} bar"' if unit else figure
+        (told,) = list_problems(FOUR + WIEBE.replace("imep = 9", f"max_pressure = {given}"))
+        question = f'; is it in bar? Give another unit as in "{float(figure):g} MPa"'
+        assert told.endswith(question) == (asked and may_ask)
 
 
 @cases("engine/gas", "mistakes_of_heat_of_a_cylinder", WIEBE=WIEBE)

@@ -124,6 +124,21 @@ def test_where_nothing_fits_intervals_of_shared_pins_come_before_split_pins(orde
         assert line.startswith(f"layout.numbering = {beginning}")
 
 
+TWIN = {"crank": {"stroke": 62}, "layout": {"bank_angle": 52, "firing_order": [1, 2]}}
+
+
+@pytest.mark.parametrize(("intervals", "splay"), [((488, 232), -76), ((360, 360), 52 - 360)])
+def test_a_forgotten_splay_is_the_likeliest_mistake(intervals, splay):
+    """A vee twin with offset pins: the usual numbering fits with the splay, so the splay is missing."""
+    layout = TWIN["layout"] | {"firing_intervals": [*intervals]}
+    told = refused(crank=TWIN["crank"], layout=layout).split("\n    ")
+    assert told[0].endswith("crank.splay: is missing, and without it 1-2 fits no usual numbering; it may mean:")
+    first = re.match(r"layout\.numbering = \[\[1\], \[2\]\], crank\.splay = (-?\d+): throws 0;", told[1])
+    assert first is not None
+    assert (int(first[1]) - splay) % 360 == 0
+    assert "e+" not in told[1]
+
+
 def test_a_splay_in_the_file_is_not_contradicted():
     """20 deg of splay fits no numbering of a 60-degree six."""
     told = read_refusal("1-2-3-4-5-6", 60, splay=20)

@@ -131,6 +131,11 @@ def give_shaft(key, **other):
     return lambda x: {"torsion": {"rear": [{"name": "flywheel", "stiffness": 1e6, **other, key: x}]}}
 
 
+def give_wheel(key, **other):
+    """A locomotive."""
+    return lambda x: {"locomotive": {"planes": [-700, 700], **other, key: x}}
+
+
 BORE2_STROKE = (BORE / 1e3) ** 2 * STROKE / 1e3
 RIGIDITY = 79.3e9 * math.pi / 32  # of a steel shaft, over the fourth power of its diameter
 LIMITS |= {
@@ -161,6 +166,45 @@ LIMITS |= {
         False,
         5,
         lambda x: {"crank": {"inertia": x}, "torsion": {"throw_inertia": [3000.0, 5000.0, 9000.0]}},
+    ),
+    "flywheel.mass": (0.05 * SWUNG, True, 3, lambda x: {"flywheel": {"mass": x, "radius_of_gyration": 100}}),
+    "flywheel.mass most": (2000 * SWUNG, False, 3, lambda x: {"flywheel": {"mass": x, "radius_of_gyration": 100}}),
+    "flywheel.radius_of_gyration": (
+        0.05 * STROKE,
+        True,
+        1,
+        lambda x: {"flywheel": {"mass": 9, "radius_of_gyration": x}},
+    ),
+    "flywheel.radius_of_gyration most": (
+        20 * STROKE,
+        False,
+        1,
+        lambda x: {"flywheel": {"mass": 9, "radius_of_gyration": x}},
+    ),
+    "locomotive.wheel_diameter": (1.2 * STROKE, True, 1, give_wheel("wheel_diameter")),
+    "locomotive.wheel_diameter most": (8 * STROKE, False, 1, give_wheel("wheel_diameter")),
+    "locomotive.radius": (0.2 * 150, True, 1, give_wheel("radius", wheel_diameter=300)),
+    "locomotive.radius most": (150, False, 1, give_wheel("radius", wheel_diameter=300)),
+    "locomotive.radius alone": (0.5 * STROKE / 2, True, 1, give_wheel("radius")),
+    "locomotive.radius far": (8 * STROKE / 2, False, 1, give_wheel("radius", wheel_diameter=9000)),
+    "locomotive.coupling_radius": (0.2 * STROKE / 2, True, 1, give_wheel("coupling_radius")),
+    "rod.length": (
+        STROKE / 2 / 0.6,
+        True,
+        1,
+        lambda x: {"rod": {"length": x}, "crosshead": {"mass": 0.5}},
+    ),
+    "rod.length most": (
+        STROKE / 2 / 0.05,
+        False,
+        1,
+        lambda x: {"rod": {"length": x}, "crosshead": {"mass": 0.5}},
+    ),
+    "piston.mass": (
+        250_000 * (BORE / 1e3) ** 3 - 0.5,
+        False,
+        3,
+        lambda x: {"piston": {"mass": x}, "crosshead": {"mass": 0.5}},
     ),
     "bearing.pin_diameter": (0.1 * STROKE, True, 1, lambda x: {"bearing": {"pin_diameter": x}}),
     "bearing.main_diameter": (
@@ -323,6 +367,43 @@ def test_a_pendulum_has_less_inertia_than_the_whole_chain(tmp_path, mass, doubte
     nodes = f'node = [{{name = "a", inertia = 2e6, damper = {damper}}}, {{name = "b", inertia = 2e6}}]\n'
     file = write(tmp_path / "chain.toml", f'{nodes}shaft = [{{from = "a", to = "b", stiffness = 1e6}}]\n')
     assert ("more than all nodes together" in run_here("torsion", file).err) == doubted
+
+
+def test_a_balance_mass_outside_its_wheel_has_no_other_unit():
+    tables = make(**give_wheel("radius", wheel_diameter=300)(160))
+    (doubt,) = find_suspicious(parse(tomli_w.dumps(tables)))
+    assert str(doubt) == (
+        "locomotive.radius: 160 mm, where 30 to 150 is usual with a wheel diameter of 300 mm; balance masses are inside "
+        "their wheel"
+    )
+
+
+@pytest.mark.parametrize(
+    ("tables", "usual"),
+    [
+        ({}, False),
+        ({"crosshead": {"mass": 0.5}}, True),
+        ({"locomotive": {"planes": [-700, 700]}}, True),
+        ({"gas": {"cycle": "compressor", "suction": 1.0, "discharge": 3.6, "clearance": 0.12}}, True),
+    ],
+)
+def test_rods_behind_a_crosshead_may_be_longer(tables, usual):
+    """11 ft in a locomotive, 44 in for a stroke of 12 in a pump: the rod is 7 to 10 crank radii long."""
+    long = make(rod={"length": STROKE / 2 / 0.106}, **tables)
+    assert ("rod.length" not in list_doubted(long)) == usual
+
+
+@pytest.mark.parametrize(("speed", "doubted"), [(19.8, True), (20.2, False)])
+def test_the_speed_of_a_locomotive_is_doubted_by_its_key(speed, doubted):
+    """Of the crank, in rpm: at a stroke of 80 mm, 18.75 rpm are 0.05 m/s. The largest is 40 m/s, 15000 rpm."""
+    wheel = {"planes": [-700, 700], "wheel_diameter": 300}
+    for factor in (18.75 / 20, 15000 / 20):
+        upper = factor > 1
+        tables = make(locomotive=wheel | {"speed": speed * factor * 60e-6 * math.pi * 300})
+        del tables["operation"]
+        doubts = find_suspicious(parse(tomli_w.dumps(tables)))
+        assert [doubt.path for doubt in doubts] == ["locomotive.speed"] * (doubted != upper)
+        assert all(doubt.also == ("locomotive.wheel_diameter", "crank.stroke") for doubt in doubts)
 
 
 def test_positions_that_do_not_rise_are_doubted():

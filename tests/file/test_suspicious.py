@@ -99,7 +99,7 @@ name = "Flywheel"
 inertia = 250000
 stiffness = 1e6
 """
-LIGHT = "where at least 89 is usual; is it in kg mm^2? Give another unit as in "
+LIGHT = "where 89 to 89000000 is usual; is it in kg mm^2? Give another unit as in "
 
 
 @cases("file/suspicious", "inertias_in_kg_m2_are_asked_back", LIGHT=LIGHT)

@@ -36,10 +36,16 @@ _SAME = 1e-8  # rad; a pressure peak this close to a breakpoint is placed at the
 
 
 class GasError(ValueError):
-    """A cycle cannot be computed; `field` names the wrong value, `message` gives the reason."""
+    """A cycle cannot be computed.
 
-    def __init__(self, field: str, message: str) -> None:
+    Attributes:
+        field: Name of the wrong value.
+        share: The value over the least value that is possible; nan if it is not too small.
+    """
+
+    def __init__(self, field: str, message: str, share: float = math.nan) -> None:
         self.field = field
+        self.share = share
         super().__init__(message)
 
 

@@ -402,7 +402,8 @@ class _Cycle:
                 continue
             bound, end = ("at least", least) if wanted < least else ("at most", most)
             message = f"is {wanted / size:g}{unit}: this cycle has {bound} {end / size:.4g}{unit}"
-            raise GasError(name, message)
+            share = wanted / least if 0 < wanted < least else math.nan
+            raise GasError(name, message, share)
 
 
 def _hold(pressure: Figure) -> Function:

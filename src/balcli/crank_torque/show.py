@@ -141,7 +141,8 @@ def _list_work(result: TorqueAnalysis, system: System) -> Iterator[tuple[str, st
         if result.max_pressure_Pa is not None:
             size = _size(result.max_pressure_Pa, system.pressure)
             at = result.max_pressure_deg
-            start = "the outer dead centre" if engine.is_pump else "firing"
+            is_pump = engine.is_pump or (absorbs and engine.strokes == 2)
+            start = "the outer dead centre" if is_pump else "firing"
             yield "largest pressure", f"{size}, {degrees(at or 0.0)} deg after {start}"
         yield from list_silent(engine.silent)
     for name, value, of in (

@@ -38,6 +38,7 @@ from ..core.piecewise import resolved
 from ..errors import BalcliError, InputError, Problem
 from ..file.csv_columns import Head, NumberColumns, list_heads, locate_beside, read_columns
 from ..file.doubt import Doubt
+from ..file.fields import WrittenFigure
 from ..file.gas_tables import (
     COMPRESSOR,
     DIAGRAM_KEYS,
@@ -50,7 +51,7 @@ from ..file.gas_tables import (
 )
 from ..file.model import EngineFile, Override
 from ..file.table import FileTable
-from ..file.units import BAR
+from ..file.units import BAR, ask_unit
 from ..limits import HIGHEST_TABLE_ORDER, MOST_DIFFERENT_GAS
 from .card import draw_card
 from .engine import Engine
@@ -64,6 +65,8 @@ _HARMONICS = (Head("order"), Head("cos"), Head("sin"))
 # above this ratio. If the fuel uses all the air, the ratio is 34: 2.95 MJ per kg of air at 300 K,
 # for petrol and Diesel fuel alike.
 HEAT_MOST = 40.0
+# Pressure in bar over the least possible one, where its figure may be meant in MPa (10 bar)
+_SHARE_IN_MPA = 0.05, 0.5
 _NO_KEYS = Override.model_construct()  # table of a cylinder that has none
 _KEPT = 512  # number of speeds for which the gas is cached
 _OVERSPEED = 1.6  # beyond this multiple of the rated speed, the gas is not interpolated
@@ -845,8 +848,22 @@ def _locate(error: GasError, gas: Gas, source: _Source) -> Problem:
         what = f"cylinder {source.number} burns nothing; its expansion has the same index"
         return Problem("gas.compression_index", f"{error}; {what}")
     if error.field == "imep" and gas.bmep is not None:
-        return Problem("gas.bmep", f"imep = bmep / mechanical_efficiency {error}")
-    return Problem(f"gas.{error.field}", str(error))
+        asked = _ask_pressure_unit(error, gas.bmep)
+        return Problem("gas.bmep", f"imep = bmep / mechanical_efficiency {error}{asked}")
+    asked = ""
+    if error.field in ("imep", "max_pressure"):
+        asked = _ask_pressure_unit(error, getattr(gas, error.field))
+    return Problem(f"gas.{error.field}", f"{error}{asked}")
+
+
+def _ask_pressure_unit(error: GasError, pressure: float | None) -> str:
+    """Return the question for the unit of a pressure that is too small by so much that it may be in
+    MPa; empty if it is not, or if the file gives its unit.
+    """
+    least, most = _SHARE_IN_MPA
+    if pressure is None or isinstance(pressure, WrittenFigure) or not least <= error.share <= most:
+        return ""
+    return f"; {ask_unit('bar', f'{pressure:g} MPa')}"
 
 
 def _doubt_heat(gas: Gas, source: _Source, piston: GasPiston, cycle: GasCycle) -> Iterator[Doubt]:

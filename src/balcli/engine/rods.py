@@ -18,6 +18,9 @@ from .figures import RodFigures, or_zero
 
 ENDS = ("small_end", "big_end")
 LENGTHS = ("length", "ratio")
+# Crank radius over rod length from which on a wrong unit is likelier than a short rod: engines have
+# 0.2 to 0.35, and a slip is a factor of 10 or more.
+OTHER_UNIT = 2.0
 _ROUNDING = 8 * EPS  # relative rounding error of the two terms of `RunningGear.couple`
 
 
@@ -230,13 +233,20 @@ def check_turning(place: RodPlace, gear: RunningGear, radius: Figure) -> Iterato
         gear: Running gear of its cylinder.
         radius: Crank radius, m.
     """
-    lam = np.max(radius / gear.length)
+    radii, lengths = np.broadcast_arrays(radius, gear.length)
+    ratios = radii / lengths
+    lam = np.max(ratios)
     eps = np.max(np.abs(gear.offset / gear.length))
     if lam + eps <= 1 - NEAREST_TO_LOCK:
         return
     sum_ = f"; with the piston offset over rod length, the sum is {lam + eps:.9g}" if eps else ""
+    worst = np.argmax(ratios)
+    sizes = f"{1e3 * radii.flat[worst]:g} mm and {1e3 * lengths.flat[worst]:g} mm"
+    hint = "make the rod longer"
+    if lam >= OTHER_UNIT:
+        hint = "are stroke and rod length in the same unit? Bare numbers are mm"
     message = (
-        f"the crank cannot turn: crank radius over rod length is {lam:.9g}{sum_}; at most 1 - "
-        f"{NEAREST_TO_LOCK:g} is allowed: make the rod longer"
+        f"the crank cannot turn: crank radius over rod length ({sizes}) is {lam:.9g}{sum_}; at "
+        f"most 1 - {NEAREST_TO_LOCK:g} is allowed: {hint}"
     )
     yield Problem(place.path(*LENGTHS), message)

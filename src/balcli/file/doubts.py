@@ -31,10 +31,13 @@ from .units import ask_unit
 # have 300 (racing) to 1000 (lorry) kg per m^3 of bore^3, pistons of cast iron up to 3000. The
 # limits are wider; a confusion of g and kg is a factor of 1000.
 PISTON = 100.0, 5000.0  # mass of a piston over bore^3, kg/m^3
-CROSSHEAD_HEAVY = 40_000.0  # largest mass of piston and crosshead over bore^3, kg/m^3
+# Largest mass of piston and crosshead over bore^3, kg/m^3: engines have up to 40000, plunger pumps
+# with a small bore for their stroke up to 80000
+CROSSHEAD_HEAVY = 250_000.0
 LONG_STROKE = 2.5  # stroke / bore above which an engine must have crossheads
 LAMBDA = 0.15, 0.4  # crank radius / rod length: engines have 0.2 to 0.35
-CROSSHEAD_LAMBDA = 0.6  # largest crank radius / rod length of crosshead engines
+# The same with crossheads: locomotives and pumps have 0.09 or more, engines up to 0.55
+CROSSHEAD_LAMBDA = 0.05, 0.6
 BORE = 0.2, 3.0  # bore / stroke: crosshead engines have 0.25 or more, racing engines up to 2.5
 ROD = 0.1, 8.0  # rod mass / piston mass: engines have 0.7 to 2.5
 SMALL_END = 0.55  # largest share of the rod's mass at the small end: rods have 0.2 to 0.4
@@ -44,6 +47,7 @@ INERTIA = 0.02, 0.4
 TWO_MASSES = 1.6  # largest rod inertia / inertia of two masses at its ends: rods have 0.6 to 1.35
 PISTON_SPEED = 40.0  # largest mean piston speed, m/s; racing engines have up to 30
 SPEED = 9.0  # lowest speed, rpm; the largest ship engines idle at 15, and 1 rad/s is 9.55
+SLOWEST_PISTON = 0.05  # lowest mean piston speed, m/s: starters turn engines at 0.3 or more
 # Engines with a stroke above 1 m, and slow engines with a stroke above two bores, are usually
 # two-strokes.
 CROSSHEAD_STROKE = 1000.0  # mm
@@ -71,6 +75,7 @@ UNBALANCE = 5.0  # largest unbalance / (all moving masses x crank radius); balan
 # Least inertia of a crankshaft or flywheel / inertia of rods and pistons at the crank radius:
 # engines have more than 1. A slip from kg m^2 to kg mm^2 is a factor of a million.
 TURNING = 0.01
+TURNING_MOST = 1e4  # largest; engines with one cylinder and two large wheels have up to 1000
 # Largest loss factors: steel has 0.01 to 0.05, rubber up to 0.5. Figures in percent are above 1;
 # relative dampings of couplings, 0.8 to 2, are above 0.5.
 LOSS_OF_MOUNTS = 1.0
@@ -92,11 +97,16 @@ def find_suspicious(model: EngineFile) -> list[Doubt]:
     Args:
         model: Engine file.
     """
-    figures = [*_list_pistons(model), *_list_rods(model), *_list_cranks(model)]
-    if model.locomotive is not None and model.locomotive.wheel_load is not None:
-        load = model.locomotive.wheel_load
-        hint = ask_unit("N", "40 kN", "9.5 t")
-        figures.append(Figure("locomotive.wheel_load", load, WHEEL_LOAD, math.inf, " N", hint))
+    figures = list[Figure]()
+    if model.locomotive is not None:
+        from .locomotive_ranges import list_locomotive_ranges  # only for files with [locomotive]
+
+        figures += find_unusual(list_locomotive_ranges(model, model.locomotive))
+        if model.locomotive.wheel_load is not None:
+            load = model.locomotive.wheel_load
+            hint = ask_unit("N", "40 kN", "9.5 t")
+            figures.append(Figure("locomotive.wheel_load", load, WHEEL_LOAD, math.inf, " N", hint))
+    figures += [*_list_pistons(model), *_list_rods(model), *_list_cranks(model)]
     question = ask_unit("bar", "130 psi", "0.9 MPa")
     for path, key, value in walk_figures("gas", list_tables(model.gas)):
         if key in PRESSURES:
@@ -263,7 +273,6 @@ def _doubt_piston_rods(model: EngineFile) -> Iterator[Doubt]:
 def _list_pistons(model: EngineFile) -> Iterator[Figure]:
     strokes = model.crank.strokes
     bore = model.piston.bore
-    speed = model.operation.speed
     stroke = max(strokes)
     if mass := weigh_piston(model):
         yield _describe_piston(model, mass)
@@ -274,18 +283,39 @@ def _list_pistons(model: EngineFile) -> Iterator[Figure]:
             yield Figure("piston.bore", bore / length, *BORE, "", SAME_UNIT, subject, also)
     most = OFFSET * stroke
     yield Figure("piston.offset", model.piston.offset, -most, most, " mm", "is it in mm?")
+    yield from _list_speeds(model, stroke)
+
+
+def _list_speeds(model: EngineFile, stroke: float) -> Iterator[Figure]:
+    """Yield the mean piston speed and the speed; `stroke` is the largest stroke, mm."""
+    speed = model.operation.speed
+    path = "operation.speed"
+    also = ("crank.stroke",)
+    # operation.speed is then computed from it (`read_tables`)
+    if model.locomotive is not None and model.locomotive.has("speed"):
+        path = "locomotive.speed"
+        also = ("locomotive.wheel_diameter", "crank.stroke")
     yield Figure(
-        path="operation.speed",
+        path=path,
         value=stroke * speed / 30e3,
         least=0,
         most=PISTON_SPEED,
         unit=" m/s",
-        hint="are operation.speed and crank.stroke right?",
+        hint=f"are {join_words((path, *also))} right?",
         subject="the mean piston speed is",
-        also=("crank.stroke",),
+        also=also,
     )
-    thousands = "a point separates decimals, not thousands"
-    yield Figure("operation.speed", speed, SPEED, math.inf, " rpm", thousands)
+    yield Figure(
+        path=path,
+        value=speed,
+        least=max(SPEED, SLOWEST_PISTON * 30e3 / stroke),
+        most=math.inf,
+        unit=" rpm",
+        hint="a point separates decimals, not thousands",
+        subject="" if path == "operation.speed" else "the crank speed is",
+        also=also,
+        basis=f"a stroke of {stroke:g} mm",
+    )
 
 
 def _describe_piston(model: EngineFile, mass: float) -> Figure:
@@ -361,11 +391,12 @@ def _list_rods(model: EngineFile) -> Iterator[Figure]:
 
 def _describe_ratio(model: EngineFile, ratio: float) -> Figure:
     """Return the ratio of crank radius to rod length, and its usual range."""
+    least, most = CROSSHEAD_LAMBDA if _has_crosshead(model) else LAMBDA
     return Figure(
         path="rod.length" if model.rod.ratio is None else "rod.ratio",
         value=ratio,
-        least=LAMBDA[0],
-        most=CROSSHEAD_LAMBDA if _has_crosshead(model) else LAMBDA[1],
+        least=least,
+        most=most,
         unit="",
         hint="crank.stroke is twice the crank radius, rod.length the distance between its centres",
         subject="crank radius / rod length is",
@@ -410,41 +441,41 @@ def _list_cranks(model: EngineFile) -> Iterator[Figure]:
             subject = "mass times radius is"
             also = (f"{path}.radius",)
             yield Figure(f"{path}.mass", size, 0, most, " g mm", question, subject, also)
-    yield from _list_turning(model, least=TURNING * rods * reciprocating * radius**2)
+    yield from _list_turning(model, rods * reciprocating * radius**2)
 
 
-def _list_turning(model: EngineFile, least: float) -> Iterator[Figure]:
+def _list_turning(model: EngineFile, swung: float) -> Iterator[Figure]:
     """Yield the inertias of crankshaft and flywheel.
 
     Args:
         model: Engine file.
-        least: Lower end of the usual range, kg mm2.
+        swung: Inertia of all rods and pistons at the crank radius, kg mm2.
     """
-    wheel = model.flywheel
     turning = {"crank.inertia": model.crank.inertia}
-    if wheel:
-        arm = wheel.radius_of_gyration or 0.0
-        turning["flywheel.inertia"] = wheel.inertia or (wheel.mass or 0.0) * arm**2
-    also = {"flywheel.inertia": ("flywheel.mass", "flywheel.radius_of_gyration")}
+    if model.flywheel is not None:
+        turning["flywheel.inertia"] = model.flywheel.inertia
     for path, inertia in turning.items():
         if inertia:
             yield Figure(
                 path=path,
                 value=inertia,
-                least=least,
-                most=math.inf,
+                least=TURNING * swung,
+                most=TURNING_MOST * swung if swung else math.inf,
                 unit=" kg mm^2",
                 hint=ask_unit("kg mm^2", f"{inertia:.4g} kg m^2"),
-                also=also.get(path, ()),
             )
 
 
 def _has_crosshead(model: EngineFile) -> bool:
-    """Return whether the file gives a crosshead, or a stroke so long that there must be one."""
+    """Return whether the engine has crossheads: the file gives one, or a locomotive, a compressor
+    or a crank end with gas, or a stroke so long that there must be one.
+    """
     bore = model.piston.bore
-    return model.crosshead.mass > 0 or (
-        bore is not None and max(model.crank.strokes) > LONG_STROKE * bore
-    )
+    if model.crosshead.mass > 0 or model.locomotive is not None:
+        return True
+    if model.gas is not None and model.gas.is_of_pump:
+        return True
+    return bore is not None and max(model.crank.strokes) > LONG_STROKE * bore
 
 
 def _count_throws_and_rods(model: EngineFile) -> tuple[int, int]:

@@ -317,6 +317,11 @@ class Gas(GasKeys):
         """Whether any cylinder is double-acting."""
         return self.crank_end is not None or any(one.crank_end is not None for one in self.of)
 
+    @property
+    def is_of_pump(self) -> bool:
+        """Whether all cylinders compress, or any cylinder is double-acting."""
+        return self.cycle == COMPRESSOR or self.has_crank_ends
+
     def list_assumed(self, strokes: int, measured: bool, computed: bool) -> Iterator[Assumed]:
         """Yield the defaults on which results depend; arguments as for `list_idle_keys`."""
         idle = self.list_idle_keys(strokes, measured, computed) | {*DIAGRAM_KEYS, "at", "of"}

@@ -29,7 +29,7 @@ from .model import (
 )
 from .plain_tables import list_tables
 from .table import FileTable
-from .units import ANGLE, LENGTH, PRESSURE, UNBALANCE, Dimension, convert
+from .units import ANGLE, LENGTH, MASS, PRESSURE, UNBALANCE, Dimension, convert
 
 
 class Sizes(NamedTuple):
@@ -129,6 +129,10 @@ _BORE = ("piston.bore", *_STROKE)
 _ROD = ("rod.length", "rod.ratio")
 MASSES_OF_PISTON = (*(f"piston.{key}" for key in ("mass", *PISTON_PARTS)), "crosshead.mass")
 MASSES = (*_STROKE, *MASSES_OF_PISTON, "rod.mass", "rod.small_end", "rod.big_end")
+# Mass of the flywheel / mass of a rod and piston: cars have 3 to 20, engines with one cylinder and
+# two large wheels up to 200. The radius of gyration is in strokes.
+_FLYWHEEL_MASS = 0.05, 2000.0
+_FLYWHEEL_RADIUS = 0.05, 20.0
 _JOURNAL = 0.1, 3.0  # diameter of a crank pin or main journal, strokes
 _GRAMS = 1e3  # in a kg: unbalances are in g mm
 
@@ -183,6 +187,7 @@ def list_ranges(model: EngineFile) -> Iterator[Range]:
     yield from _list_devices(model, size, stroke)
     yield from _list_points(model, size, stroke)
     yield from _list_pressures(model)
+    yield from _list_flywheels(model, size)
     yield from _list_bearings(model, size)
     yield from _list_room(model, size, bore)
 
@@ -231,6 +236,25 @@ def _list_devices(model: EngineFile, size: Sizes, stroke: str) -> Iterator[Range
             yield Range(
                 given, 0.001 * unbalance, math.inf, UNBALANCE, _UNBALANCES, basis, also=MASSES
             )
+
+
+def _list_flywheels(model: EngineFile, size: Sizes) -> Iterator[Range]:
+    """Yield ranges of mass and radius of gyration of the flywheel."""
+    wheel = model.flywheel
+    if wheel is None:
+        return
+    if size.mass:
+        yield Range(
+            figures=[("flywheel.mass", wheel.mass or 0.0)],
+            least=_FLYWHEEL_MASS[0] * size.mass,
+            most=_FLYWHEEL_MASS[1] * size.mass,
+            dimension=MASS,
+            others=("g", "lb", "t"),
+            basis=f"rods and pistons of {size.mass:.4g} kg",
+            also=MASSES,
+        )
+    radius = wheel.radius_of_gyration
+    yield compare_with_stroke("flywheel.radius_of_gyration", radius, _FLYWHEEL_RADIUS, size)
 
 
 def _list_bearings(model: EngineFile, size: Sizes) -> Iterator[Range]:

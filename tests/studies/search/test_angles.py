@@ -194,6 +194,23 @@ def test_sevenths_of_a_turn_stay_such() -> None:
     assert verdicts == ["symmetry", "symmetry"]
 
 
+@pytest.mark.parametrize("over", ["bank_angle", "splay"])
+def test_one_throw_does_not_follow_from_the_firing_order(over: str) -> None:
+    """The crank of a vee twin is the same whether its firing order or its throw is given; of an eight it is not."""
+    wanted = parse_objective("force.1.major")
+    twin = vee([0], bank=52, throw_mass=0.9)
+    (expected, *_) = search_arrangements(twin, over, wanted).results
+    ordered = twin.with_table("layout", firing_order=(1, 2))
+    without_throws = ordered.with_table("crank", throws=None)
+    (best, *_) = search_arrangements(without_throws, over, wanted).results
+    assert best.design[over] == pytest.approx(expected.design[over])
+    assert best.objective == pytest.approx(expected.objective)
+    of_eight = {"firing_order": (1, 5, 4, 2, 6, 3, 7, 8), "numbering": ((1, 2, 3, 4), (5, 6, 7, 8))}
+    eight = vee([0, 90, 270, 180]).with_table("layout", **of_eight).with_table("crank", throws=None)
+    with pytest.raises(BalcliError, match="the crank follows from the firing order"):
+        search_arrangements(eight, over, wanted)
+
+
 @pytest.mark.slow
 def test_bank_angles_at_which_articulated_rods_lock_are_no_candidates() -> None:
     text = engine_text(

@@ -171,9 +171,7 @@ class Candidate:
     # -------------------------------------------------------------- in words
     def describe(self) -> str:
         """Return the line for this engine in a list: keys to copy, throws, forces and moments."""
-        force, moment = (
-            " and ".join(f"{value:.4g}" for value in phasors.major) for phasors in self.balance
-        )
+        force, moment = (" and ".join(map(_write_size, phasors.major)) for phasors in self.balance)
         moment = f"{moment} N m" if self._places_known else "not known"
         line = (
             f"{', '.join(self._list_keys())}: throws "
@@ -230,3 +228,8 @@ def merge_same(candidates: Iterable[Candidate]) -> list[Candidate]:
         if candidate.numbering not in named and candidate.settings == twin.settings:
             twin.other_numberings.append(candidate.numbering)
     return engines
+
+
+def _write_size(value: float) -> str:
+    """Return a force or moment with four significant digits, without an exponent."""
+    return f"{float(f'{value:.4g}'):.12g}"

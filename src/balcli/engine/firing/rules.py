@@ -247,6 +247,9 @@ def _list_remedies(parts: Parts) -> Problem:
     if has_open_letters(parts):
         message = f"{order} fits no way to give the letters to the banks; it may mean"
         return _join_lines("layout.firing_order", message, lines)
+    if not common:
+        message = f"is missing, and without it {order} fits no usual numbering; it may mean"
+        return _join_lines("crank.splay", message, lines)
     message = f"is missing, and the firing order {order} fits no usual numbering; it may mean"
     return _join_lines("layout.numbering", message, lines)
 

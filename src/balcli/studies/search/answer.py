@@ -238,12 +238,13 @@ def _read_range(model: EngineFile, text: str) -> Parameter:
 def _check_angle(model: EngineFile, key: str) -> None:
     """Raise BalcliError if the engine has no such angle, or if its crank depends on the angle."""
     name = key.replace("_", " ")
-    one_bank = plan_cylinders(model).banks < 2
-    if one_bank or (key == "bank_angle" and model.layout.bank_angle is None):
+    plan = plan_cylinders(model)
+    if plan.banks < 2 or (key == "bank_angle" and model.layout.bank_angle is None):
         raise BalcliError(
             f"there is no {name} to search: the engine is not a vee (give layout.bank_angle)"
         )
-    if model.crank.throws is None and model.layout.firing_order is not None:
+    has_crank_of_order = model.crank.throws is None and model.layout.firing_order is not None
+    if has_crank_of_order and plan.throws > 1:
         raise BalcliError(
             f"the crank follows from the firing order, which fits no other {name}: give "
             "crank.throws, so that the crank stays as it is"
