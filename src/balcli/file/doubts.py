@@ -290,7 +290,7 @@ def _list_speeds(model: EngineFile, stroke: float) -> Iterator[Figure]:
     """Yield the mean piston speed and the speed; `stroke` is the largest stroke, mm."""
     speed = model.operation.speed
     path = "operation.speed"
-    also = ("crank.stroke",)
+    also: tuple[str, ...] = ("crank.stroke",)
     # operation.speed is then computed from it (`read_tables`)
     if model.locomotive is not None and model.locomotive.has("speed"):
         path = "locomotive.speed"
