@@ -53,8 +53,9 @@ class GasError(ValueError):
 @dataclass(frozen=True, eq=False)
 class GasPiston:
     """Bore and kinematics of one cylinder, or of variants of one that have the same dead centres.
-    Area, stroke, radius, `lam` and `eps` of variants are arrays of the shape of the variants, and
-    angles have an axis of length 1 for each of their axes at the end.
+    Area, stroke, radius, `lam` and `eps` of variants are arrays of the shape of the variants. Cycle
+    angles then end with as many axes of length 1 (`open_axes`), and results with the axes of the
+    variants.
 
     Attributes:
         area: Area of the bore, m2.
@@ -136,7 +137,8 @@ class GasPiston:
 
         Args:
             angle: Cycle angles, rad, any shape.
-            compression_ratio: Largest volume over smallest volume; it broadcasts with the angles.
+            compression_ratio: Largest volume over smallest volume; a number, or an array in the
+                shape of the variants.
         """
         travel = self.travel(np.asarray(angle, float))
         return self.clearance(compression_ratio) + self.area * travel
@@ -198,7 +200,8 @@ CRANK_END = "crank"
 
 @dataclass(frozen=True, eq=False)
 class GasEnd:
-    """Gas in one end of a cylinder.
+    """Gas in one end of a cylinder. Area, swept volume and work exist for one cylinder, not for
+    variants of it.
 
     Attributes:
         name: `HEAD_END` (away from the crank) or `CRANK_END`.
@@ -249,7 +252,8 @@ class GasEnd:
 
 @dataclass(frozen=True, eq=False)
 class GasTorque:
-    """Torque of the gas of one cylinder on the crankshaft.
+    """Torque of the gas of one cylinder on the crankshaft. Work and mean pressure exist for one
+    cylinder, not for variants of it.
 
     Attributes:
         piston: Piston on which the gas acts.
