@@ -11,6 +11,7 @@ from support.commands import ask, ask_csv
 
 from balcli import SchemeOptions, analyze, balance, load, sweep
 from balcli.errors import ArgumentError, BalcliError, InputError
+from balcli.studies.quantities import name_numbers
 
 FOUR = {
     "crank": {"stroke": 88, "throws": [0, 180, 180, 0], "spacing": 93},
@@ -286,6 +287,15 @@ def test_other_figures_of_webs_do_not_vary(path, value, told):
     engine = find_parts(WEB | {"webs": [1, 2, 3]}, WEIGHED)
     with pytest.raises(BalcliError, match=told):
         sweep(engine, {path: [value]}, ["force.1.major"])
+
+
+def test_numbers_lists_what_varies():
+    model = find_parts(WEB | {"webs": [1, 2, 3]}, WEIGHED).model
+    listed = [number.path for number in name_numbers(model).numbers]
+    fixed = ("web.", "bearing.", "crank.stroke", "crank.throw_mass")
+    wanted = [f"web.1.{key}" for key in ("thickness", "outer_radius", "opening", "density")]
+    assert [name for name in listed if name.startswith(fixed)] == wanted
+    assert "crank.spacing" in listed
 
 
 @pytest.mark.parametrize(("key", "narrow"), [("outer_radius", 68), ("opening", 60)])

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 import numpy as np
 
 from ..errors import Problem
 from ..file.fields import counted, join_words
+from ..file.model import EngineFile
 from ..file.web_tables import VARIABLE
 from .parts import Parts
 from .webs.build import WEBS_ON_THROW, assign_tables, take_pin
@@ -31,22 +32,38 @@ def check_webs(parts: Parts) -> Iterator[Problem]:
     yield from _check_varied(parts)
 
 
+def list_fixed(model: EngineFile, paths: Iterable[str]) -> list[str]:
+    """Return those figures of webs and pins that cannot vary: all but dimensions of webs with an
+    outline.
+
+    Args:
+        model: Engine file with [[web]].
+        paths: Dotted names of figures of the file.
+    """
+    return [path for path in paths if _is_fixed(model, path)]
+
+
+def _is_fixed(model: EngineFile, path: str) -> bool:
+    if path.startswith(("bearing.", "crank.stroke", "crank.throw_mass")):
+        return True
+    if not path.startswith("web."):
+        return False
+    _, number, key = f"{path}..".split(".")[:3]
+    table = model.web[int(number) - 1]
+    given = getattr(table, key, None)
+    is_number = isinstance(given, float) and not table.is_open(key)
+    return table.is_weighed or key not in VARIABLE or not is_number
+
+
 def _check_varied(parts: Parts) -> Iterator[Problem]:
-    """Check that no figures of webs and pins vary but dimensions of webs with an outline."""
-    varied = parts.figures.find_varied("bearing.", "crank.stroke", "crank.throw_mass")
-    for path in parts.figures.find_varied("web."):
-        _, number, key = f"{path}..".split(".")[:3]
-        table = parts.model.web[int(number) - 1]
-        given = getattr(table, key, None)
-        is_number = isinstance(given, float) and not table.is_open(key)
-        if table.is_weighed or key not in VARIABLE or not is_number:
-            varied.append(path)
-    if varied:
+    """Check that no figures of webs and pins vary that cannot."""
+    varied = parts.figures.find_varied("bearing.", "crank.", "web.")
+    if fixed := list_fixed(parts.model, varied):
         message = (
             f"[[web]] is computed for the figures of the file, but for {join_words(VARIABLE)} of "
             "webs with an outline; give each value a file of its own"
         )
-        yield Problem(varied[0], message)
+        yield Problem(fixed[0], message)
 
 
 def _check_crank(parts: Parts) -> Iterator[Problem]:

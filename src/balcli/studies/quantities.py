@@ -461,9 +461,15 @@ def list_quantities(model: EngineFile) -> Iterator[Form]:
 
 def name_numbers(model: EngineFile) -> NamedNumbers:
     """Return the numbers of a file that `sweep` can vary, and the quantities of the file."""
+    places = find_places(model)
+    if model.web:
+        from ..engine.web_rules import list_fixed  # loaded only for files with [[web]]
+
+        for path in list_fixed(model, places):
+            del places[path]
     return NamedNumbers(
         engine=EngineName(model.name),
-        numbers=tuple(_describe(path, place) for path, place in find_places(model).items()),
+        numbers=tuple(_describe(path, place) for path, place in places.items()),
         quantities=tuple(list_quantities(model)),
     )
 
