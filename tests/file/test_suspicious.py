@@ -68,7 +68,7 @@ def test_engines_of_the_project_are_of_usual_size():
         ("", True),
         ("bank_angle = 90\n", True),
         ("firing_order = [1, 3, 4, 2]\n", False),
-        ("radial = 5\nrows = 1\n", False),
+        ("radial = 5\n", False),
     ],
 )
 def test_a_spacing_without_several_throws_is_doubted(layout, doubted):

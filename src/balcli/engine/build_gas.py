@@ -856,12 +856,13 @@ def _locate(error: GasError, gas: Gas, source: _Source) -> Problem:
     return Problem(f"gas.{error.field}", f"{error}{asked}")
 
 
-def _ask_pressure_unit(error: GasError, pressure: float | None) -> str:
+def _ask_pressure_unit(error: GasError, pressure: Figure | None) -> str:
     """Return the question for the unit of a pressure that is too small by so much that it may be in
-    MPa; empty if it is not, or if the file gives its unit.
+    MPa; empty if it is not, or if it is no bare number of the file.
     """
     least, most = _SHARE_IN_MPA
-    if pressure is None or isinstance(pressure, WrittenFigure) or not least <= error.share <= most:
+    is_bare = isinstance(pressure, (int, float)) and not isinstance(pressure, WrittenFigure)
+    if not is_bare or not least <= error.share <= most:
         return ""
     return f"; {ask_unit('bar', f'{pressure:g} MPa')}"
 

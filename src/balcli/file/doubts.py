@@ -227,12 +227,11 @@ def _find_missing(model: EngineFile) -> Iterator[Doubt]:
 
 
 def list_keys_between_throws(model: EngineFile) -> tuple[str, ...]:
-    """Return the keys of a file that are about neighbouring throws, if the file says nothing of
-    several throws: neither their angles, nor a firing order, nor rows of a radial. A single throw
-    is then taken.
+    """Return the keys of a file that are about neighbouring throws, if the file gives neither the
+    angles of throws nor a firing order, so that a single throw is taken. That is usual in a radial.
     """
     layout = model.layout
-    if model.crank.throws is not None or layout.firing_order is not None or layout.has("rows"):
+    if model.crank.throws is not None or layout.firing_order is not None or layout.radial:
         return ()
     keys = []
     if model.crank.spacing:
