@@ -111,7 +111,7 @@ CHAPTER_LISTS = {
 }
 # The module that computes each group of further quantities for sweep, search and scatter.
 QUANTITIES = {
-    "guide": "forces.guide",
+    "guide": "forces.guide_quantity",
     "cycle": "crank_torque.quantity",
     "piston": "analysis.piston",
     "journals": "analysis.crank_drive",

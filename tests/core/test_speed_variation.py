@@ -6,7 +6,7 @@ import pytest
 from support.cases import slow
 
 from balcli.core.piecewise import polyline, resolved
-from balcli.core.speed_ripple import StallError, needed_inertia, speed_variation, surplus
+from balcli.core.shaft_speed import StallError, needed_inertia, speed_variation, surplus
 
 TURN = 2 * np.pi
 MEAN = 30.0  # rad/s

@@ -10,11 +10,10 @@ from support.engines import build_text
 from support.gas_engines import FOUR, WIEBE, draw_engine
 
 from balcli import load
-from balcli.core.speed_ripple import speed_variation
+from balcli.core.shaft_speed import speed_variation
 from balcli.crank_torque.answer import torque
 from balcli.errors import BalcliError
 from balcli.forces.curves import (
-    find_constant_inertia,
     find_inertia_torque,
     find_moving_inertia,
     find_torque_curves,
@@ -187,7 +186,7 @@ def test_inertia_of_the_crank():
     given = build_text(more)
     angle = np.linspace(0, 6, 7)
     assert find_moving_inertia(given)(angle) == pytest.approx(find_moving_inertia(plain)(angle))
-    assert find_constant_inertia(given) == find_constant_inertia(plain) == pytest.approx(0.1)
+    assert given.find_constant_inertia() == plain.find_constant_inertia() == pytest.approx(0.1)
 
 
 def test_the_inertia_torque_is_half_the_slope_of_the_inertia():

@@ -14,7 +14,7 @@ from balcli.crank_torque import answer
 from balcli.crank_torque.loads import analyze_loads
 from balcli.engine import build_gas
 from balcli.errors import BalcliError
-from balcli.forces import crankshaft
+from balcli.forces import loads_with_gas
 from balcli.forces.curves import find_torque_curves
 from balcli.forces.rod_forces import compute_rod_forces, list_hung_rows
 
@@ -44,11 +44,11 @@ def test_the_largest_load_is_on_the_curve():
 
 def test_bearings_carry_what_the_throws_carry():
     found = replace(draw_engine(4), ripple=())
-    places = crankshaft.place_main_bearings(found)
+    places = loads_with_gas.place_main_bearings(found)
     on_pins = compute_rod_forces(found, ANGLES).pin  # banks stand along x
     throws = np.array([[w.share] for w in found.weighed]) * float(found.cylinders.radius[0])
     turning = throws * float(found.omega) ** 2 * unit(ANGLES + found.cylinders.pin_deg[:, None])
-    bearings = crankshaft.compute_bearing_loads(found, ANGLES)
+    bearings = loads_with_gas.compute_bearing_loads(found, ANGLES)
     loads = on_pins + turning
     size = np.abs(loads).max()
     assert bearings.sum(axis=0) == pytest.approx(loads.sum(axis=0), abs=1e-9 * size)
@@ -180,7 +180,7 @@ def test_loads_that_are_not_known():
 
 def test_too_much_is_refused_before_anything_is_computed(monkeypatch):
     """1000 cylinders took a minute and 900 MB before they were refused, or were not at all."""
-    monkeypatch.setattr(crankshaft, "MOST_FORCES_OVER_CYCLE", 1000)
+    monkeypatch.setattr(loads_with_gas, "MOST_FORCES_OVER_CYCLE", 1000)
     monkeypatch.setattr(answer, "find_torque_curves", lambda engine: pytest.fail("computed"))
     with pytest.raises(BalcliError, match=r"8 forces of 4 cylinders at \d+ angles .* at most 1000"):
         answer.torque(build_text(FOUR + WIEBE), loads="pin")

@@ -16,14 +16,8 @@ from support.paths import ENGINES
 from balcli import load
 from balcli.core.phasors import Phasors
 from balcli.errors import BalcliError, InputError
-from balcli.forces import crankshaft as in_bearings
-from balcli.forces.crankshaft import (
-    compute_forces_along,
-    compute_inner_loads,
-    compute_loads,
-    compute_loads_with_gas,
-    place_bearings,
-)
+from balcli.forces.crankshaft import compute_inner_loads, compute_loads, place_bearings
+from balcli.forces.loads_with_gas import compute_bearing_loads, compute_forces_along, compute_loads_with_gas
 from balcli.forces.spectrum import compute_forces_of_devices
 
 DEVICES = """
@@ -183,7 +177,7 @@ def test_json_and_csv_have_every_place():
 
 
 def test_so_many_cylinders_that_they_would_fill_the_memory_are_refused(monkeypatch):
-    monkeypatch.setattr(in_bearings, "MOST_FORCES_OVER_CYCLE", 1000)
+    monkeypatch.setattr("balcli.forces.loads_with_gas.MOST_FORCES_OVER_CYCLE", 1000)
     with pytest.raises(BalcliError, match="loads with gas: 8 forces of 4 cylinders"):
         compute_loads_with_gas(replace(build_text(FOUR + WIEBE)))
 
@@ -198,7 +192,7 @@ def test_throw_masses_load_bearings_at_uneven_speed_as_their_acceleration_in_tim
     place = 0.045 * np.exp(1j * angles)
     waves = 2j * np.pi * np.fft.fftfreq(len(place), period / len(place))
     expected = -0.5 * 0.8 * np.fft.ifft(waves**2 * np.fft.fft(place))
-    without, loads = (in_bearings.compute_bearing_loads(each, np.degrees(angles[::64]))[0] for each in engines)
+    without, loads = (compute_bearing_loads(each, np.degrees(angles[::64]))[0] for each in engines)
     assert loads - without == pytest.approx(expected[::64], abs=1e-6 * np.abs(expected).max())
 
 

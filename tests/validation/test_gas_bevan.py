@@ -5,7 +5,7 @@ has more examples.
 import numpy as np
 import pytest
 
-from balcli.core.speed_ripple import small_fluctuation
+from balcli.core.shaft_speed import small_fluctuation
 
 
 def test_example_12_8():

@@ -12,7 +12,7 @@ from support.pistons import slider_crank_piston
 
 from balcli.core.mechanisms import slidercrank
 from balcli.core.piecewise import polyline, resolved
-from balcli.core.speed_ripple import small_fluctuation, speed_variation, surplus
+from balcli.core.shaft_speed import small_fluctuation, speed_variation, surplus
 
 G = 9.81
 

@@ -16,7 +16,7 @@ from ..engine.engine import Engine, check_engine, refuse_geared, take_model
 from ..errors import ArgumentError, BalcliError, check_number, check_type, list_words
 from ..file.assumed import Assumed
 from ..file.model import EngineFile
-from ..forces.crankshaft import InnerLoads, add_gas_loads, compute_inner_loads
+from ..forces.crankshaft import InnerLoads, compute_inner_loads
 from ..forces.guide import GuideMoments, compute_guide_moments
 from ..forces.kinds import EVERY_KIND, FREE, GAS, GAS_KINDS, KINDS, list_with
 from ..forces.spectrum import (
@@ -465,4 +465,8 @@ def find_inner_loads(engine: Engine, asked: Array | None = None) -> InnerLoads:
         asked: Orders to show, shape (orders,); None: the default orders.
     """
     inner = compute_inner_loads(engine, asked)
-    return inner if engine.gas is None else add_gas_loads(inner, engine, asked)
+    if engine.gas is None:
+        return inner
+    from ..forces.loads_with_gas import add_gas_loads  # loads the curves of the gas
+
+    return add_gas_loads(inner, engine, asked)

@@ -11,7 +11,6 @@ from ..core.phasors import Array
 from ..engine.engine import CylinderNumber
 from ..errors import MOMENTS_UNKNOWN
 from ..file.fields import join_words
-from ..forces.curves import find_constant_inertia
 from ..forces.kinds import COUPLE, EVERY_KIND, FREE, GAS, GAS_KINDS, KINDS, MOMENT, TORQUE
 from ..forces.spectrum import Spectra
 from ..forces.symmetry import find_textbook
@@ -208,7 +207,7 @@ def tell_uncounted(result: Analysis) -> Iterator[Text]:
     """Yield a note if the speed is uneven and the file gives no inertia that resists it."""
     engine = result.engine
     shown = result.spectra.only((COUPLE.name, TORQUE.name)).scalars()
-    if engine.ripple and shown and find_constant_inertia(engine) is None:
+    if engine.ripple and shown and engine.find_constant_inertia() is None:
         yield Text("Note", (_UNCOUNTED,))
 
 

@@ -10,13 +10,13 @@ from dataclasses import replace
 import numpy as np
 
 from ..core.cylinder_pressure import find_highest
-from ..core.speed_ripple import surplus
+from ..core.shaft_speed import surplus
 from ..engine.engine import CylinderNumber, Engine, check_engine, find_row, refuse_geared
 from ..engine.layout import find_first
 from ..errors import ArgumentError, check_number, check_type, list_words
 from ..file.assumed import DEVICES, STEADY
-from ..forces.crankshaft import refuse_too_many_forces
-from ..forces.curves import find_constant_inertia, find_moving_inertia, find_torque_curves
+from ..forces.curves import find_moving_inertia, find_torque_curves
+from ..forces.loads_with_gas import refuse_too_many_forces
 from ..forces.spectrum import check_orders, compute_spectra, list_gas_orders, take_gas
 from .ends import list_ends
 from .flywheel import find_flywheel
@@ -131,7 +131,7 @@ def torque(
             curves.gas_once,
             above.energy,
             omega,
-            find_constant_inertia(engine),
+            engine.find_constant_inertia(),
             find_moving_inertia(engine),
             fluctuation,
         ),

@@ -11,13 +11,13 @@ from ..core.phases import RPM
 from ..core.phasors import Complex
 from ..core.piecewise import Function, PiecewiseCurve, resolved
 from ..core.records import HIDDEN, Asked, change_attributes
-from ..core.speed_ripple import (
-    RippleLine,
+from ..core.shaft_speed import (
     StallError,
     needed_inertia,
     small_fluctuation,
     speed_variation,
 )
+from ..core.speed_ripple import RippleLine
 from ..errors import ArgumentError
 from ..file.fields import order_number
 from ..limits import FLUCTUATION, HIGHEST_RIPPLE_ORDER, MOST_RIPPLES, SMALLEST_FLUCTUATION

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ..core.phases import RPM
 from ..core.piecewise import PiecewiseCurve, merged_breaks, polyline, resolved
-from ..core.speed_ripple import surplus
+from ..core.shaft_speed import surplus
 from ..errors import ArgumentError, BalcliError
 from ..file.csv_columns import ANGLE_SYMBOLS, Head, read_columns
 from ..file.doubt import Doubt

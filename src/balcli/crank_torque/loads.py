@@ -11,7 +11,7 @@ import numpy as np
 from ..core.piecewise import Vectors, find_panels
 from ..core.records import Asked
 from ..engine.engine import Engine
-from ..forces.crankshaft import (
+from ..forces.loads_with_gas import (
     ROUNDING,
     BearingsUnknownError,
     compute_bearing_loads,

@@ -12,10 +12,10 @@ import numpy as np
 
 from ..analysis.plot import set_crank_axis
 from ..core.phasors import Array, Complex, unit
-from ..core.speed_ripple import surplus
+from ..core.shaft_speed import surplus
 from ..engine.engine import Engine
-from ..forces.crankshaft import compute_bearing_loads
 from ..forces.curves import find_torque_curves
+from ..forces.loads_with_gas import compute_bearing_loads
 from ..forces.rod_forces import compute_rod_forces, list_hung_rows
 from ..forces.spectrum import take_gas
 from ..show.plane import draw_path, set_up_plane

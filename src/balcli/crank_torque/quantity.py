@@ -11,14 +11,13 @@ import numpy as np
 
 from ..core.phasors import Array
 from ..core.piecewise import resolved
-from ..core.speed_ripple import StallError, speed_variation
+from ..core.shaft_speed import StallError, speed_variation
 from ..engine.build import build
 from ..engine.engine import Engine
 from ..engine.load import FiguresOfVariants, build_jointly, find_joint_figures
 from ..errors import BalcliError
 from ..file.model import EngineFile
 from ..forces.curves import (
-    find_constant_inertia,
     find_gas_once,
     find_moving_inertia,
     find_torque_curves,
@@ -32,7 +31,7 @@ NO_INERTIA = "fluctuation: the file gives no inertia; give inertia in [crank] or
 
 def list_names(model: EngineFile) -> Iterator[str]:
     """Yield the names of the quantities of an engine with gas; `fluctuation` needs an inertia."""
-    known = find_constant_inertia(build(model)) is not None
+    known = build(model).find_constant_inertia() is not None
     yield from (name for name in _NAMES if known or name != FLUCTUATION)
 
 
@@ -61,7 +60,7 @@ def _find_fluctuations(engine: Engine) -> Array:
     Raises:
         BalcliError: The file gives no inertia, or the crank stalls.
     """
-    constant = find_constant_inertia(engine)
+    constant = engine.find_constant_inertia()
     if constant is None:
         raise BalcliError(NO_INERTIA)
     torque = find_gas_once(engine)

@@ -9,7 +9,7 @@ from typing import Annotated, Literal, NamedTuple
 
 from ..core.piecewise import PiecewiseCurve
 from ..core.records import HIDDEN, INLINE, Asked
-from ..core.speed_ripple import Surplus
+from ..core.shaft_speed import Surplus
 from ..engine.engine import CylinderNumber, Engine
 from ..file.assumed import Assumed
 from ..file.fields import order_number

@@ -9,7 +9,6 @@ from typing import Any
 
 from ..core.records import Node, find_unit, list_figures, remove_unit, to_document
 from ..engine.engine import CylinderNumber, Engine
-from ..forces.curves import find_constant_inertia
 from ..forces.kinds import GAS, TORQUE, TORQUE_TOTAL
 from ..limits import MOST_HARMONICS_UNASKED
 from ..show.engine_facts import list_silent, tell_speed, tell_strokes
@@ -224,7 +223,7 @@ def _tell_rest(engine: Engine, turning: float, unit: ShownUnit) -> str:
         turning: Needed inertia of all parts that only turn, kg m2.
         unit: Unit of the text.
     """
-    own = (find_constant_inertia(engine) or 0.0) - float(engine.flywheel_inertia or 0.0)
+    own = (engine.find_constant_inertia() or 0.0) - float(engine.flywheel_inertia or 0.0)
     rest = turning - own
     if rest <= 0:
         return "which needs no flywheel"

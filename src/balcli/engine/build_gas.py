@@ -36,7 +36,7 @@ from ..core.gas_cycle import GasCycle, Goal, Process, find_least_imep, gas_cycle
 from ..core.phasors import Array, Figure
 from ..core.piecewise import resolved
 from ..errors import BalcliError, InputError, Problem
-from ..file.csv_columns import Head, NumberColumns, list_heads, locate_beside, read_columns
+from ..file.csv_columns import Head, NumberColumns, list_heads, read_columns
 from ..file.doubt import Doubt
 from ..file.fields import WrittenFigure
 from ..file.gas_tables import (
@@ -51,6 +51,7 @@ from ..file.gas_tables import (
 )
 from ..file.model import EngineFile, Override
 from ..file.table import FileTable
+from ..file.toml import locate_beside
 from ..file.units import BAR, ask_unit
 from ..limits import HIGHEST_TABLE_ORDER, MOST_DIFFERENT_GAS
 from .card import draw_card

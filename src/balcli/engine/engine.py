@@ -441,6 +441,15 @@ class Engine:
                 energy = energy + np.abs(device.spin) * device.order
         return TurningInertia(momentum, energy)
 
+    def find_constant_inertia(self) -> float | None:
+        """Return the moment of inertia of all parts that turn in a constant ratio to the crank,
+        referred to the crank, kg m2; None if the file gives no such inertia.
+        """
+        crank = None if self.rotary else self.crank_inertia
+        inertia = float(self.find_turning_inertia().energy)
+        is_given = inertia or crank is not None or self.flywheel_inertia is not None
+        return inertia if is_given else None
+
     # -------------------------------------------------------------- cylinders and crank pins
     def find_radius(self, z_m: float) -> float:
         """Return the crank radius, m, of the throw nearest to a plane; of equally near throws, the
@@ -527,11 +536,12 @@ class Engine:
         if self.rotary or self.placed or not self.places_known:
             return tuple((throw,) for throw in range(len(z)))
         turned = np.round(np.stack([np.ravel(c.pin_deg), np.ravel(c.axis_of_each_deg)]), 6) % 360
-        of_row = np.array([masses.throw for masses in self.weighed])
-        sides = (turned[0] + 1j * np.ravel(c.radius), turned[1])
-        pins, banks = (
-            [{*side[of_row == throw].tolist()} for throw in range(len(z))] for side in sides
-        )
+        pins: list[set[complex]] = [set() for _ in z]
+        banks: list[set[float]] = [set() for _ in z]
+        pin_of_row = (turned[0] + 1j * np.ravel(c.radius)).tolist()
+        for masses, pin, bank in zip(self.weighed, pin_of_row, turned[1].tolist(), strict=True):
+            pins[masses.throw].add(pin)
+            banks[masses.throw].add(bank)
         joined: list[list[int]] = []
         first = [min(one.real for one in each) for each in pins]
         for throw in sorted(range(len(z)), key=lambda k: (round(float(z[k]), 9), first[k], k)):

@@ -16,17 +16,16 @@ from typing import TYPE_CHECKING, cast
 from ..core.cylinders import Device
 from ..core.phasors import Figure
 from ..errors import BalcliError, InputError, Problem, note
-from ..file.csv_columns import locate_beside
-from ..file.engine_tables import Engine as EngineTable
 from ..file.model import Counterweight, EngineFile, Operation, Shaft, Slider
 from ..file.read import Draft
-from ..file.toml import read_bytes
+from ..file.toml import locate_beside, read_bytes
 from ..limits import MOST_ENGINES
 from .devices import build_device, list_drifting_problems
 from .engine import Engine, Placed, Rating
 from .figures import AS_GIVEN, FileFigures, find_wheel, place_in_plane, select_varied
 
 if TYPE_CHECKING:
+    from ..file.engine_tables import Engine as EngineTable
     from .gas import CylinderGas, EngineGas, GasLaw
 
 

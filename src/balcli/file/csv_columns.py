@@ -1,10 +1,7 @@
 """Read columns of numbers, such as a measured diagram, from CSV files next to an engine file."""
 
-from __future__ import annotations
-
 import csv
 import math
-import os
 import re
 from collections.abc import Sequence
 from io import StringIO
@@ -98,29 +95,6 @@ class NumberColumns(NamedTuple):
     def as_written(self, row: int, number: int) -> str:
         """Return the number at these indices of row and column, with the unit in the file."""
         return f"{self.rows[row][number]:.15g} {self.units[number]}".rstrip()
-
-
-def locate_beside(folder: Path, name: str) -> Path:
-    """Return the path of a file that an engine file names.
-
-    Args:
-        folder: Folder of the engine file, which the path may not leave.
-        name: Name in the engine file.
-
-    Raises:
-        BalcliError: The path leaves the folder, no file can have that name, or it is a named pipe
-            or a device, from which balcli would read without end.
-    """
-    try:
-        home = folder.resolve()
-        place = (folder / name).resolve()
-    except ValueError as error:  # a letter that this system's file names lack (LC_ALL=C)
-        raise BalcliError(f"{shorten(name)}: cannot be read ({error})") from None
-    if not place.is_relative_to(home):
-        raise BalcliError(f"{shorten(name)} is outside the folder of the engine file; put it there")
-    if os.path.exists(place) and not (os.path.isfile(place) or os.path.isdir(place)):
-        raise BalcliError(f"{shorten(name)} is a named pipe or a device; give a regular file")
-    return folder / name
 
 
 class _Table(NamedTuple):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 import sys
 import tomllib
@@ -11,7 +12,7 @@ from ..core.records import Node
 from ..errors import BalcliError, InputError, Problem
 from ..limits import DEEPEST_KEY, LARGEST_FILE_BYTES, MOST_TOML_MARKS
 from .examples import ExamplePath, find_similar, is_example
-from .fields import nearest
+from .fields import nearest, shorten
 
 ENGINE_FILE = (
     "not an engine file, which is TOML text with tables such as [crank], [rod] and [piston]: "
@@ -81,6 +82,29 @@ def find_near_file(source: str | Path) -> str:
         return f"; {asked.with_name(near)} is there: did you mean it?"
     similar = find_similar(str(source))
     return f"; did you mean the example {similar}?" if similar else ""
+
+
+def locate_beside(folder: Path, name: str) -> Path:
+    """Return the path of a file that an engine file names.
+
+    Args:
+        folder: Folder of the engine file, which the path may not leave.
+        name: Name in the engine file.
+
+    Raises:
+        BalcliError: The path leaves the folder, no file can have that name, or it is a named pipe
+            or a device, from which balcli would read without end.
+    """
+    try:
+        home = folder.resolve()
+        place = (folder / name).resolve()
+    except ValueError as error:  # a letter that this system's file names lack (LC_ALL=C)
+        raise BalcliError(f"{shorten(name)}: cannot be read ({error})") from None
+    if not place.is_relative_to(home):
+        raise BalcliError(f"{shorten(name)} is outside the folder of the engine file; put it there")
+    if os.path.exists(place) and not (os.path.isfile(place) or os.path.isdir(place)):
+        raise BalcliError(f"{shorten(name)} is a named pipe or a device; give a regular file")
+    return folder / name
 
 
 def name_file(source: str | Path) -> str:

@@ -306,16 +306,6 @@ def find_moving_inertia(engine: Engine) -> Function:
     return _add_cylinders(engine, find)
 
 
-def find_constant_inertia(engine: Engine) -> float | None:
-    """Return the moment of inertia of all parts that turn in a constant ratio to the crank,
-    referred to the crank, kg m2; None if the file gives no such inertia.
-    """
-    crank = None if engine.rotary else engine.crank_inertia
-    inertia = float(engine.find_turning_inertia().energy)
-    is_given = inertia or crank is not None or engine.flywheel_inertia is not None
-    return inertia if is_given else None
-
-
 def silence(engine: Engine, number: CylinderNumber) -> Engine:
     """Return the engine without the gas pressure of one cylinder, as after a misfire.
 

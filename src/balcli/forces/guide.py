@@ -1,32 +1,20 @@
-"""Compute guide-force moments by inertia and gas forces, as builders of large engines state them.
-Sweep, search and scatter name these moments `guide.6.H` and `guide.4.5.X`.
-"""
+"""Compute guide-force moments by inertia and gas, as builders of large engines state them."""
 
-from __future__ import annotations
-
-from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from functools import partial
 from typing import NamedTuple
 
 import numpy as np
 
 from ..core.loads import sum_weighted
 from ..core.phasors import Array, Phasors
-from ..engine.build import build
 from ..engine.engine import Engine, refuse_geared
-from ..engine.load import FiguresOfVariants
-from ..errors import MOMENTS_UNKNOWN, BalcliError
-from ..file.model import EngineFile
-from ..limits import HIGHEST_GAS_ORDER_UNASKED, HIGHEST_ORDER
-from .quantity import TargetQuantity
+from ..limits import HIGHEST_GAS_ORDER_UNASKED
 from .spectrum import (
     compute_spectra,
     find_relevant_orders,
     list_gas_orders,
     mark_considerable,
     merge_orders,
-    parse_order,
 )
 
 
@@ -86,59 +74,3 @@ def compute_guide_moments(
     h = h.select_orders(orders)
     x = x and x.select_orders(orders)
     return GuideMoments(h, x, height[np.argsort(engine.numbers)], engine.gas is not None)
-
-
-def list_names(model: EngineFile) -> Iterator[str]:
-    """Yield the names of an engine's guide-force quantities, with the letter N for the order."""
-    if model.engine:
-        return
-    yield "guide.N.H"
-    if _find(model).x is not None:
-        yield "guide.N.X"
-
-
-def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> None:
-    """Raise an error for an impossible order, or for an X-type quantity if the engine has no X-type
-    moment.
-
-    Args:
-        model: Engine file.
-        quantities: Wanted quantities.
-
-    Raises:
-        BalcliError: A quantity is not known; the error names the first and the reason.
-    """
-    for q in quantities:
-        if parse_order(q.target) is None:
-            raise BalcliError(
-                f"{q.name} is not a quantity: after guide comes an order up to {HIGHEST_ORDER}, as "
-                "in guide.6.H"
-            )
-    of_x = [q for q in quantities if q.part == "X"]
-    if of_x and _find(model).x is None:
-        known = len(build(model).throws_m) < 2 or build(model).places_known
-        why = "all cylinders have the same position" if known else MOMENTS_UNKNOWN
-        if build(model).cylinders.harmonic:
-            why = "rods in harmonic motion have no length, which the moment needs"
-        raise BalcliError(f"{of_x[0].name}: {why}")
-
-
-def _find(model: EngineFile) -> GuideMoments:
-    return compute_guide_moments(build(model), np.array([1.0]))
-
-
-def evaluate_engine(engine: Engine, quantities: Sequence[TargetQuantity]) -> list[float]:
-    """Return the amplitude of each quantity of one engine, N m.
-
-    Args:
-        engine: One engine, not an array of variants.
-        quantities: Wanted quantities, all of them known.
-    """
-    orders = np.array(sorted({float(q.target) for q in quantities}))
-    guide = compute_guide_moments(engine, orders)
-    moments = {"H": guide.h, "X": guide.x or guide.h}
-    rows = [int(np.searchsorted(orders, float(q.target))) for q in quantities]
-    return [float(moments[q.part].major[row]) for q, row in zip(quantities, rows, strict=True)]
-
-
-Variants = partial(FiguresOfVariants, evaluate_engine)

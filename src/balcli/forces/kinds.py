@@ -7,8 +7,6 @@ is a sum of others needs only its line here; any other kind also needs its compu
 engines with [gas].
 """
 
-from __future__ import annotations
-
 from typing import Literal, NamedTuple, get_args
 
 Dimension = Literal["force", "moment"]

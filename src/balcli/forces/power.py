@@ -4,14 +4,11 @@ Builders of marine engines judge with it whether a moment compensator is needed.
 are those at the speed of the file.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from typing import NamedTuple
 
 from ..engine.engine import Engine
-from .curves import find_torque_curves
 
 LIKELY = 120.0  # N m/kW; above this limit, a compensator is likely to be needed
 # Upper limit of the power related unbalance, N m/kW, and need of a moment compensator up to this
@@ -77,6 +74,8 @@ def takes_power(engine: Engine) -> bool:
 
 def _find_gas_power(engine: Engine) -> float:
     """Return the power of the gas at the speed of the file, W; negative if the gas takes power."""
+    from .curves import find_torque_curves  # engines without gas do not load it
+
     rated = at_rated_speed(engine)
     return find_torque_curves(replace(rated, ripple=())).gas.mean * float(rated.omega)
 

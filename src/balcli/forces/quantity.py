@@ -4,8 +4,6 @@ They have names such as `force.2.major` or `peak.moment`; figures of a mode, mou
 have names such as `mode.3.Hz`, `mount.left.force` or `guide.6.H`.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from types import MappingProxyType

@@ -20,8 +20,6 @@ crank pin. At the place c of the crank pin, the rod causes the torque `Im(conj(c
 work gives the same torque.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

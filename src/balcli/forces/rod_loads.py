@@ -22,7 +22,7 @@ import numpy as np
 from ..core.phasors import Array, Complex
 from ..core.piecewise import Extreme, Panels, PiecewiseCurve, find_panels
 from ..engine.engine import Engine
-from .crankshaft import compute_in_pieces, find_breaks
+from .loads_with_gas import compute_in_pieces, find_breaks
 from .rod_forces import compute_rod_forces
 
 LEAST_REVERSAL_DEG = 15.0  # API 618, 5th edition, 6.6.4

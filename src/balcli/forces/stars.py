@@ -10,8 +10,6 @@ reference, turned ahead by a quarter turn. Source: W. Thomson, Fundamentals of A
 Balance.
 """
 
-from __future__ import annotations
-
 from collections.abc import Collection, Iterable, Iterator
 from itertools import pairwise
 from typing import Annotated, Literal, NamedTuple, TypeAlias

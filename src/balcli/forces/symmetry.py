@@ -16,25 +16,21 @@ changes. If an order is still balanced to rounding, the layout balances it. The 
 common factor of all forces and needs no test.
 """
 
-from __future__ import annotations
-
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import replace
 from itertools import pairwise
 from operator import attrgetter
-from typing import TYPE_CHECKING, NamedTuple, cast
+from typing import NamedTuple, cast
 
 import numpy as np
 
 from ..core.mechanisms import harmonics
+from ..core.mechanisms.linkage import Articulated
 from ..core.phasors import Array
 from ..engine.engine import Engine
 from ..file.fields import order_number
 from .kinds import EVERY_KIND, GAS, KINDS, ROLL, TORQUE, Kind
 from .spectrum import Spectra, compute_spectra, merge_orders
-
-if TYPE_CHECKING:
-    from ..core.mechanisms.linkage import Articulated
 
 # ------------------------------------------------------------------ multiples of one cylinder
 _NO_FORCE = 1e-12  # smaller coefficients A_n count as 0
@@ -140,7 +136,7 @@ def find_textbook_units(engine: Engine, orders: Array) -> TextbookUnits:
     c = engine.cylinders
     row = engine.numbers.index(1)
     if c.linkage is not None and not engine.rotary:
-        row = int(cast("Articulated", c.linkage).master[row])
+        row = int(cast(Articulated, c.linkage).master[row])
     figures = (c.lam, c.eps, c.reciprocating * c.radius)
     lam, eps, unbalance = (np.broadcast_to(v, c.count)[row : row + 1] for v in figures)
     series = harmonics.find_harmonics(orders, lam, eps, {"piston"})["piston"]

@@ -10,13 +10,12 @@ from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
 from ..core.records import Node
-from ..file.csv_columns import locate_beside
 from ..file.fields import RIGID, WrittenFigure
 from ..file.lines import LineFinder
 from ..file.messages import TEXTS
 from ..file.model import EngineFile
 from ..file.table import FileTable, find_number
-from ..file.toml import read_bytes
+from ..file.toml import locate_beside, read_bytes
 from ..studies.parameters import find_numbers
 from .records import ChangedInput
 

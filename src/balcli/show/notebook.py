@@ -8,36 +8,14 @@ from html import escape
 from ..engine.engine import Engine
 from ..file.doubt import Doubt
 from .engine_facts import engine_facts
-from .formats import Columns, Values
-from .sheet import NAMELESS, Column, Facts, Grid, Sheet, Text, number
+from .sheet import NAMELESS, Column, Facts, Grid, Sheet, Text
 from .units import SI
-
-ENDS = 5  # number of rows that are shown at each end of a long table
 
 
 def show_engine(engine: Engine) -> str:
     """Return the description of an engine in SI units, with its doubtful figures, as HTML."""
     facts = engine_facts(engine, SI, whole=False)
     return html_text(Sheet(engine.name or NAMELESS, (facts,)), engine.doubts)
-
-
-def outline(columns: Columns) -> Grid:
-    """Return a table of the first and last rows of columns."""
-    outlined = []
-    length = 0
-    for name, values in columns.values.items():
-        unit = columns.units.get(name)
-        head = f"{name}, {unit}" if unit else name
-        outlined.append(Column(head, _write_ends(values)))
-        length = len(values)
-    return Grid("", outlined, f"{length} rows")
-
-
-def _write_ends(values: Values) -> list[str]:
-    """Return the first and last values of a column, or all values if there are few."""
-    if len(values) <= 2 * ENDS:
-        return [number(value) for value in values]
-    return [*map(number, values[:ENDS]), "...", *map(number, values[-ENDS:])]
 
 
 def html_text(sheet: Sheet, doubts: Iterable[Doubt] = ()) -> str:

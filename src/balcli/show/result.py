@@ -20,8 +20,7 @@ from ..files import replacing
 from ..names import RENDERERS, import_name
 from ..version import __version__
 from .formats import Columnar, Columns, Renderer, Rows, Values, stamp
-from .notebook import html_text, outline
-from .sheet import Sheet
+from .sheet import Column, Grid, Sheet, number
 from .table import write_text
 from .units import SI, SYSTEMS, System
 
@@ -29,6 +28,8 @@ if TYPE_CHECKING:
     import pandas
 
     from ..file.doubt import Doubt
+
+ENDS = 5  # number of rows that are shown at each end of a long table
 
 
 class Result:
@@ -51,6 +52,8 @@ class Result:
 
     def _repr_html_(self) -> str:
         """Return the sheet of the result as HTML, for a notebook."""
+        from .notebook import html_text  # only notebooks need it
+
         return html_text(_make_sheet(self, SI), self.doubts)
 
     def text(self, width: int | None = None, units: Literal["si", "imperial"] = "si") -> str:
@@ -137,7 +140,26 @@ def _make_sheet(result: Result, system: System) -> Sheet:
     renderer = find_renderer(result)
     if isinstance(renderer, Renderer):
         return renderer.sheet(result, system)
-    return Sheet(repr(result)[1:-1], (outline(list_columns(result)),))
+    return Sheet(repr(result)[1:-1], (_outline(list_columns(result)),))
+
+
+def _outline(columns: Columns) -> Grid:
+    """Return a table of the first and last rows of columns."""
+    outlined = []
+    length = 0
+    for name, values in columns.values.items():
+        unit = columns.units.get(name)
+        head = f"{name}, {unit}" if unit else name
+        outlined.append(Column(head, _write_ends(values)))
+        length = len(values)
+    return Grid("", outlined, f"{length} rows")
+
+
+def _write_ends(values: Values) -> list[str]:
+    """Return the first and last values of a column, or all values if there are few."""
+    if len(values) <= 2 * ENDS:
+        return [number(value) for value in values]
+    return [*map(number, values[:ENDS]), "...", *map(number, values[-ENDS:])]
 
 
 def find_renderer(result: Result) -> Columnar[Result]:

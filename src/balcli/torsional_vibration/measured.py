@@ -16,9 +16,10 @@ import numpy as np
 from ..core.vibration import Real
 from ..engine.engine import Engine
 from ..errors import BalcliError, InputError, Problem
-from ..file.csv_columns import Head, NumberColumns, locate_beside, read_columns
+from ..file.csv_columns import Head, NumberColumns, read_columns
 from ..file.fields import order_number
 from ..file.model import EngineFile
+from ..file.toml import locate_beside
 from ..file.units import ANGLE, SPEED
 from ..limits import HIGHEST_TORSION_ORDER
 from .build import excite_engine

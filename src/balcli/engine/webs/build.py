@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, NamedTuple, cast
 from ...core.cylinders import Device, DeviceKind
 from ...core.phasors import Complex, Figure, unit
 from ...errors import BalcliError, InputError, Message, Problem
-from ...file.csv_columns import locate_beside
 from ...file.model import EngineFile
+from ...file.toml import locate_beside
 from .bodies import MM, Pin, WebBody, describe_web, weigh_pin
 from .dimensions import refuse_impossible, vary_body
 from .dxf import Drawing, read_drawing
