@@ -13,8 +13,6 @@ compensators by their moment divided by the power of the engine. The steps that 
 devices are fitted by default (`Ladder.auto`); they need not be consecutive.
 """
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -432,6 +430,13 @@ class _Cancelled(NamedTuple):
     share: float = 0.0
 
 
+class _Rung(NamedTuple):
+    """An engine with the devices of a step and of earlier steps, and its figures."""
+
+    engine: Engine
+    step: Step
+
+
 class _Offer(NamedTuple):
     """A step that the ladder lists or leaves out.
 
@@ -447,6 +452,7 @@ class _Offer(NamedTuple):
         pru_Nm_per_kW: Power related unbalance of the moment that it faces; None if not known.
         fall: Reduction of the largest main bearing load, N; only for counterweights at every throw.
         buildable: Whether the engine has room for its devices.
+        rung: The engine with its devices, if it is already known.
     """
 
     name: str
@@ -460,6 +466,7 @@ class _Offer(NamedTuple):
     pru_Nm_per_kW: float | None = None
     fall: float | None = None
     buildable: bool = True
+    rung: _Rung | None = None
 
     @property
     def fits_something(self) -> bool:
@@ -480,7 +487,7 @@ def find_ladder(engine: Engine, small: float = SMALL) -> Ladder:
     """
     check_small(small)
     drawn = _draw(engine, small)
-    steps = [_make_step(engine, AS_DRAWN, [])]
+    rungs = [_Rung(engine, _make_step(engine, AS_DRAWN, []))]
     listed: list[_Offer] = []
     left_out: list[_Offer] = []
 
@@ -492,15 +499,17 @@ def find_ladder(engine: Engine, small: float = SMALL) -> Ladder:
         if offer.name == WEIGHTS_AT_THROWS:  # these replace the counterweights in the end planes
             listed.clear()
         listed.append(offer)
-        steps.append(_make_step(engine, offer.name, listed))
+        rungs.append(offer.rung or _climb(rungs[-1].engine, listed))
 
     consider(_offer_weights(drawn))
-    for offer in _offer_weights_at_throws(drawn, steps[-1], listed):
+    for offer in _offer_weights_at_throws(drawn, rungs[-1].step, listed):
         consider(offer)
     for offer in _offer_compensators(drawn, listed) if drawn.by_power else _offer_shafts(drawn):
         consider(offer)
     rooms = find_rooms(engine)
-    steps = [replace(step, steel_kg=weigh_steel(step.remedy, rooms)) for step in steps]
+    steps = []
+    for _, step in rungs:
+        steps.append(replace(step, steel_kg=weigh_steel(step.remedy, rooms)))
     replaced = _list_replaced(steps)
     omitted = [offer for offer in left_out if offer.fits_something and offer.name not in replaced]
     return Ladder(
@@ -581,17 +590,15 @@ def _offer_weights_at_throws(
     if before.inner_moment_Nm is None or len(planes) < 3:
         return
     remedy = add_at_throws(drawn.start).remedy
-    offer = _Offer(WEIGHTS_AT_THROWS, 1, listed=False, own=remedy)
+    back = _takes_back(drawn, remedy)
+    offer = _Offer(WEIGHTS_AT_THROWS, 1, listed=False, own=remedy, takes_back=back)
     if not listed:  # else the step before has cancelled order 1
         offer = offer._replace(cancels=_measure(drawn.first, [1], scales))
+    rung = _climb(engine, [offer])
     load = before.main_bearing_N or 0.0
-    fall = load - (_make_step(engine, offer.name, [offer]).main_bearing_N or 0.0)
+    fall = load - (rung.step.main_bearing_N or 0.0)
     relieves = fall > LEFT * load and not is_small(fall, drawn.small * scales.force)
-    yield offer._replace(
-        listed=relieves and not drawn.by_power,
-        takes_back=_takes_back(drawn, remedy),
-        fall=fall,
-    )
+    yield offer._replace(listed=relieves and not drawn.by_power, fall=fall, rung=rung)
 
 
 def _offer_shafts(drawn: _Drawn) -> Iterator[_Offer]:
@@ -758,29 +765,39 @@ def _sum_effects(engine: Engine, devices: Iterable[Device], reference: Reference
 
 
 # ------------------------------------------------------------------ figures
-def _make_step(engine: Engine, name: str, offers: Sequence[_Offer]) -> Step:
+def _climb(before: Engine, offers: Sequence[_Offer]) -> _Rung:
+    """Return the rung of the last of several steps.
+
+    Args:
+        before: Engine with the devices of the other steps.
+        offers: Steps whose devices are fitted.
+    """
+    fitted = fit_devices(before, offers[-1].own)
+    return _Rung(fitted, _make_step(fitted, offers[-1].name, offers))
+
+
+def _make_step(fitted: Engine, name: str, offers: Sequence[_Offer]) -> Step:
     """Return the figures of the engine with the devices of a step.
 
     Args:
-        engine: Engine as drawn.
+        fitted: Engine with these devices.
         name: Name of the step.
         offers: Steps whose devices are fitted, this step last; none as drawn.
     """
     remedy = join_remedies("", [offer.own for offer in offers])
-    fitted = fit_devices(engine, remedy)
-    kinds = ("force", "moment") if engine.places_known else ("force",)
+    kinds = ("force", "moment") if fitted.places_known else ("force",)
     orders = merge_orders(find_relevant_orders(fitted), [1, 2])
     spectra = compute_spectra(fitted, orders, kinds)
     loads = find_crank_loads(fitted)
     step = Step(
         step=name,
         peak_force_N=float(find_largest(spectra["force"])),
-        peak_moment_Nm=float(find_largest(spectra["moment"])) if engine.places_known else None,
+        peak_moment_Nm=float(find_largest(spectra["moment"])) if fitted.places_known else None,
         main_bearing_N=None if loads is None else loads.main_N,
         inner_moment_Nm=None if loads is None else loads.inner_moment_Nm,
         counterweights=len(remedy.counterweights),
         shafts=len({(shaft.ratio, shaft.at) for shaft in remedy.shafts}),
-        mass_kg=sum(map(find_unbalance, remedy.devices)) / _find_first_radius(engine),
+        mass_kg=sum(map(find_unbalance, remedy.devices)) / _find_first_radius(fitted),
         own=Remedy(""),
         remedy=remedy,
     )

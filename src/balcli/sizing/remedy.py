@@ -236,8 +236,8 @@ def _fit_model(model: EngineFile | None, remedy: Remedy) -> EngineFile | None:
     """Return the file with the devices of a remedy; None if no file can describe them."""
     if model is None or remedy.beyond:
         return None
-    added: dict[str, tuple[DeviceTable, ...]] = {}
+    added: dict[str, list[DeviceTable]] = {}
     for device in remedy.devices:
-        kind = name_kind(device)
-        added[kind] = (*added.get(kind, getattr(model, kind)), device)
-    return model.model_copy(update=added)
+        added.setdefault(name_kind(device), []).append(device)
+    tables = {kind: (*getattr(model, kind), *devices) for kind, devices in added.items()}
+    return model.model_copy(update=tables)

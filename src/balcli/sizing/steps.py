@@ -57,11 +57,13 @@ def add_at_throws(fitting: Fitting) -> Fitting:
         if device.kind is DeviceKind.COUNTERWEIGHT:
             unbalances[np.abs(throws - device.z).argmin()] -= device.forward
     slots = [Slot("counterweight", 1, 1, float(z)) for z in throws]
-    left = fitting.add(slots, unbalances, "").find_residual(1)
+    fitted = fitting.add(slots, unbalances.tolist(), _AT_THROWS)
+    left = fitted.find_residual(1)
     parts = FORWARD if engine.places_known else FORWARD[:1]
-    if any(left.parts[part] for part in parts):
-        unbalances = unbalances + size_unbalances(slots, left, parts).unbalances
-    return fitting.add(slots, unbalances.tolist(), _AT_THROWS)
+    if not any(left.parts[part] for part in parts):
+        return fitted
+    further = size_unbalances(slots, left, parts).unbalances
+    return fitting.add(slots, (unbalances + further).tolist(), _AT_THROWS)
 
 
 # ------------------------------------------------------------------ shafts
