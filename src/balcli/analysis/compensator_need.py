@@ -2,8 +2,6 @@
 moment compensators in orders 1 and 2.
 """
 
-from __future__ import annotations
-
 from typing import Annotated, NamedTuple
 
 import numpy as np

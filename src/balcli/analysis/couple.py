@@ -1,7 +1,5 @@
 """Find the order with the largest transverse couple, and what causes the couple."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import replace
 from typing import Literal, NamedTuple

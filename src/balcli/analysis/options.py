@@ -1,10 +1,8 @@
 """Options of `balcli analyze`, and the request that holds their values."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated, Literal, NamedTuple
+from typing import Annotated, Literal, NamedTuple, Self
 
 import typer
 
@@ -80,7 +78,7 @@ class Request(NamedTuple):
         """Whether there are several speeds."""
         return len(self.speeds_rpm) > 1
 
-    def check(self) -> Request:
+    def check(self) -> Self:
         """Return the request; options without effect cause an error or a warning.
 
         Raises:

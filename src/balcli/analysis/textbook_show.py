@@ -2,8 +2,6 @@
 the series of the piston acceleration.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import NamedTuple
 

@@ -5,8 +5,6 @@ contain it as it is, and `analysis.verdict_words` puts it into words. The HTML p
 same records by itself.
 """
 
-from __future__ import annotations
-
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal, NamedTuple

@@ -3,8 +3,6 @@ on what is balanced or small, one on the couple and one on the roll. A sentence 
 most 25 words, or 35 if both its force and its moment are large.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 

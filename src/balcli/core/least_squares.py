@@ -18,8 +18,6 @@ and repeat. For any shares with the sum 1, the least `sum w |r|^2` is a lower bo
 `|r|^2`, so every round yields a bound of its distance from the optimum.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Generic, NamedTuple, TypeVar
 

@@ -12,8 +12,6 @@ the angle of the rod, H the attribute `Cylinders.couple`, and psi the crank angl
 cylinder's axis. A prime is a derivative by the crank angle.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property, reduce

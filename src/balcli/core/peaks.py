@@ -14,8 +14,6 @@ For other functions of one variable, the search assumes that computing a functio
 once costs little more than at a few.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Sequence
 from functools import lru_cache

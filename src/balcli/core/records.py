@@ -1,11 +1,13 @@
 """Records: a figure of a result is declared once, as an attribute of a record.
 
-A record is a frozen dataclass, or a NamedTuple, which is quicker to import. A result is a tree of
-records. JSON and its schema derive from the attributes. CSV has a row for each figure of the JSON
-document, unless the result defines rows of its own. A DataFrame has the same rows as CSV, unless
-the renderer of the result (`show.result`) makes columns. The name of an attribute is its key in
-JSON and its path in CSV (`worst.speed_rpm`); the end of the name is its unit. The annotation is its
-type. Its line in the docstring's `Attributes:` is its description in the JSON Schema.
+A record is a frozen dataclass, or a NamedTuple, which is quicker to import; quicker still without
+`from __future__ import annotations`, which turns annotations into text that NamedTuple compiles. A
+result is a tree of records. JSON and its schema derive from the attributes. CSV has a row for each
+figure of the JSON document, unless the result defines rows of its own. A DataFrame has the same
+rows as CSV, unless the renderer of the result (`show.result`) makes columns. The name of an
+attribute is its key in JSON and its path in CSV (`worst.speed_rpm`); the end of the name is its
+unit. The annotation is its type. Its line in the docstring's `Attributes:` is its description in
+the JSON Schema.
 
     to_document(record)       the JSON object
     list_figures(document)    the numbers and words outside lists, for the lines of CSV

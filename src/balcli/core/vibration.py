@@ -6,8 +6,6 @@ Frequencies w are in rad/s and have any shape, commonly (orders, speeds). Arrays
 with a value for each degree of freedom (dof) have the shape (orders, speeds, dof).
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

@@ -11,8 +11,6 @@ at top dead centre, `g_i + tau_i`. `sense` is 1, or -1 if the cylinders turn abo
 `tops` is then `g_i - tau_i`.
 """
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from itertools import accumulate, groupby, pairwise, repeat

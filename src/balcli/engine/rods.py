@@ -2,8 +2,6 @@
 of a file (docs/theory.md).
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from typing import NamedTuple

@@ -5,8 +5,6 @@ a result of several engines joins their lists. Documents contain the records, an
 `show.sheet.tell_assumed` puts them into words.
 """
 
-from __future__ import annotations
-
 from collections.abc import Collection, Iterable, Sequence
 from typing import NamedTuple, TypeAlias
 

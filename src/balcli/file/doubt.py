@@ -2,8 +2,6 @@
 ranges, from which doubts are made.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Iterator
 from typing import Any, NamedTuple

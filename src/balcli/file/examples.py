@@ -6,8 +6,6 @@ comment what the example shows. There is a commented, valid starting file for ev
 engine, for runs of a rotor, and for a chain of shafts.
 """
 
-from __future__ import annotations
-
 import os
 import re
 import tomllib

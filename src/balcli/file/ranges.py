@@ -6,8 +6,6 @@ that is 0, or whose reference the file lacks, is not doubted. Of a list, and of 
 kind, only the value farthest out is named.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from itertools import pairwise

@@ -4,8 +4,6 @@ remedy.
 Contradictions between tables are not found here, because that needs the engine (`engine.parse`).
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass, field
@@ -58,7 +56,7 @@ def refuse(problems: Iterable[Problem], name: str) -> InputError:
     return InputError(listed[:MOST_MISTAKES_SHOWN], name, more)
 
 
-@dataclass
+@dataclass(eq=False, repr=False)
 class TableReader:
     """Reader of tables that collects their mistakes.
 

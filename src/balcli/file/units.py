@@ -9,8 +9,6 @@ inch, the pound and the units made of them; CGPM 1901 for standard gravity; NIST
 appendix B, for the rest.
 """
 
-from __future__ import annotations
-
 import math
 import re
 from collections import defaultdict

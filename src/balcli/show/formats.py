@@ -124,7 +124,7 @@ def write_named(named: NamedResult[Shown]) -> Node:
     return to_document(named.result)
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Columnar(Generic[Shown]):
     """Conversion of one kind of result to documents and columns.
 
@@ -139,7 +139,7 @@ class Columnar(Generic[Shown]):
     columns: Callable[[Shown], Columns] | None = None
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Renderer(Columnar[Shown]):
     """Conversion of one kind of result to documents, columns, sheets and CSV.
 

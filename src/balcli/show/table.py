@@ -4,8 +4,6 @@ Tables are laid out here, not by rich: rich folds figures if a table is too wide
 takes a tenth of the run time of `analyze`.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import chain, zip_longest

@@ -1,7 +1,5 @@
 """Define the units of shown results: SI and imperial, with larger units for large values."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable
 from typing import NamedTuple
@@ -26,20 +24,20 @@ class ShownUnit(NamedTuple):
 
     name: str
     size: float
-    larger: ShownUnit | None = None
+    larger: "ShownUnit | None" = None
     most: float = math.inf
 
     def of(self, value: float) -> float:
         """Convert a value from the SI unit to this unit."""
         return value / self.size
 
-    def fit(self, largest: float) -> ShownUnit:
+    def fit(self, largest: float) -> "ShownUnit":
         """Return this or a larger unit to fit values up to `largest` (SI; nan if unknown)."""
         if self.larger is not None and abs(largest) >= self.most * self.size:
             return self.larger.fit(largest)
         return self
 
-    def fit_values(self, values: Iterable[float | None]) -> ShownUnit:
+    def fit_values(self, values: Iterable[float | None]) -> "ShownUnit":
         """Return this or a larger unit to fit the largest of some values, SI. Values that are
         None or not finite do not count.
         """

@@ -14,11 +14,9 @@ A *slot* is a place and kind for a device. A *part* is one rotating vector of fo
 the roll. A scheme chooses slots and the parts to cancel.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Sequence
-from typing import Literal, NamedTuple
+from typing import Literal, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -93,7 +91,7 @@ class Slot(NamedTuple):
     carrier: Placed | None = None
 
     @classmethod
-    def on_crank(cls, crank: Placed, z: float) -> Slot:
+    def on_crank(cls, crank: Placed, z: float) -> Self:
         """Return the slot of a counterweight on the crank of a single engine or a geared engine."""
         if not crank.name:
             return cls("counterweight", 1, 1, z)
@@ -247,7 +245,7 @@ class Fitting(NamedTuple):
     remedy: Remedy
 
     @classmethod
-    def start(cls, engine: Engine, scheme: str, order: int | None = None) -> Fitting:
+    def start(cls, engine: Engine, scheme: str, order: int | None = None) -> Self:
         """Return a fitting without devices. `order` is the order that the scheme balances if it has
         only one.
         """
@@ -257,7 +255,7 @@ class Fitting(NamedTuple):
         """Return the residual of an order with the devices so far."""
         return find_residual(fit_devices(self.engine, self.remedy), order)
 
-    def add(self, slots: Sequence[Slot], unbalances: Iterable[complex], reason: str) -> Fitting:
+    def add(self, slots: Sequence[Slot], unbalances: Iterable[complex], reason: str) -> Self:
         """Return the fitting with devices of these unbalances (kg m) in these slots. Devices of
         zero unbalance are omitted, and so are counterweights that are negligible against the moving
         masses.
@@ -277,7 +275,7 @@ class Fitting(NamedTuple):
         parts: Sequence[ResidualPart],
         reason: str,
         residual: Residual | None = None,
-    ) -> Fitting:
+    ) -> Self:
         """Return the fitting with devices in these slots that cancel these parts.
 
         Args:
@@ -298,7 +296,7 @@ class Fitting(NamedTuple):
             return fitting.add_details(condition_number=fit.condition)
         return fitting
 
-    def balance_rotating(self, *, keep_overbalance: bool = True) -> Fitting:
+    def balance_rotating(self, *, keep_overbalance: bool = True) -> Self:
         """Return the fitting with counterweights for masses that turn with the crank pins and are
         not yet balanced by counterweights of the file: one weight if that suffices, else two at the
         ends.
@@ -329,12 +327,12 @@ class Fitting(NamedTuple):
         slots = [Slot("counterweight", 1, 1, z) for z in find_planes(engine, turning, 1)]
         return self.cancel(slots, FORWARD, _ROTATING, turning)
 
-    def describe_left(self, order: int, *keys: str, group: str = "") -> Fitting:
+    def describe_left(self, order: int, *keys: str, group: str = "") -> Self:
         """Return the fitting with the residual in its details; `keys` are keys of `_LEFT_OF`."""
         left = self.find_residual(order)
         return self.add_details(group, **{key: left.size(*_LEFT_OF[key]) for key in keys})
 
-    def describe_roll(self, before: Residual, group: str = "") -> Fitting:
+    def describe_roll(self, before: Residual, group: str = "") -> Self:
         """Return the fitting with details on the roll of an order, without and with the devices so
         far. For an engine with gas, the roll of inertia and gas is stated as well.
         """
@@ -347,7 +345,7 @@ class Fitting(NamedTuple):
             details["roll_with_gas_before_Nm"] = _size_total_roll(self.engine, order)
         return self.add_details(group, **details)
 
-    def add_details(self, group: str = "", /, **figures: object) -> Fitting:
+    def add_details(self, group: str = "", /, **figures: object) -> Self:
         """Return the fitting with further details in its remedy (`Remedy.add_details`)."""
         return self._replace(remedy=self.remedy.add_details(group, **figures))
 

@@ -2,8 +2,6 @@
 are checked here for both the command and the Python function. This module does not load numpy.
 """
 
-from __future__ import annotations
-
 import math
 from numbers import Complex, Integral, Real
 from types import NoneType

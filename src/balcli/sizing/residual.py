@@ -2,8 +2,6 @@
 rotating vectors, and their sizes compared with one cylinder.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace

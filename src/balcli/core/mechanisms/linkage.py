@@ -44,7 +44,7 @@ _AT_ONCE = 1 << 16  # largest number of cylinders x angles that are computed at 
 _SHARPEST = frozenset({"piston", "rod", "along", "across"})  # series whose orders decay slowest
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Linkage(ABC):
     """The mechanism of an engine whose cylinders are not plain slider-cranks.
 
@@ -154,7 +154,7 @@ def revolution(count: int) -> Array:
     return np.arange(count, dtype=float) * (2 * np.pi / count)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Articulated(Linkage):
     """Master and articulated rods; `mass` is the mass of each articulated rod on its knuckle pin.
 
@@ -207,7 +207,7 @@ def hang(
     return Motion(pin, lam, lean, np.sqrt((1 - lean) * (1 + lean)), (pin,), condition)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Rotary(Linkage):
     """Turning cylinders; `mass` is the reciprocating mass of each cylinder, plus the mass of an
     articulated rod on its knuckle pin.

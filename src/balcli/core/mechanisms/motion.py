@@ -14,8 +14,6 @@ angle to the cylinder's axis. `lam` is crank radius / rod length, `eps` offset /
     beta'' = lam Im z''/cos beta + beta'^2 tan beta
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import cached_property
 from typing import NamedTuple, TypeAlias

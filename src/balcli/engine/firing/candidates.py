@@ -50,7 +50,7 @@ def join_numbers(numbers: Iterable[float]) -> str:
     return ", ".join(f"{number:.6g}" for number in numbers)
 
 
-@dataclass
+@dataclass(eq=False, repr=False)
 class Candidate:
     """An engine that a file may mean.
 

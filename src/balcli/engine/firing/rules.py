@@ -2,8 +2,6 @@
 The rules are those of the package's docstring.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Sequence
 from typing import NamedTuple
 
