@@ -532,7 +532,7 @@ class Engine:
         cylinder's own position moves only its rod, not its throw.
         """
         c = self.cylinders
-        z = np.ravel(self.pins_m)
+        z = np.ravel(self.pins_m).tolist()
         if self.rotary or self.placed or not self.places_known:
             return tuple((throw,) for throw in range(len(z)))
         turned = np.round(np.stack([np.ravel(c.pin_deg), np.ravel(c.axis_of_each_deg)]), 6) % 360
@@ -544,7 +544,7 @@ class Engine:
             banks[masses.throw].add(bank)
         joined: list[list[int]] = []
         first = [min(one.real for one in each) for each in pins]
-        for throw in sorted(range(len(z)), key=lambda k: (round(float(z[k]), 9), first[k], k)):
+        for throw in sorted(range(len(z)), key=lambda k: (round(z[k], 9), first[k], k)):
             before = joined[-1] if joined else []
             if before and pins[before[0]] == pins[throw]:
                 apart = abs(z[throw] - z[before[-1]])
