@@ -6,15 +6,19 @@ import re
 from collections.abc import Iterable
 from typing import Any
 
+import numpy as np
 import pytest
 from support.cases import cases
 from support.commands import run_here
 from support.engines import GOOD, RADIAL, build_text, inline_engine
 from support.paths import ENGINES
 
+from balcli import load
 from balcli.analysis import show as analysis
 from balcli.analysis.answer import EXTRAS, QUANTITIES, UNASKED, analyze
+from balcli.analysis.verdict_words import name_orders
 from balcli.file.assumed import Assumed
+from balcli.forces.spectrum import compute_spectra
 from balcli.shell.options import parse_parts
 from balcli.show.sheet import Facts, Grid, View
 from balcli.show.units import SYSTEMS
@@ -139,6 +143,19 @@ def test_orders_without_a_part_of_roll_do_not_make_it_balanced(balcli):
     assert "in the orders shown" not in balcli("analyze", ENGINES / "i4.toml").out
 
 
+def test_the_largest_roll_over_a_revolution_is_that_of_all_orders_together(balcli):
+    """Of a V-twin it is neither the largest order nor the sum of all."""
+    engine = load(ENGINES / "vtwin45.toml")
+    told = " ".join(balcli("analyze", ENGINES / "vtwin45.toml").out.split())
+    (value, deg) = re.search(r"roll moment ([\d.]+) N·m at crank angle ([\d.]+) deg", told).groups()
+    roll = compute_spectra(engine, range(1, 13), ("roll",)).roll
+    angles = np.radians(np.arange(0, 360, 0.01))
+    curve = np.abs(sum((2 * c * np.exp(1j * n * angles)).real for n, c in zip(roll.orders, roll.forward, strict=True)))
+    assert float(value) == pytest.approx(curve.max(), rel=1e-4)
+    assert curve[round(100 * float(deg))] == pytest.approx(curve.max(), rel=1e-4)
+    assert max(roll.major) * 1.02 < curve.max() < 0.98 * sum(roll.major)
+
+
 @pytest.mark.parametrize("command", [("analyze",), ("analyze", "--only", "gas")])
 def test_the_mean_roll_is_minus_the_mean_torque(balcli, command):
     """C - T, and no couple has a mean."""
@@ -208,3 +225,15 @@ def test_a_table_names_the_defaults_that_would_change_it(word: str, more: str) -
     keys = {line: line.partition(" ")[0] for line in LEFT_OUT}
     unnamed = (line for line, key in keys.items() if key in every and key not in listed)
     assert [line for line in unnamed if ask(line)[0] != before] == []
+
+
+@pytest.mark.parametrize(
+    ("orders", "told"),
+    [
+        ([2, 4], "orders 2 and 4"),
+        ([1, 2, 3, 4, 5, 6], "orders 1 to 6"),
+        ([1, 2, 3, 4, 5, 7], "6 orders, the highest 7"),
+    ],
+)
+def test_many_orders_are_named_by_their_range_or_number(orders, told):
+    assert name_orders(orders) == told

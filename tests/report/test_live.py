@@ -14,7 +14,7 @@ from support.cases import slow
 from support.commands import ask, ask_json
 from support.engines import GOOD, RADIAL, build_text, changed
 from support.kernel import WANTED, answer, compute, differences, find_findings
-from support.paths import write
+from support.paths import ROOT, write
 from support.pictures import without_pictures
 
 from balcli import load_example
@@ -29,7 +29,7 @@ from balcli.limits import SMALL
 from balcli.report.figures import describe_figures
 from balcli.report.live import describe_engine, explain_still
 from balcli.report.page import FOLDER, lay_out
-from balcli.show.sheet import sentence, size_text
+from balcli.show.sheet import order_name, sentence, size_text
 from balcli.show.units import SI
 from balcli.sizing.ladder import find_ladder
 
@@ -310,7 +310,7 @@ def test_devices_of_steps_that_are_no_row_are_fitted(show):
         changed(("throws = [0, 180, 180, 0]", "throws = [0, 188, 180, 0]"), ("firing_order = [1, 3, 4, 2]", ""))
     )
     usual = figures(page)["page"]["extra"][0]
-    assert usual["step"].startswith("default: steps")
+    assert usual["step"] == "default: steps 2 and 4"
     page.run("document.getElementById('fit').click()")
     sizes = page.run(
         "Object.entries(Live.numbers).filter(([name]) => name.endsWith('.unbalance')).map(([, value]) => value)"
@@ -552,6 +552,24 @@ def test_roll_with_gas_is_headed_as_of_inertia(browser, play):
     assert browser.run(head) == "roll moment, inertia alone"
     go(browser, "#engine=vtwin45")
     assert browser.run(head) == "roll moment"
+
+
+KEY_ROLL = """(([...document.querySelectorAll('#key-small div')].map((each) => each.textContent).find(
+    (text) => text.startsWith('Roll'))))"""
+
+
+@live
+def test_the_key_figure_of_the_roll_is_that_with_gas(show):
+    """The page does not compute gas: of a changed engine it says that the roll is that of inertia alone."""
+    text = (ROOT / "engines" / "i4_wiebe.toml").read_text()
+    page = show(text)
+    roll = find_ladder(build_text(text)).roll
+    assert roll.of == "total"
+    key = page.run(KEY_ROLL)
+    assert key == f"Roll with gas{size_text(roll.amplitude_Nm, SI.moment)} order {order_name(roll.order)}"
+    page.run("Live.change('rod.length', 150)")
+    page.wait_for("document.body.classList.contains('changed')")
+    assert page.run(KEY_ROLL).startswith("Roll, inertia alone")
 
 
 def copy_command(page):

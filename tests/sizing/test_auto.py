@@ -26,10 +26,14 @@ def test_nothing_is_fitted_where_nothing_is_left():
 
 def test_devices_of_one_throw_stand_half_a_bore_to_either_side():
     text = write_engine(0, layout="bank_angle = 60\nstagger = 24")
-    for bore, planes in (("", {-50.0, 50.0}), ("bore = 80\n", {-40.0, 40.0})):
+    for bore, planes, distance in (
+        ("", {-50.0, 50.0}, "the crank radius"),
+        ("bore = 80\n", {-40.0, 40.0}, "half a bore"),
+    ):
         remedy = size(build_text(text.replace("[piston]\n", f"[piston]\n{bore}")))
         assert {d.position for d in remedy.counterweights} == planes
         assert {d.position for d in remedy.shafts if d.ratio == -1} == planes
+        assert f"; the throws count as one plane, and the weights stand {distance} on" in remedy.reasons[0]
 
 
 def test_sizing_does_not_depend_on_speed():

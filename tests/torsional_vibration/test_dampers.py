@@ -210,6 +210,22 @@ def test_heat_of_a_narrow_resonance_is_the_highest_of_it():
     assert coarse["worst"]["heat_W"] == pytest.approx(max(fine["heat_W"]), rel=1e-6)
 
 
+@pytest.mark.parametrize(("factor", "kept"), [(0.99, False), (1.01, True)])
+def test_the_block_of_a_sized_damper_says_whether_the_limit_is_kept(factor, kept):
+    options = ("--damper", "viscous", "--damper-inertia", "0.2 kg m^2")
+    after = size(SINGLE, *RANGE, *options)["after_Nm"]
+    shaft = {"stiffness": SPRING, "torque_limit": factor * after}
+    text = single(shafts={("disc", "wall"): shaft})
+    told = " ".join(run_here("torsion", "-", *RANGE, *options, stdin=text).out.split())
+    share = f"{100 / factor:.3g} % of {factor * after:.4g} N·m at "
+    if kept:
+        assert f"limit with it kept: disc-wall uses {share}" in told
+    else:
+        assert f"limit with it exceeded: disc-wall uses {share}" in told
+        assert "rpm; try another inertia (--damper-inertia) or kind" in told
+    assert "limit with it" not in run_here("torsion", "-", *RANGE, *options, stdin=SINGLE).out
+
+
 @cases("torsional_vibration/dampers", "dampers_of_unlikely_size")
 def test_dampers_of_unlikely_size(options, told):
     speeds = () if "--speeds" in options else RANGE

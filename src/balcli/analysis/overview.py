@@ -9,13 +9,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..core.peaks import find_peak
 from ..core.phasors import Phasors
 from ..forces.kinds import ROLL, ROLL_TOTAL, Kind
 from ..forces.spectrum import Spectra
 from ..show.engine_facts import tell_pivot
 from ..show.sheet import NEGLIGIBLE, Column, Facts, Grid, number, order_name, size_text, small_text
 from ..show.units import System
-from .order_tables import fit_largest, peak_facts, shade_sizes, write_vector
+from .order_tables import fit_largest, peak_facts, shade_sizes, tell_peak, write_vector
 
 if TYPE_CHECKING:
     from .answer import Analysis
@@ -118,8 +119,8 @@ def roll_and_peaks(result: Analysis, system: System, *, every_order: bool) -> Fa
 
 
 def _tell_roll(result: Analysis, roll: Phasors, system: System, *, every_order: bool) -> str:
-    """Return the roll of every order that matters: `order 2: 458, 4: 26.3 N m`; arguments as for
-    `roll_and_peaks`.
+    """Return the largest roll over a revolution and that of every order that matters: `470.1 N m at
+    crank angle 43.5 deg; order 2: 458, 4: 26.3 N m`; arguments as for `roll_and_peaks`.
     """
     least = NEGLIGIBLE * result.of_one_cylinder[ROLL.name]
     largest = float(roll.major.max(initial=0))
@@ -128,7 +129,8 @@ def _tell_roll(result: Analysis, roll: Phasors, system: System, *, every_order: 
     for order, size in zip(roll.orders, roll.major, strict=True):
         if size > least:
             sizes.append(f"{order_name(order)}: {number(unit.of(float(size)))}")
-    if sizes:
-        return f"order {', '.join(sizes)} {unit.name}"
-    nothing = small_text(largest, system.moment)
-    return f"{nothing} in the orders shown" if every_order else nothing
+    shown = " in the orders shown" if every_order else ""
+    if not sizes:
+        return f"{small_text(largest, system.moment)}{shown}"
+    peak = tell_peak(find_peak(roll), system.moment)
+    return f"{peak}{shown}; order {', '.join(sizes)} {unit.name}"

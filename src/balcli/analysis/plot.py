@@ -172,9 +172,9 @@ def set_order_axis(axes: Sequence[Axes], orders: Array) -> None:
     highest = float(orders.max(initial=2.0))
     count = round((highest - gap) / gap) + 1
     step = gap * -(-count // _MOST_TICKS)
-    ticks = np.arange(step, highest + gap / 2, step)
-    if step > gap:
-        ticks = np.append(gap, ticks)
+    even = np.arange(step, highest + gap / 2, step)
+    away = np.abs(even[:, None] - orders).min(axis=1, initial=np.inf)
+    ticks = np.union1d(orders, even[away >= step / 2])  # every bar has its order below it
     for ax in axes:
         ax.set_xticks(ticks, [order_name(n) for n in ticks])
         ax.set_xlim(0.4 * gap, highest + 0.6 * gap)

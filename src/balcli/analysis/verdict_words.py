@@ -510,8 +510,12 @@ def name_order(order: float) -> str:
 
 
 def name_orders(orders: Sequence[float]) -> str:
-    """Return in words the numbers of some orders, or their count if they are many."""
+    """Return in words the numbers of some orders: their range or their count if they are many."""
     if len(orders) > _MOST_NAMED:
-        return f"{len(orders)} orders up to {order_name(max(orders))}"
+        first = min(orders)
+        last = max(orders)
+        if last - first == len(orders) - 1:
+            return f"orders {order_name(first)} to {order_name(last)}"
+        return f"{len(orders)} orders, the highest {order_name(last)}"
     names = join_words([order_name(order) for order in orders])
     return f"order {names}" if len(orders) == 1 else f"orders {names}"

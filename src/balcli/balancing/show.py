@@ -531,12 +531,22 @@ def _crank_loads(
         rows.append(row)
     if rows:
         heads = _head_before_and_after(f"at z, {system.length.name}")
-        bearings = "" if engine.has_given_bearings else "; bearings half-way between throws"
+        bearings = _tell_assumed_bearings(states, engine)
         note = (
             f"Loads by inertia only{bearings}. Where several places have the largest value, the "
             "first is listed."
         )
         yield Grid.of_rows("Within the crankshaft", heads, rows, note)
+
+
+def _tell_assumed_bearings(states: Sequence[CrankLoads | None], engine: Engine) -> str:
+    """Return in words where bearings are assumed; empty if the file gives them, or if none carries
+    a known load.
+    """
+    is_known = any(state is not None and state.main_N is not None for state in states)
+    if engine.has_given_bearings or not is_known:
+        return ""
+    return "; bearings half-way between throws, and as far outside the end throws"
 
 
 def _peak(peak: Peak, unit: ShownUnit) -> tuple[str, str]:

@@ -14,8 +14,8 @@ from dataclasses import replace
 from ..analysis.answer import Analysis
 from ..balancing.answer import Balance
 from ..core.cylinders import Device
-from ..core.peaks import Peak, find_largest
-from ..core.phasors import Array
+from ..core.peaks import Peak, find_largest, find_peak
+from ..core.phasors import Array, Phasors
 from ..core.records import Node, to_document
 from ..engine.engine import Engine
 from ..engine.placed import build_fitted
@@ -62,8 +62,22 @@ def describe_figures(result: Analysis, balanced: Balance, small: float) -> Node:
             MOMENT.name: _measure_repeat(result.peak.moment),
         },
         "devices": [_describe_vectors(device) for device in engine.devices],
+        "roll": _describe_roll(result.spectra.roll),
     }
     return figures
+
+
+def _describe_roll(roll: Phasors | None) -> Node:
+    """Return the largest roll by inertia over a revolution: its size (N m), its crank angle and the
+    angle after which it repeats (deg).
+    """
+    assert roll is not None
+    peak = find_peak(roll)
+    return {
+        "value_Nm": peak.value,
+        "deg": math.degrees(peak.theta),
+        "every": _measure_repeat(peak),
+    }
 
 
 def _measure_repeat(peak: Peak) -> float:
@@ -78,9 +92,11 @@ def _describe_extra(result: Analysis, balanced: Balance, ladder: Ladder) -> Iter
     rows = [step.remedy.devices for step in ladder.steps]
     usual = ladder.fit()
     if usual.devices not in rows:
-        names = [step.step for step in ladder.steps]
-        numbers = " and ".join(str(names.index(step)) for step in ladder.auto)
-        yield _describe_choice(result, f"default: steps {numbers}", usual)
+        numbers = [str(ladder.find_row(step)) for step in ladder.auto]
+        steps = (
+            f"step {numbers[0]} alone" if len(numbers) == 1 else f"steps {' and '.join(numbers)}"
+        )
+        yield _describe_choice(result, f"default: {steps}", usual)
     remedy = balanced.remedy
     is_row = remedy.devices in (*rows, usual.devices)
     if remedy.devices and not (is_row and remedy.scheme == "auto"):

@@ -361,14 +361,19 @@ def _size_total_roll(engine: Engine, order: int) -> float:
     return float(compute_spectra(engine, [order], (ROLL_TOTAL.name,))[ROLL_TOTAL.name].major[0])
 
 
-def explain_counterweights(residual: Residual, sense: int = 1) -> str:
-    """Return the reason for counterweights against the part of order 1 that turns in the direction
-    `sense`: 1 as the first crank, -1 against it.
+def explain_counterweights(residual: Residual, sense: int = 1, places: str = "") -> str:
+    """Return the reason for counterweights against the part of order 1 that turns in one direction.
+
+    Args:
+        residual: Residual of order 1.
+        sense: Direction of rotation: 1 as the first crank, -1 against it.
+        places: Words on the planes of the weights; empty if they need none.
     """
     both = "both" if residual.force(sense) and residual.moment(sense) else "it"
     turn = "counterweights also turn with it and cancel"
     crank = "with the crank" if sense > 0 else "with the crank that turns against the first"
-    return f"{_name(residual, sense)} turning {crank}: {turn} {both}"
+    reason = f"{_name(residual, sense)} turning {crank}: {turn} {both}"
+    return f"{reason}; {places}" if places else reason
 
 
 def explain_shaft(

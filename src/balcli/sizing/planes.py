@@ -35,15 +35,30 @@ def find_ends(engine: Engine) -> tuple[float, float]:
     """Return z of the end planes, m: the first and the last throw. If all throws are in one plane,
     the end planes are half a bore (without a bore: the crank radius) on either side of it.
     """
-    throws = [move_along(crank).engine.joined_throws_m for crank in engine.cranks]
-    places = np.concatenate(throws)
-    low = float(places.min())
-    high = float(places.max())
+    low, high = _find_end_throws(engine)
     if low < high:
         return low, high
     bore = float(engine.bore_m)
     half = bore / 2 if bore > 0 else engine.find_radius(low)
     return low - half, high + half
+
+
+def explain_ends(engine: Engine) -> str:
+    """Return in words where the end planes are if they are not the first and the last throw; empty
+    if they are.
+    """
+    low, high = _find_end_throws(engine)
+    if low < high:
+        return ""
+    distance = "half a bore" if engine.bore_m > 0 else "the crank radius"
+    return f"the throws count as one plane, and the weights stand {distance} on either side of it"
+
+
+def _find_end_throws(engine: Engine) -> tuple[float, float]:
+    """Return z of the first and the last throw of all cranks, m."""
+    throws = [move_along(crank).engine.joined_throws_m for crank in engine.cranks]
+    places = np.concatenate(throws)
+    return float(places.min()), float(places.max())
 
 
 def find_carriers(engine: Engine) -> dict[int, Placed]:

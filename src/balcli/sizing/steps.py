@@ -14,7 +14,7 @@ from ..engine.engine import Engine
 from ..forces.spectrum import compute_spectra
 from .fitting import Fitting, Slot, explain_counterweights, explain_shaft, size_unbalances
 from .pairs import find_moment_about_y, place_forces
-from .planes import find_carriers, find_ends, find_planes
+from .planes import explain_ends, find_carriers, find_ends, find_planes
 from .residual import FORWARD, Residual, list_parts
 
 _AT_THROWS = (
@@ -39,7 +39,8 @@ def add_at_ends(fitting: Fitting, first: Residual, sense: int = 1) -> Fitting:
     """
     crank = find_carriers(fitting.engine)[sense]
     slots = [Slot.on_crank(crank, z) for z in find_ends(crank.engine)]
-    return fitting.cancel(slots, list_parts(sense), explain_counterweights(first, sense), first)
+    reason = explain_counterweights(first, sense, explain_ends(crank.engine))
+    return fitting.cancel(slots, list_parts(sense), reason, first)
 
 
 def add_at_throws(fitting: Fitting) -> Fitting:

@@ -11,7 +11,7 @@ from .fitting import (
     size_unbalances,
 )
 from .options import SchemeOptions
-from .planes import SAME_PLACE, find_carriers, find_ends, find_length, read_planes
+from .planes import SAME_PLACE, explain_ends, find_carriers, find_ends, find_length, read_planes
 from .remedy import Remedy
 from .residual import BACKWARD, NothingToBalanceError, Residual, find_residual, list_parts
 from .steps import add_at_throws
@@ -58,7 +58,8 @@ def add_weights(
     slots = [Slot.on_crank(crank, z) for z in planes]
     if len(slots) == 1 and engine.places_known:
         return _compromise(fitting, slots, residual)
-    reason = explain_counterweights(residual, crank.ratio)
+    places = explain_ends(crank.engine) if options.planes is None else ""
+    reason = explain_counterweights(residual, crank.ratio, places)
     return fitting.cancel(slots, parts if len(slots) > 1 else parts[:1], reason)
 
 

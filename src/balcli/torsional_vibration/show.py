@@ -44,7 +44,7 @@ from .dampers import DAMPER_KEYS, FIGURES, SizedDamper
 from .measured import MeasuredCurve, MeasuredRow
 from .response import Edge, TorsionResponse, WorstTorque
 from .system import TorsionalSystem
-from .verdicts import BarredRange, LimitVerdict
+from .verdicts import BarredRange, LimitVerdict, find_hardest_verdict
 from .worst_misfire import MisfireCase, WorstMisfire
 
 _MOST_MODES = 5  # largest number of shapes in a table; more do not fit into a terminal
@@ -236,7 +236,8 @@ def sheet(result: TorsionAnalysis, system: System) -> Sheet:
         parts.append(Facts(silent))
     parts += assumed_facts(result.assumed)
     if hasattr(result, "damper"):
-        parts.append(_show_damper(result.damper, system))
+        limits = result.limits if hasattr(result, "limits") else ()
+        parts.append(_show_damper(result.damper, limits, system))
     if hasattr(result, "misfire"):
         parts.append(show_misfires(result.misfire, system))
     if result.throw is not None:
@@ -279,8 +280,10 @@ def _measure_miss(row: MeasuredRow) -> float:
 _RING = ShownUnit("kg·mm²", 1e-6, SI.inertia, 1e7)
 
 
-def _show_damper(sized: SizedDamper, system: System) -> Facts:
-    """Return the figures of the sized damper and its effect on the largest stress."""
+def _show_damper(sized: SizedDamper, limits: Sequence[LimitVerdict], system: System) -> Facts:
+    """Return the figures of the sized damper, its effect on the largest stress, and whether the
+    limits of all shafts are kept with it.
+    """
     kind = system.stress if sized.measure == "stress" else system.moment
     unit = kind.fit_values((sized.before, sized.after))
     units = _choose_units(system)
@@ -297,10 +300,25 @@ def _show_damper(sized: SizedDamper, system: System) -> Facts:
     largest = f"largest {sized.measure}"
     pairs.append((f"{largest} without the damper", _tell_largest(sized.before, unit)))
     pairs.append((f"{largest} with it", _tell_largest(sized.after, unit)))
+    if hardest := find_hardest_verdict(limits):
+        pairs.append(("limit with it", _tell_limit(hardest, system)))
     if sized.heat_W:
         heat = size_text(sized.heat_W, system.heat)
         pairs.append(("heat", f"up to {heat}, at {number(sized.heat_rpm)} rpm"))
     return Facts(tuple(pairs), f"Sized: a {sized.kind} damper")
+
+
+def _tell_limit(hardest: LimitVerdict, system: System) -> str:
+    """Return in words whether a limit is kept, by the verdict on the shaft that uses it most."""
+    if hardest.limit_Pa is None:
+        limit = size_text(hardest.limit_Nm or 0.0, system.moment)
+    else:
+        limit = size_text(hardest.limit_Pa, system.stress)
+    percent = number(100 * (hardest.share or 0.0), 3)
+    used = f"{hardest.shaft} uses {percent} % of {limit} at {number(hardest.speed_rpm or 0.0)} rpm"
+    if hardest.verdict == "passes":
+        return f"kept: {used}"
+    return f"exceeded: {used}; try another inertia (--damper-inertia) or kind"
 
 
 def _tell_largest(size: float, unit: ShownUnit) -> str:

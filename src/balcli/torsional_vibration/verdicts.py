@@ -136,6 +136,16 @@ def find_hardest(system: TorsionalSystem, rpm: Real) -> LargestShare | None:
     return find_largest_share(system, rpm, limits) if limits else None
 
 
+def find_hardest_verdict(verdicts: Sequence[LimitVerdict]) -> LimitVerdict | None:
+    """Return the verdict on the limit that is used most; None if no shaft is checked."""
+    checked = [verdict for verdict in verdicts if verdict.share is not None]
+    return max(checked, key=_take_share, default=None)
+
+
+def _take_share(verdict: LimitVerdict) -> float:
+    return verdict.share or 0.0
+
+
 def _permits_nothing(limit: ShaftLimit, rpm: Real) -> bool:
     """Return whether a limit is a mean torque that is 0 at one of the speeds."""
     of_mean = limit.limit

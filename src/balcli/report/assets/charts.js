@@ -60,7 +60,7 @@ const Charts = (() => {
   const LINE = 13;                                            // height of a line of small text
   const LETTER = 5.9;                                         // width of a small letter
   const NARROWEST = 260;
-  const MOST_LETTERS = 18;                                    // of figures before and after; longer ones need more room
+  const MOST_LETTERS = 16;                                    // of figures before and after; longer ones need more room
   const MORE_ROOM = 40;
 
   // Rows: { order, before, after, told, cure }; before and after are sizes [with the crank, against it], told the texts
@@ -140,8 +140,9 @@ const Charts = (() => {
   function putAxes(put, wide, reach, [up, right]) {
     const middle = wide / 2;
     put("circle", { class: "axis", cx: middle, cy: middle, r: reach });
-    put("text", { class: "cap", x: middle + 4, y: 14 }, up);
-    put("text", { class: "cap", x: wide - 4, y: middle - 5, "text-anchor": "end" }, right);
+    const edge = wide - 6;                                    // in the corners, where no path goes
+    put("text", { class: "cap", x: edge, y: 14, "text-anchor": "end" }, `↑ ${up}`);
+    put("text", { class: "cap", x: edge, y: edge, "text-anchor": "end" }, `→ ${right}`);
   }
   // By how much a path is enlarged in addition, if it is this much smaller than the largest; 0: not.
   function chooseFactor(ratio) {

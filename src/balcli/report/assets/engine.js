@@ -1075,7 +1075,8 @@ const Kernel = (() => {
     if (isRow) return [];
     const chosen = steps.filter(({ step }) => auto.includes(step));
     const numbers = chosen.map((each) => steps.indexOf(each));
-    const made = makeStep(`default: steps ${numbers.join(" and ")}`, chosen.flatMap(({ own }) => own));
+    const named = numbers.length === 1 ? `step ${numbers[0]} alone` : `steps ${numbers.join(" and ")}`;
+    const made = makeStep(`default: ${named}`, chosen.flatMap(({ own }) => own));
     return [describeStep(engine, { ...made, takesBack: false })];
   }
   // Names of the steps whose devices a row of the ladder has.
@@ -1168,8 +1169,14 @@ const Kernel = (() => {
         scales: { moment_Nm: ladder.scale.moment, roll_Nm: roll },
         every: { force: findRepeat(kinds.force), moment: findRepeat(kinds.moment) },
         devices: engine.devices.map((device) => describeDevice(engine, device, engine.devices)),
+        roll: describeRoll(kinds.roll),
       },
     };
+  }
+  // The largest roll over a revolution.
+  function describeRoll(phasors) {
+    const { value, theta } = findPeak(phasors);
+    return { value_Nm: value, deg: theta === null ? null : deg(theta), every: findRepeat(phasors) };
   }
   function describeOrder({ up }, kinds, order) {
     const vector = (kind) => describeVector(kinds[kind][order] || NONE, order, up === null ? [] : UPRIGHT[kind], up);

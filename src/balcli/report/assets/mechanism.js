@@ -178,10 +178,12 @@ function draw(scene, devices, axes) {
         c,
         rod: element("line", { class: "rod", "stroke-width": thickness }, group),
         piston: element("rect", { class: "piston" }, group),
-        text: element("text", { class: "number", "font-size": 0.26 * bore }, group),
       };
     });
-    for (const { c, text } of cylinders) text.textContent = c.number;
+    for (const cylinder of cylinders) {                       // in front of all pistons
+      cylinder.text = element("text", { class: "number", "font-size": 0.26 * bore }, svg);
+      cylinder.text.textContent = cylinder.c.number;
+    }
     const arrows = element("g", { class: "shake" }, svg);
     return (theta, shake) => {
       const bend = (c) => -height(turned([radiusOf(c), 0], pinAngle(c, theta)));

@@ -2,7 +2,9 @@
 // The page: shows a document of figures with the devices of the chosen step, in motion. Nothing here computes an engine:
 // `Page.show` gets figures from Python, or from the kernel after a change.
 const Page = (() => {
-  const { make, number, fit, sizeText, smallText, kindsOf, isNegligible, scaleOf, KEYS, UNIT_OF, units, limits, BALANCED } = Tables;
+  const {
+    make, number, fit, orderName, sizeText, smallText, kindsOf, isNegligible, scaleOf, KEYS, UNIT_OF, units, limits, BALANCED,
+  } = Tables;
   const DEGREES_PER_SECOND = 60;
   const RARE = 125;                                           // ms between changes of texts while a slider moves
   const TITLES = { force: "Free force", moment: "Free moment" };
@@ -156,7 +158,7 @@ const Page = (() => {
     const entries = kinds.map((kind) => [TITLES[kind], writeChange(tellChange(figures, kind, step))]);
     if (kindsOf(figures).length < 2) entries.push(["Free moment", ["not known"]]);
     if (step.main_bearing_N !== undefined) entries.push(["Main bearing", writeChange(tellLoad(step))]);
-    entries.push([look.gas ? "Roll, inertia" : "Roll moment", tellRoll()]);
+    entries.push([titleRoll(), tellRoll()]);
     return entries;
   }
   function tellChoice(step) {
@@ -214,12 +216,22 @@ const Page = (() => {
     const states = chosen === 0 ? [drawn] : [drawn, step];
     return { texts: states.map(write), unit: unit.name };
   }
+  // The roll that rocks the engine: with gas, if Python computed it. Of a changed engine, the page knows that of inertia.
+  const hasRollWithGas = () => figures.ladder.roll?.of === "total";
+  function titleRoll() {
+    if (hasRollWithGas()) return "Roll with gas";
+    return look.gas ? "Roll, inertia alone" : "Roll moment";
+  }
   function tellRoll() {
-    const turning = figures.orders.filter(({ order }) => order > 0);
-    const largest = turning.reduce((most, entry) => entry.roll_Nm.amplitude > most.roll_Nm.amplitude ? entry : most);
-    const { amplitude } = largest.roll_Nm;
+    const { order, amplitude } = hasRollWithGas() ? findRollWithGas() : findRollOfInertia();
     if (amplitude <= limits.negligible * figures.page.scales.roll_Nm) return [smallText(amplitude, units.moment)];
-    return [`${sizeText(amplitude, units.moment)} `, make("small", {}, `order ${largest.order}`)];
+    return [`${sizeText(amplitude, units.moment)} `, make("small", {}, `order ${orderName(order)}`)];
+  }
+  const findRollWithGas = () => ({ order: figures.ladder.roll.order, amplitude: figures.ladder.roll.amplitude_Nm });
+  function findRollOfInertia() {
+    const turning = figures.orders.filter(({ order }) => order > 0);
+    const { order, roll_Nm } = turning.reduce((most, entry) => entry.roll_Nm.amplitude > most.roll_Nm.amplitude ? entry : most);
+    return { order, amplitude: roll_Nm.amplitude };
   }
 
   // ------------------------------------------------------------------ charts of the chosen step
