@@ -31,7 +31,7 @@ from ..file.assumed import DEVICES, Assumed, join_assumed, select_assumed
 from ..file.fields import RIGID, suggest_nearest
 from ..file.model import EngineFile
 from ..file.table import document_keys
-from ..forces.kinds import EVERY_KIND, GAS_KINDS
+from ..forces.kinds import EVERY_CAUSE, EVERY_KIND, GAS_KINDS
 from ..forces.quantity import (
     Quantity,
     TargetQuantity,
@@ -193,8 +193,7 @@ def list_assumed(
             idle.add("crank.inertia")
     if not any(map(_depends_on_rods, quantities)):
         idle.add("rod.inertia")
-    if not any(map(_depends_on_devices, quantities)):
-        idle.update(DEVICES)
+    idle.update(_list_idle_of_devices(quantities))
     lists = [select_assumed(list_inferred(Parts(crank)), tables, idle) for crank in model.cranks]
     if not model.engine:
         return lists[0] or None
@@ -216,11 +215,22 @@ def _depends_on_throws(q: AnyQuantity, *, off_axis: bool) -> bool:
     return has_order and ("throws" in causes or (off_axis and "arms" in causes))
 
 
-def _depends_on_devices(q: AnyQuantity) -> bool:
-    """Return whether a quantity depends on counterweights, shafts and sliders."""
-    if isinstance(q, TargetQuantity):
-        return q.name.startswith(_WITH_THROWS)
-    return not {"throws", "arms"}.isdisjoint(EVERY_KIND[q.kind].causes)
+def _list_idle_of_devices(quantities: Iterable[AnyQuantity]) -> Iterator[str]:
+    """Yield the keys and tables of devices on which no quantity depends."""
+    causes = set[str]()
+    for q in quantities:
+        if not isinstance(q, TargetQuantity):
+            causes.update(EVERY_KIND[q.kind].causes)
+        elif q.name.startswith(_WITH_THROWS):
+            causes.update(EVERY_CAUSE)
+    if "planes" not in causes:
+        yield from (f"{kind}.position" for kind in DEVICES)
+    if "throws" not in causes:
+        yield "counterweight"
+    if "arms" not in causes:
+        yield from ("shaft.at", "slider.at")
+    if causes.isdisjoint(("throws", "arms")):
+        yield from DEVICES
 
 
 def _depends_on_rods(q: AnyQuantity) -> bool:
