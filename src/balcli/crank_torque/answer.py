@@ -105,6 +105,8 @@ def torque(
     spectra = compute_spectra(steady, shown, KINDS_OF_TORQUE)
     single = compute_spectra(steady, shown, KINDS_OF_TORQUE, by_cylinder=True).select_place(row)
     idle = {"crank.inertia", *DEVICES} if wanted else {*STEADY}
+    if "main" in wanted:
+        idle.discard("counterweight")
     if engine.flywheel_inertia is not None:
         idle.discard("crank.inertia")
     by_order = zip(spectra.orders, list_torques(spectra), list_torques(single), strict=True)

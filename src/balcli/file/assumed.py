@@ -49,7 +49,8 @@ def assume(path: str, table: FileTable, value: Value) -> Assumed:
 
 # Tables on which only the results of certain commands depend.
 _OF_CHAPTERS = {"gas", "torsion", "body", "mount", "flywheel"}
-DEVICES = ("counterweight", "shaft", "slider")  # tables on which only forces and moments depend
+# Tables on which only forces and moments depend, and on counterweights the loads of main bearings.
+DEVICES = ("counterweight", "shaft", "slider")
 # Keys and tables on which the torque at steady speed does not depend.
 STEADY = ("crank.spacing", "layout.stagger", "crank.throw_mass", "crank.inertia", *DEVICES)
 
