@@ -47,6 +47,22 @@ def test_at_which_speeds_engines_are_compared_is_told(tmp_path, second: str, rpm
     assert document["speeds_rpm"] == [3000, rpm]
 
 
+@pytest.mark.parametrize(("letters", "numbered"), [(27, False), (28, True)])
+def test_long_names_head_no_columns(tmp_path, letters: int, numbered: bool) -> None:
+    """Two names of 54 letters fit into 80 places beside the ratio; assumed values stand below the figures."""
+    names = "a" * 27, "b" * letters
+    files = [tmp_path / f"{k}.toml" for k in range(2)]
+    for file, name in zip(files, names, strict=True):
+        file.write_text(changed(("in-line four", name)), encoding="utf-8")
+    lines = run_here("compare", *files).out.splitlines()
+    heads = next(line for line in lines if line.endswith("ratio")).split()
+    assert heads == (["engine", "1", "engine", "2", "ratio"] if numbered else [*names, "ratio"])
+    assert ([f"engine {k + 1}  {name}" for k, name in enumerate(names)] == lines[2:4]) is numbered
+    (assumed,) = (k for k, line in enumerate(lines) if line.startswith("assumed"))
+    assert assumed > max(k for k, line in enumerate(lines) if line.startswith("order"))
+    assert max(map(len, lines)) <= 80
+
+
 def test_orders_of_every_engine_are_shown() -> None:
     six = build_text(changed(("[0, 180, 180, 0]", "[0, 120, 240, 240, 120, 0]"), ("firing_order = [1, 3, 4, 2]", "")))
     lines = compare_lines(build_text(GOOD), six, names=["4", "6"], only=["force"])

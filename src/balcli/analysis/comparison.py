@@ -59,6 +59,7 @@ LEFT = {
     for kind in FREE
 }
 _BEFORE = {left: kind for kind, left in LEFT.items()}  # same scale: that of one cylinder
+_MOST_LETTERS = 54  # of all names together that head the columns of a table of 80 places
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -356,7 +357,10 @@ def sheet(result: Comparison, system: System) -> Sheet:
     """
     texts = [tell_speed(engine) for engine in result.compared]
     speeds = ("speeds", "; ".join(texts)) if len(set(texts)) > 1 else ("speed", texts[0])
-    parts: list[Facts | Grid | Text] = [Facts((speeds,)), *assumed_facts(result.assumed)]
+    heads = _choose_heads(result.engines)
+    parts: list[Facts | Grid | Text] = [Facts((speeds,))]
+    if heads != result.engines:
+        parts.insert(0, Facts(tuple(zip(heads, result.engines, strict=True))))
     nothing: list[str] = []
     for kind in dict.fromkeys(line.kind for line in result.figures):
         every = [line for line in result.figures if line.kind == kind]
@@ -364,7 +368,7 @@ def sheet(result: Comparison, system: System) -> Sheet:
         if not lines:
             nothing.append(kind.label)
             continue
-        parts.append(_lay_out_kind(kind, lines, result, system))
+        parts.append(_lay_out_kind(kind, lines, result, heads, system))
     for name, engine, ladder in zip(
         result.engines, result.compared, result.ladders or (), strict=False
     ):
@@ -372,6 +376,7 @@ def sheet(result: Comparison, system: System) -> Sheet:
         parts.append(grid._replace(title=f"{name}: {grid.title}"))
     if nothing:
         parts.append(Text("", (f"Balanced or negligible in all engines: {', '.join(nothing)}.",)))
+    parts += assumed_facts(result.assumed)  # of several engines: long, so below the figures
     return Sheet("Engines side by side", tuple(parts))
 
 
@@ -416,15 +421,33 @@ def show_sizes(line: Line, unit: ShownUnit, *, every: bool, digits: int | None =
     ]
 
 
-def _lay_out_kind(kind: Kind, lines: list[Line], result: Comparison, system: System) -> Grid:
+def _choose_heads(names: Sequence[str]) -> tuple[str, ...]:
+    """Return the heads of the columns of engines: their names, or numbers if the names together are
+    too long for a line.
+    """
+    if sum(map(len, names)) <= _MOST_LETTERS:
+        return tuple(names)
+    return tuple(f"engine {number}" for number in range(1, len(names) + 1))
+
+
+def _lay_out_kind(
+    kind: Kind, lines: list[Line], result: Comparison, heads: Sequence[str], system: System
+) -> Grid:
     """Return a table of the values of each engine and, after the first engine, of their ratios to
     its values, unless these are negligible.
+
+    Args:
+        kind: Kind of force or moment.
+        lines: Lines of the table.
+        result: Comparison of the engines.
+        heads: Heads of the columns of the engines.
+        system: System of units.
     """
     unit = fit_unit(kind, lines, system)
     cells = [show_sizes(line, unit, every=result.whole) for line in lines]
     columns = [Column("", [line.label for line in lines], words=True)]
-    for k, name in enumerate(result.engines):
-        columns.append(Column(name, [row[k] for row in cells]))
+    for k, head in enumerate(heads):
+        columns.append(Column(head, [row[k] for row in cells]))
         if k > 0:
             columns.append(Column("ratio", [_show_ratio(line, k) for line in lines]))
     title = f"{capitalized(kind.label)}, {unit.name}"
