@@ -159,7 +159,8 @@ def _refuse_stray_holes(
 
 
 def vary_body(body: WebBody, table: Web, varied: Mapping[str, Figure]) -> WebBody:
-    """Return a web with other dimensions; its figures are arrays if the dimensions are.
+    """Return a web with other dimensions; its figures are arrays if the dimensions are. Outline and
+    part at the pin stay those of the file: no quantity of variants depends on them.
 
     Args:
         body: Web as the file gives it, with an outline.
