@@ -13,6 +13,7 @@ from typing import get_args
 import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
 from support.cases import slow
 from support.commands import run_python
 from support.engines import GOOD, build_text, changed, inline_engine
@@ -22,7 +23,7 @@ from support.pictures import draw_page
 
 from balcli import load_example
 from balcli.analysis.answer import QUANTITIES, analyze
-from balcli.analysis.plot import draw_vector_bars, visible_rows
+from balcli.analysis.plot import draw_vector_bars, set_order_axis, visible_rows
 from balcli.balancing.answer import balance
 from balcli.core.phasors import Phasors
 from balcli.forces.kinds import FORCE
@@ -300,6 +301,21 @@ def test_the_overview_has_the_locus_of_what_matters(name, loci):
     spectra = page.axes[len(loci) :]
     assert len({ax.get_xlim() for ax in spectra}) == 1
     assert [tick.get_text() for tick in spectra[0].get_xticklabels()][:3] == ["1", "2", "3"]
+
+
+@pytest.mark.parametrize(
+    ("orders", "ticks"),
+    [
+        ([1, 2, 4], ["1", "2", "3", "4"]),
+        ([1, 2, 2.5, 5, 7.5, 10], ["1", "2", "2½", "3", "4", "5", "6", "7", "7½", "8", "9", "10"]),
+        ([1, 2, 4.5, 24], ["1", "2", "4½", "6", "8", "10", "12", "14", "16", "18", "20", "22", "24"]),
+    ],
+)
+def test_every_bar_has_its_order_on_the_axis(orders, ticks):
+    """Other orders stand beside them at even steps, if there is room."""
+    ax = Figure().subplots()
+    set_order_axis([ax], np.array(orders, float))
+    assert [tick.get_text() for tick in ax.get_xticklabels()] == ticks
 
 
 def test_a_colour_has_one_meaning_in_the_report_and_in_pictures():
