@@ -54,7 +54,7 @@ class BankShare(NamedTuple):
     spectra: Annotated[Spectra, WrittenAs(list_orders, "orders")]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class PeaksAndOrders:
     """Peaks and orders of an engine.
 

@@ -33,7 +33,7 @@ class Component(NamedTuple):
     phase_deg: float
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Vector:
     """One order of a force or moment: forward * e^(i n theta) + backward * e^(-i n theta), with
     order n and crank angle theta; real part along x, imaginary part along y. The vector's tip
@@ -60,7 +60,7 @@ class Vector:
     balanced: bool
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class FreeForce(Vector):
     """One order of a free force.
 
@@ -74,7 +74,7 @@ class FreeForce(Vector):
     horizontal: Component | None = None
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class FreeMoment(Vector):
     """One order of a free moment.
 
