@@ -189,12 +189,13 @@ def build_webs(model: EngineFile, throws: Sequence[BareThrow], figures: FileFigu
             key = number, throw_mm
             if key not in bodies:
                 table = model.web[number - 1]
+                path = f"web.{number}"
                 _refuse_fit(table, number)
-                bodies[key] = describe_web(table, f"web.{number}", throw_mm, drawings[number])
+                bodies[key] = describe_web(table, path, throw_mm, drawings[number])
+                refuse_impossible(bodies[key], table, path, figures.of_table(path))
             body = bodies[key]
             of_table = figures.of_table(f"web.{number}")
             if varied := of_table | figures.of_table(f"webs.{web}"):
-                refuse_impossible(body, model.web[number - 1], f"web.{number}", of_table)
                 body = vary_body(body, model.web[number - 1], varied)
             apart = (MM * bearing.length + body.thickness) / 2
             place = z - apart if side == 0 else z + apart

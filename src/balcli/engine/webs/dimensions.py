@@ -119,7 +119,7 @@ def refuse_impossible(body: WebBody, table: Web, path: str, varied: Mapping[str,
         varied: Dimensions that vary, by their keys, in the units of the file.
     """
     shape = body.shape
-    if shape is None or shape.cheek is None:
+    if not varied or shape is None or shape.cheek is None:
         return
     most = shape.cheek.find_largest_opening(table.angle)
     widest = float(np.max(varied.get("opening", 0.0)))
