@@ -85,6 +85,14 @@ def test_there_is_no_sum_where_it_would_fail():
         assert (expand_in_poles(system_of(long, damping)) is not None) == exists
 
 
+def test_a_massless_node_without_oil_has_no_sum():
+    """Its two infinite poles share an eigenvector; an inverse of 1e180 overflowed."""
+    chain = chain_of([1.3, 0.0, 0.58], [51000, 26000])
+    for oil, exists in ((0.0, False), (5.0, True)):
+        damping = Damping(np.full(2, 0.02), np.zeros(2), np.array([0, oil, 0]))
+        assert (expand_in_poles(system_of(chain, damping)) is not None) == exists
+
+
 def vary(kind: str) -> list[TorsionalSystem]:
     """Variants of a chain, the last of which differs in a way of its own."""
     damping = Damping(np.full(2, 0.02), np.full(2, 5.0), np.zeros(3))

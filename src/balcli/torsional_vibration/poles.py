@@ -349,7 +349,9 @@ def expand_in_poles(system: TorsionalSystem) -> PoleSum | None:
     poles = equations.unit * (_SIGMA + 1 / mu[finite])
     swinging = poles.imag > _SLOW * equations.unit
     undamped = swinging & (-poles.real <= UNDAMPED * np.abs(poles))
-    if np.any(undamped) or np.linalg.norm(vectors) * np.linalg.norm(inverse) > _ILL:
+    with np.errstate(over="ignore"):
+        condition = np.linalg.norm(vectors) * np.linalg.norm(inverse)  # inf if they coincide
+    if np.any(undamped) or not condition <= _ILL:
         return None
     dof = len(equations.mass)
     by_torque = np.linalg.solve(shifted.T, inverse.T).T[:, dof:]
