@@ -26,6 +26,17 @@ def test_a_parabola_is_found_exactly_and_an_end_is_an_end():
     assert (at[2], heights[2]) == (-3, 4)
 
 
+def test_nothing_is_asked_beyond_an_interval():
+    """The vertex is at its upper end; the function has no value beyond."""
+
+    def judge(x, _):
+        assert np.all((x >= 2) & (x <= 6))
+        return 9 - (x - 6) ** 2
+
+    at, heights = find_each(judge, np.array([2.0]), np.array([6.0]))
+    assert (at[0], heights[0]) == (6, 9)
+
+
 def test_resonances_as_wide_as_the_interval():
     """|1 / (w0^2 - w^2 + 2 i d w0 w)| is largest at w0 sqrt(1 - 2 d^2)."""
     own = np.array([1.0, 40.0])

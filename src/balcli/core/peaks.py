@@ -493,11 +493,12 @@ def find_peaks_between(
         low = place - step * (top - left)
         high = place + step * (right - top)
     middle = np.clip(top, 1, _PARTS - 1)
-    vertex = np.clip(place + step * (middle - top + _find_vertex(*around)), low, high)
     beside = step * _BESIDE
-    heights = judge(vertex + beside * np.array([[-1], [0], [1]]), which[going])
-    _raise(best, highest, going, vertex, heights[1])
-    vertex = np.clip(vertex + beside * _find_vertex(*heights), low, high)
+    about = place + step * (middle - top + _find_vertex(*around))
+    about = np.clip(about, low + beside, high - beside)
+    heights = judge(about + beside * np.array([[-1], [0], [1]]), which[going])
+    _raise(best, highest, going, about, heights[1])
+    vertex = np.clip(about + beside * _find_vertex(*heights), low, high)
     _raise(best, highest, going, vertex, judge(vertex[None], which[going])[0])
     return best, highest
 
