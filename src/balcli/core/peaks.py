@@ -39,7 +39,7 @@ _SHORT = 1e-6
 # the highest order away, the next term is below 0.39^13/13! = 1e-15 of the sum of all amplitudes.
 _TERMS = 13
 _ZERO = 1e-12  # rad; an angle this close to a whole turn is 0
-_SAMPLED = math.cos(math.pi / _SAMPLES)  # least share of the swing that samples have
+_SAMPLED = math.cos(math.pi / _SAMPLES)  # least share of peak to peak that samples have
 # Part of the swing below the highest sample in which the samples next to the highest peak lie.
 _NEAR = 1 - _SAMPLED**2
 _EQUAL = 1e-12  # peaks that differ by a smaller share of the sum of all amplitudes are equal
@@ -143,9 +143,10 @@ def find_swing(orders: ArrayLike, phasors: Complex, least: Real | None = None) -
     Args:
         orders: Multiples of 1/2, shape (orders,).
         phasors: Phasors of the curves, shape (orders, *curves).
-        least: Half of the peak-to-peak value from which a curve matters, shape (*curves). Curves
-            that stay below it take less time: instead of their values, bounds of these are
-            returned, which stay below it, too. None: all curves matter.
+        least: Half of the peak-to-peak value from which a curve matters, shape (*curves). A curve
+            that is clearly below it takes less time: only the result's `half` has a meaning then,
+            which is an upper bound of half of its peak-to-peak value, and is below `least`, too.
+            None: all curves matter.
 
     Raises:
         ValueError: An order is no multiple of 1/2, is negative or comes twice.
@@ -429,7 +430,8 @@ def find_highest(
 def _extend_chords(places: Real, heights: Real) -> Real:
     """Return the height at which the chords of the two neighbours of each interval meet, shape
     (intervals, functions); -inf where they do not meet within the interval. A concave function
-    stays below it.
+    stays below it. The first and the last interval have one neighbour, and a horizontal line in
+    place of the other's chord, so that their height is no larger than the values at their ends.
     """
     width = np.diff(places, axis=0)
     slope = np.diff(heights, axis=0) / np.where(width > 0, width, np.inf)

@@ -41,7 +41,7 @@ class Columns:
             self._unphased.append(unphased)
 
     def find_poles(self, system: int) -> Complex | None:
-        """Return the poles of a system, rad/s; None if they were not needed."""
+        """Return the finite poles of a system, rad/s; None if it has no sums over poles."""
         summed = self._sums[system]
         return None if summed is None else summed.poles
 
@@ -71,9 +71,9 @@ class Columns:
             rpm: Speeds, shape (places,).
             which: Index of the column of each place.
             system: Index of the system of each place; None: the first system.
-            least: Least value of interest at each place, which saves time; instead of a smaller
-                value, an upper bound may be returned that is smaller than it, too. None: all values
-                are of interest.
+            least: Value from which a column matters at each place. Where a value is smaller, an
+                upper bound of it may be returned, which is below `least`, too; this saves time.
+                None: all values matter.
         """
         if system is None:
             system = np.zeros(len(rpm), int)

@@ -263,8 +263,8 @@ class Curves(NamedTuple):
 
 
 def find_half_swing(orders: Real, phasors: Complex, least: Real | None = None) -> Real:
-    """Return half of peak to peak of curves, shape (...), from their phasors (orders, ...); where
-    this is below `least`, shape (...), an upper bound that is below it, too.
+    """Return half of peak to peak of curves, shape (...), from their phasors (orders, ...). Where
+    this is below `least`, shape (...), it may be an upper bound that is below `least`, too.
     """
     if not len(orders):
         return np.zeros(phasors.shape[1:])

@@ -51,8 +51,8 @@ def find_largest(
     Args:
         system: System with an excitation.
         rpm: Rising speeds, shape (speeds,).
-        weights: Factors of the first columns, by which values are multiplied; columns whose factor
-            is 0 or missing are skipped, and their values are 0. Default: 1 for all.
+        weights: Factors of the first columns, none below 0, by which values are multiplied; columns
+            whose factor is 0 or missing are skipped, and their values are 0. Default: 1 for all.
         together: Whether only the highest of all columns is needed, which takes less time; values
             of other columns may then be too small.
         known: Values of all columns at these speeds, shape (speeds, columns), if they are known.
