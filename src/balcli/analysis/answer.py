@@ -10,7 +10,7 @@ from types import NoneType
 from typing import Annotated, Any, Literal
 
 from ..core.cylinders import find_travel
-from ..core.phasors import Array
+from ..core.phasors import Array, Phasors
 from ..core.records import HIDDEN, INLINE, Asked, WrittenAs
 from ..engine.engine import Engine, check_engine, refuse_geared, take_model
 from ..errors import ArgumentError, BalcliError, check_number, check_type, list_words
@@ -131,6 +131,7 @@ class Analysis(OrdersAndPeaks, Result):
         stars: Phasor stars of the cylinders, for the requested orders (default: 1 and 2).
         small: Share of one cylinder's first order. The verdict calls a rotating force or moment
             below this share small.
+        whole_roll: Roll by inertia of all computed orders; None if it was not requested.
     """
 
     format: Literal["balcli.analysis/1"] = "balcli.analysis/1"
@@ -155,6 +156,7 @@ class Analysis(OrdersAndPeaks, Result):
     why: Asked[Symmetry] = Asked("why=True")
     stars: Asked[tuple[Star, ...]] = Asked("why=True")
     small: Annotated[float, HIDDEN] = SMALL
+    whole_roll: Annotated[Phasors | None, HIDDEN] = None
 
     @property
     def summary(self) -> str:
@@ -296,6 +298,7 @@ def analyze(
         why=explain_symmetry(engine, visible.orders, provable) if why else None,
         stars=_find_stars(engine, due, shown) if why else None,
         small=small,
+        whole_roll=visible.roll if everything.roll is None else everything.roll,
         **_analyze_crank_drive(engine, wanted),
         other_speeds=others or None,
         parts=_find_own_parts(engine, model) if model else None,

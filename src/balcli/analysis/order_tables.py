@@ -206,7 +206,7 @@ def peak_facts(
     for kind, peak in result.peaks:
         is_known = kind is not MOMENT or result.moments_known
         least = NEGLIGIBLE * (single or {}).get(kind.name, 0.0)
-        text = tell_peak(peak, system.unit(kind), least) if is_known else UNKNOWN
+        text = _peak(peak, system.unit(kind), least) if is_known else UNKNOWN
         at_most = result.peak.at_most.get(kind.name)
         if at_most is not None:
             size = size_text(at_most, system.unit(kind), 5)
@@ -343,15 +343,7 @@ def _textbook_table(kind: Kind, book: Textbook, note: str, every: bool) -> Grid:
     return _table(title, heads, [alone, built], cells, every, note)
 
 
-def tell_peak(peak: Peak, unit: ShownUnit, least: float = 0.0) -> str:
-    """Return in words a largest value over a revolution and where it is: `476 N m at crank angle
-    30.0 deg and every 60 deg`.
-
-    Args:
-        peak: Largest value.
-        unit: Unit of small values.
-        least: Size below which the value is negligible, SI.
-    """
+def _peak(peak: Peak, unit: ShownUnit, least: float) -> str:
     if not peak.value or peak.value < least:
         return small_text(peak.value, unit)
     size = size_text(peak.value, unit, 5)

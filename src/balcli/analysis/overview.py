@@ -14,9 +14,19 @@ from ..core.phasors import Phasors
 from ..forces.kinds import ROLL, ROLL_TOTAL, Kind
 from ..forces.spectrum import Spectra
 from ..show.engine_facts import tell_pivot
-from ..show.sheet import NEGLIGIBLE, Column, Facts, Grid, number, order_name, size_text, small_text
+from ..show.sheet import (
+    NEGLIGIBLE,
+    Column,
+    Facts,
+    Grid,
+    degrees,
+    number,
+    order_name,
+    size_text,
+    small_text,
+)
 from ..show.units import System
-from .order_tables import fit_largest, peak_facts, shade_sizes, tell_peak, write_vector
+from .order_tables import fit_largest, peak_facts, shade_sizes, write_vector
 
 if TYPE_CHECKING:
     from .answer import Analysis
@@ -129,8 +139,13 @@ def _tell_roll(result: Analysis, roll: Phasors, system: System, *, every_order: 
     for order, size in zip(roll.orders, roll.major, strict=True):
         if size > least:
             sizes.append(f"{order_name(order)}: {number(unit.of(float(size)))}")
-    shown = " in the orders shown" if every_order else ""
-    if not sizes:
-        return f"{small_text(largest, system.moment)}{shown}"
-    peak = tell_peak(find_peak(roll), system.moment)
-    return f"{peak}{shown}; order {', '.join(sizes)} {unit.name}"
+    if sizes:
+        whole = roll if result.whole_roll is None else result.whole_roll
+        peak = find_peak(whole)
+        at = degrees(float(np.degrees(peak.theta)))
+        return (
+            f"{size_text(peak.value, system.moment, 5)} at crank angle {at} deg; "
+            f"order {', '.join(sizes)} {unit.name}"
+        )
+    nothing = small_text(largest, system.moment)
+    return f"{nothing} in the orders shown" if every_order else nothing

@@ -62,22 +62,16 @@ def describe_figures(result: Analysis, balanced: Balance, small: float) -> Node:
             MOMENT.name: _measure_repeat(result.peak.moment),
         },
         "devices": [_describe_vectors(device) for device in engine.devices],
-        "roll": _describe_roll(result.spectra.roll),
+        "roll": _describe_roll(result.whole_roll),
     }
     return figures
 
 
 def _describe_roll(roll: Phasors | None) -> Node:
-    """Return the largest roll by inertia over a revolution: its size (N m), its crank angle and the
-    angle after which it repeats (deg).
-    """
+    """Return the largest roll by inertia over a revolution (N m) and its crank angle (deg)."""
     assert roll is not None
     peak = find_peak(roll)
-    return {
-        "value_Nm": peak.value,
-        "deg": math.degrees(peak.theta),
-        "every": _measure_repeat(peak),
-    }
+    return {"value_Nm": peak.value, "deg": math.degrees(peak.theta)}
 
 
 def _measure_repeat(peak: Peak) -> float:

@@ -1176,7 +1176,7 @@ const Kernel = (() => {
   // The largest roll over a revolution.
   function describeRoll(phasors) {
     const { value, theta } = findPeak(phasors);
-    return { value_Nm: value, deg: theta === null ? null : deg(theta), every: findRepeat(phasors) };
+    return { value_Nm: value, deg: theta === null ? null : deg(theta) };
   }
   function describeOrder({ up }, kinds, order) {
     const vector = (kind) => describeVector(kinds[kind][order] || NONE, order, up === null ? [] : UPRIGHT[kind], up);

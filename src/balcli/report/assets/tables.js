@@ -151,20 +151,17 @@ const Tables = (() => {
     if (!shown.length) return smallText(largest, units.moment);
     const unit = fit(units.moment, largest);
     const texts = shown.map(({ order, roll_Nm }) => `${orderName(order)}: ${number(roll_Nm.amplitude / unit.size)}`);
-    const { value_Nm, deg, every } = figures.page.roll;
-    return `${writePeak(value_Nm, deg, every, units.moment)}; order ${texts.join(", ")} ${unit.name}`;
+    const { value_Nm, deg } = figures.page.roll;
+    return `${sizeText(value_Nm, units.moment, 5)} at crank angle ${degrees(deg)} deg; order ${texts.join(", ")} ${unit.name}`;
   }
   function tellPeak(figures, kind) {
     const value = figures.peak[KEYS[kind]];
     if (!value || isNegligible(figures, kind, value)) return smallText(value, UNIT_OF[kind]);
-    return writePeak(value, figures.peak[`${kind}_deg`], figures.page.every[kind], UNIT_OF[kind]);
-  }
-  // A largest value over a revolution, where it is first (deg), and after which angle it repeats (deg; 0: constant).
-  function writePeak(value, angle, every, unit) {
-    const largest = sizeText(value, unit, 5);
+    const largest = sizeText(value, UNIT_OF[kind], 5);
+    const every = figures.page.every[kind];
     if (!every) return `${largest} at every crank angle`;
     const again = every < 360 - 1e-6 ? ` and every ${Number(every.toPrecision(6))} deg` : "";
-    return `${largest} at crank angle ${degrees(angle)} deg${again}`;
+    return `${largest} at crank angle ${degrees(figures.peak[`${kind}_deg`])} deg${again}`;
   }
 
   // ------------------------------------------------------------------ ladder and devices
