@@ -55,6 +55,21 @@ def test_two_inertias_by_hand():
     assert -0.01 * nominal < found["sensitivity"]["piston mass 1"] < 0
 
 
+def test_a_plain_shaft_with_a_density_deviates_and_keeps_its_inertia(tmp_path):
+    """It was refused, as its length was replaced by a stiffness."""
+    heavy = THREE.replace("length = 200", "length = 200, density = 7.85")
+    path = write(tmp_path / "heavy.toml", heavy)
+    asked = ("scatter", path, "--samples", "3", "--seed", "1", "-q", "torsion.1.Hz", "--stiffness-scatter", "8%")
+    found = ask_json(*asked)["quantities"]["torsion.1.Hz"]
+    assert found["nominal"] == ask_json("torsion", path)["modes"][0]["frequency_Hz"]
+    low, high = (
+        ask_json("torsion", "-", stdin=heavy.replace("7.85", f"7.85, shear_modulus = {79.3 * share}"))
+        for share in (0.92, 1.08)
+    )
+    change = (high["modes"][0]["frequency_Hz"] - low["modes"][0]["frequency_Hz"]) / 2
+    assert found["sensitivity"]["stiffness wheel"] == pytest.approx(change, rel=1e-9)
+
+
 def test_every_throw_deviates_by_itself_and_with_gas(tmp_path):
     path = write(tmp_path / "three.toml", THREE)
     asked = ("scatter", path, "--samples", "3", "--seed", "1", "-q", "torsion.1.Hz")

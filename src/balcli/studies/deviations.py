@@ -16,7 +16,7 @@ from ..engine.build import assemble, build
 from ..engine.parts import Parts
 from ..file.model import Counterweight, EngineFile, Shaft, Slider
 from ..file.table import label_table
-from ..file.torsion_tables import Part, find_stiffness
+from ..file.torsion_tables import Part
 from ..torsional_vibration.throw_stiffness import (
     ThrowStiffness,
     find_throw_size,
@@ -326,9 +326,7 @@ def _find_half_spread(model: EngineFile) -> float:
 
 
 def _spell_out_shafting(model: EngineFile) -> EngineFile:
-    """Return the file with separate stiffnesses and inertias for all throws, and with a stiffness
-    for every shaft that is given by its length.
-    """
+    """Return the file with separate stiffnesses and inertias for all throws."""
     torsion = model.torsion
     if torsion is None:
         return model
@@ -341,13 +339,18 @@ def _spell_out_shafting(model: EngineFile) -> EngineFile:
         "torsion",
         throw_stiffness=stiffness * (throws - 1) if len(stiffness) == 1 else stiffness,
         throw_inertia=inertia * throws if inertia and len(inertia) == 1 else inertia,
-        front=tuple(map(_stiffen, torsion.front)),
-        rear=tuple(map(_stiffen, torsion.rear)),
     )
 
 
-def _stiffen(part: Part) -> Part:
-    return part.model_copy(update={"stiffness": find_stiffness(part), "length": None})
+def _find_shaft_figures(part: Part) -> dict[str, float]:
+    """Return the figure to which the stiffness of a part's shaft is proportional, by its key: the
+    stiffness, or the shear modulus of a plain shaft; empty for a rigid shaft.
+    """
+    if part.length is not None:
+        return {"shear_modulus": part.shear_modulus}
+    if part.stiffness is not None and isfinite(part.stiffness):
+        return {"stiffness": part.stiffness}
+    return {}
 
 
 def _list_shafting(model: EngineFile, within: Tolerances, spread: float) -> Iterator[Source]:
@@ -376,8 +379,9 @@ def _list_shafting(model: EngineFile, within: Tolerances, spread: float) -> Iter
     for key, parts in (("front", torsion.front), ("rear", torsion.rear)):
         for k, part in enumerate(parts, 1):
             path = f"torsion.{key}.{k}"
-            if part.stiffness is not None and isfinite(part.stiffness):
-                figures = {f"{path}.stiffness": part.stiffness}
+            of_shaft = _find_shaft_figures(part)
+            if of_shaft:
+                figures = {f"{path}.{key}": value for key, value in of_shaft.items()}
                 yield _relative("stiffness", part.name, elastic, figures)
             if part.inertia is not None:
                 figures = {f"{path}.inertia": part.inertia}
