@@ -8,9 +8,6 @@ import docs_examples as guide
 import pytest
 
 nbformat = pytest.importorskip("nbformat")
-pytest.importorskip("nbclient")
-pytest.importorskip("ipykernel")
-pytest.importorskip("pandas")
 import notebooks  # noqa: E402
 
 LARGEST = 400_000  # bytes
@@ -19,6 +16,8 @@ LARGEST = 400_000  # bytes
 @pytest.mark.stress  # a process of its own for each, and all that notebooks need
 @pytest.mark.parametrize("path", notebooks.NOTEBOOKS, ids=lambda path: path.stem)
 def test_a_notebook_shows_what_it_computes(path: Path, tmp_path: Path) -> None:
+    for needed in ("nbclient", "ipykernel", "pandas"):  # imported for this test alone: they take half a second
+        pytest.importorskip(needed)
     shown = nbformat.read(path, as_version=4)
     found = notebooks.run(path, tmp_path)
     wrong = [
