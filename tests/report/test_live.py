@@ -44,8 +44,7 @@ def show(browser, report):
     """Show the page of an engine, which may be shown already: the state of a page is that of its address."""
 
     def opened(text: str = GOOD, address: str = "", *options: str, name: str = "engine.toml", **how):
-        kept = browser.keep(report(text, *options, name=name), **how)
-        if kept or address:
+        if browser.keep(report(text, *options, name=name), address, **how):
             go(browser, address)
         return browser
 

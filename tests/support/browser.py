@@ -99,13 +99,13 @@ class Browser:
         while self._loaded == loaded:
             self._next()
 
-    def keep(self, page: Path, **how: Any) -> bool:
-        """Show a file, but leave it as it is if it is shown already; return whether it was. Loading a page takes
-        longer than most of what tests do with it.
+    def keep(self, page: Path, address: str = "", **how: Any) -> bool:
+        """Show a file at an address, but leave it as it is, with its address, if it is shown already; return whether it
+        was. Loading a page takes longer than most of what tests do with it.
         """
         kept = self._shown == (page, View(**how))
         if not kept:
-            self.open(page, **how)
+            self.open(page, address, **how)
         self.complaints = []
         return kept
 
