@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from ..core.loads import find_inertia, find_needed_series
 from ..core.mechanisms.closed_form import select_cylinders
 from ..core.phases import RPM
-from ..core.vibration import Real
+from ..core.vibration import Complex, Real
 from ..engine.engine import Engine, SilentCylinders
 from ..errors import BalcliError, InputError, Problem
 from ..file.assumed import STEADY, Assumed, assume
@@ -762,14 +762,19 @@ def excite_engine(model: EngineFile, engine: Engine, orders: Real | None) -> Exc
     return excite_cylinders(model, engine, orders).without_idle_orders()
 
 
-def excite_cylinders(model: EngineFile, engine: Engine, orders: Real | None) -> Excitation:
+def excite_cylinders(
+    model: EngineFile, engine: Engine, orders: Real | None, of_gas: Complex | None = None
+) -> Excitation:
     """Return the torque of every cylinder on the node of its throw: inertia torque and, if the
     engine has gas, gas torque.
 
     Args:
+        model: Engine file.
+        engine: Engine of this file.
         orders: Orders, shape (orders,); None: all orders up to HIGHEST_TORSION_ORDER_UNASKED (with
             half orders for a four-stroke engine with gas), and the orders of
             `list_gas_orders`.
+        of_gas: `steady` of the excitation by an engine with the same gas; None: it is computed.
     """
     front = 0 if model.torsion is None else len(model.torsion.front)
     nodes = front + np.array(engine.joined_throw_of_rows)
@@ -779,10 +784,12 @@ def excite_cylinders(model: EngineFile, engine: Engine, orders: Real | None) -> 
         step = 1.0 if engine.gas is None else 2 / engine.strokes
         usual = np.arange(step, HIGHEST_TORSION_ORDER_UNASKED + step, step)
         orders = np.union1d(usual, list_gas_orders(engine))
-    parts = ("torque",) if engine.gas is None else ("torque", "gas")
-    spectra = compute_spectra(engine, orders, parts, by_cylinder=True)
-    growing = spectra["torque"].x
-    steady = np.zeros_like(growing) if engine.gas is None else spectra["gas"].x
+    growing = compute_spectra(engine, orders, ["torque"], by_cylinder=True)["torque"].x
+    steady: Complex = np.zeros_like(growing)
+    if of_gas is not None:
+        steady = of_gas
+    elif engine.gas is not None:
+        steady = compute_spectra(engine, orders, ["gas"], by_cylinder=True)["gas"].x
     gas = None
     if engine.gas is not None and engine.gas.nodes_rpm:
         gas = follow_gas(

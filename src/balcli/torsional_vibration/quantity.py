@@ -10,15 +10,15 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..core.vibration import Real
+from ..core.vibration import Complex, Real
 from ..engine.build import build
 from ..engine.engine import Engine
-from ..engine.load import EngineVariants, Values, choose_speeds, remember
+from ..engine.load import EngineVariants, Values, choose_speeds, concerns_gas, remember
 from ..errors import BalcliError
 from ..file.model import EngineFile
 from ..file.read import change_figures
 from ..forces.quantity import TargetQuantity, refuse_stranger
-from .build import build_engine_system, excite_engine, require_torsion
+from .build import build_engine_system, excite_cylinders, excite_engine, require_torsion
 from .measured import MeasuredPoints, compare_measured, read_measured
 from .modes import find_chain_modes
 from .response import find_largest_of_each
@@ -95,6 +95,7 @@ class Variants:
         self._quantities = quantities
         self._engines = EngineVariants(model)
         self._excitations: dict[Values, Excitation] = {}
+        self._gas_torques: dict[Values, Complex] = {}
         self._measured: dict[Values, MeasuredPoints | None] = {}
         self._names = {q.name for q in quantities}
 
@@ -134,7 +135,7 @@ class Variants:
         own = {path: value for path, value in values.items() if not path.startswith("torsion.")}
         engine = self._engines.build(own)
         excitation = remember(
-            self._excitations, tuple(own.items()), lambda: excite_engine(self._model, engine, None)
+            self._excitations, tuple(own.items()), lambda: self._excite(engine, own)
         )
         varied = change_figures(self._model, values, {"torsion", "bearing"})
         system = build_engine_system(varied, engine, excitation)
@@ -144,6 +145,15 @@ class Variants:
                 self._measured, tuple(own.items()), lambda: read_measured(self._model, engine)
             )
         return _Variant(system, choose_speeds(engine, values, choose_torsion_speeds), points)
+
+    def _excite(self, engine: Engine, own: Mapping[str, float]) -> Excitation:
+        """Return the torques of the cylinders of a variant; `own` are its varied figures."""
+        figures = own.items()
+        of_gas = tuple(each for each in figures if concerns_gas(each[0], self._model.gas))
+        known = self._gas_torques.get(of_gas)
+        excitation = excite_cylinders(self._model, engine, None, known)
+        remember(self._gas_torques, of_gas, lambda: excitation.steady)
+        return excitation.without_idle_orders()
 
     def _evaluate(self, variants: Sequence[_Variant]) -> list[list[float]]:
         """Return the value of each quantity for each variant."""
