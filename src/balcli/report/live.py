@@ -60,7 +60,11 @@ from ..show.figures import clean
 from ..show.sheet import NEGLIGIBLE, sentence
 from ..show.units import SI, ShownUnit, System
 from ..sizing.fitting import LEFT
-from ..sizing.ship_engines import CROSSHEAD_STROKE_M, is_judged_by_power, may_be_ship_engine
+from ..sizing.ship_engines import (
+    find_crosshead_stroke,
+    is_judged_by_power,
+    may_be_ship_engine,
+)
 from ..studies.parameters import find_places
 
 # tables with numbers to change
@@ -169,6 +173,7 @@ def describe_engine(model: EngineFile, engine: Engine, text: str) -> Node:
             if cell.number in parts.order:
                 throws[cell.throw] = cell.number
     forms = _find_forms(model, parts, throws, values)
+    crossheads = find_crosshead_stroke(engine)
     return {
         "name": model.name,
         "text": text if _is_plain(text) else _write_plainly(text),
@@ -176,7 +181,7 @@ def describe_engine(model: EngineFile, engine: Engine, text: str) -> Node:
         "frees": _free_throws(model, parts),
         "known": engine.places_known,
         "look": describe_look(engine),
-        "crossheadStroke": CROSSHEAD_STROKE_M if may_be_ship_engine(engine) else None,
+        "crossheadStroke": crossheads._asdict() if may_be_ship_engine(engine) else None,
         "fires": [*engine.fires_deg] if engine.fires_deg else None,
         "facts": [
             (name, "" if name in _COMPUTED else text)

@@ -2,31 +2,67 @@
 crossheads, whose free moments are compared with their power (power related unbalance), and which
 get moment compensators in place of balancer shafts.
 
-The decision uses facts that do not depend on how a file divides its masses. A crosshead is
-recognized by the stroke, because its mass may stand in `crosshead.mass` or in `piston.mass`, and
-because pumps, compressors and steam engines have crossheads, too.
+A crosshead is recognized by the stroke. Its mass alone tells little, because it may stand in
+`crosshead.mass` or in `piston.mass`, and because pumps, compressors and steam engines have
+crossheads, too.
 """
 
 from __future__ import annotations
+
+from typing import NamedTuple
 
 import numpy as np
 
 from ..engine.engine import Engine
 from ..forces.power import takes_power
 
-# m; longer strokes need crossheads. Two-stroke engines with trunk pistons reach 0.79 m (Nordberg,
-# 21.5 x 31 in), the shortest ships' engines with crossheads of the last decades have 0.88 m
-# (Mitsubishi UEC37LA); plunger pumps and reciprocating compressors seldom exceed 0.5 m.
-CROSSHEAD_STROKE_M = 0.8
 _UPRIGHT_DEG = 45.0  # farthest direction from x that is still up: the cylinders stand
+
+
+class CrossheadStroke(NamedTuple):
+    """Strokes by which a two-stroke engine is recognized as one with crossheads.
+
+    Attributes:
+        least_m: No ship's engine with crossheads has a shorter stroke, m; plunger pumps and
+            reciprocating compressors seldom have a longer one.
+        trunk_m: Longer strokes need crossheads, m. Two-stroke engines with trunk pistons reach
+            0.79 m (Nordberg, 21.5 x 31 in).
+        bores: So do strokes that are longer than this number of bores.
+    """
+
+    least_m: float = 0.5
+    trunk_m: float = 0.8
+    bores: float = 2.5
+
+    def find_limit(self, bore_m: float) -> float:
+        """Return the stroke, m, above which an engine of this bore (m; nan: not known) has
+        crossheads.
+        """
+        return max(self.least_m, min(self.trunk_m, self.bores * bore_m))
+
+
+def find_crosshead_stroke(engine: Engine) -> CrossheadStroke:
+    """Return the strokes by which a single engine is recognized: if its file gives the mass of a
+    crosshead, the least stroke of ships' engines suffices.
+    """
+    usual = CrossheadStroke()
+    if any(float(masses.crosshead) > 0 for masses in engine.weighed):
+        return usual._replace(trunk_m=usual.least_m)
+    return usual
 
 
 def is_judged_by_power(engine: Engine) -> bool:
     """Return whether devices are judged by the power related unbalance: every crank has the stroke
     of a ship's engine, and nothing in the file says that the machine is another one.
     """
-    strokes_m = [find_longest_stroke(crank.engine) for crank in engine.cranks]
-    return min(strokes_m) > CROSSHEAD_STROKE_M and may_be_ship_engine(engine)
+    are_long = all(has_crossheads(crank.engine) for crank in engine.cranks)
+    return are_long and may_be_ship_engine(engine)
+
+
+def has_crossheads(engine: Engine) -> bool:
+    """Return whether a single two-stroke engine has crossheads, as ships' engines have them."""
+    stroke_m = 2 * float(np.max(engine.throw_radii_m))
+    return stroke_m > find_crosshead_stroke(engine).find_limit(float(engine.bore_m))
 
 
 def may_be_ship_engine(engine: Engine) -> bool:
@@ -52,11 +88,6 @@ def is_type_open(engine: Engine) -> bool:
     has_power = engine.rated is not None and bool(engine.rated.power_W)
     fires = any(crank.engine.fires_deg for crank in engine.cranks)
     return not (has_power or fires or engine.gas is not None)
-
-
-def find_longest_stroke(engine: Engine) -> float:
-    """Return the longest stroke of a single engine, m: twice its largest crank radius."""
-    return 2 * float(np.max(engine.throw_radii_m))
 
 
 def stands(up_deg: float) -> bool:

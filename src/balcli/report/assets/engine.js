@@ -85,7 +85,9 @@ const Kernel = (() => {
     for (const each of throws) each.z = sum(each.files.map((number) => places[number])) / each.files.length;
     const middle = (Math.min(...places) + Math.max(...places)) / 2;
     const firstAxis = findFirst(cylinders).axis;
-    const crossheads = data.crossheadStroke !== null && 2 * r > data.crossheadStroke;   // m; null: no ship's engine
+    const limits = data.crossheadStroke;   // null: no ship's engine
+    const crossheads = limits !== null
+      && 2 * r > Math.max(limits.least_m, Math.min(limits.trunk_m, limits.bores * (bore || Infinity)));   // 0: not given
     if (crossheads && data.powerOfGas) {
       throw new Error("crank.stroke: so long a stroke makes it an engine with crossheads, whose compensators depend on the power "
         + "of the gas; the page does not compute it");
