@@ -388,7 +388,7 @@ def _differentiate(shares: tuple[float, ...]) -> Real:
 # ------------------------------------------------------------------ functions of one variable
 _PARTS = 8  # parts into which an interval is cut; the two next to a peak are the next interval
 _CUTS = 3  # number of times that an interval is cut
-_BESIDE = 1 / 16  # distance of the last three places, as a share of the last step
+_BESIDE = 1 / 4  # distance of the last three places, as a share of the last step
 
 
 def find_highest(
@@ -498,8 +498,8 @@ def find_peaks_between(
     beside = step * _BESIDE
     about = place + step * (middle - top + _find_vertex(*around))
     about = np.clip(about, low + beside, high - beside)
+    # Of these places none is taken: rounding alone would decide between it and the vertex.
     heights = judge(about + beside * np.array([[-1], [0], [1]]), which[going])
-    _raise(best, highest, going, about, heights[1])
     vertex = np.clip(about + beside * _find_vertex(*heights), low, high)
     _raise(best, highest, going, vertex, judge(vertex[None], which[going])[0])
     return best, highest
